@@ -1,0 +1,1 @@
+"""Coaxial's server: owns time, threads, processes, files and the network, and computes no geometry."""

@@ -1,0 +1,132 @@
+"""The newest instant: the one place where tracking hands over to everybody who watches.
+
+A thread publishes, any number of asyncio tasks wait. Newest wins: who is slow skips, and is told how many
+instants it skipped by the sequence number. Nothing is queued, so nobody can delay anybody or fill memory.
+"""
+
+import asyncio
+import threading
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from tracker.navigation import NavigationSnapshot
+
+
+class SourceState(StrEnum):
+    """What the source of images is doing."""
+
+    OPENING = "opening"
+    RUNNING = "running"
+    RECONNECTING = "reconnecting"  # it failed or stopped; it is tried again by itself
+    ENDED = "ended"  # a file that is not looped has been played to its end
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trouble:
+    """Something that is wrong now, in the one shape that errors have everywhere."""
+
+    code: str
+    message: str
+    remedy: str
+    context: dict[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SourceStatus:
+    """The source of images.
+
+    Attributes:
+        name: what a person calls it: a path, an address, "rehearsal". Passwords in addresses are masked.
+        state: what it is doing.
+        trouble: why it is not running, if it is not.
+        images: how many images it has given since the server started.
+        skipped_images: how many of them were never looked at, because a newer one was there.
+        rate_hz: images a second, over the last second or so.
+    """
+
+    name: str
+    state: SourceState
+    trouble: Trouble | None = None
+    images: int = 0
+    skipped_images: int = 0
+    rate_hz: float = 0.0
+
+
+class ProcessState(StrEnum):
+    """What the tracking process is doing."""
+
+    STARTING = "starting"
+    RUNNING = "running"
+    RESTARTING = "restarting"  # it died or fell silent, and is being started again
+    GIVEN_UP = "given_up"  # it died too often; see the trouble
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProcessStatus:
+    """The process that captures and tracks."""
+
+    state: ProcessState
+    restarts: int = 0
+    trouble: Trouble | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Instant:
+    """What is true now, for everybody.
+
+    Attributes:
+        sequence: grows by one with each instant, for ever, over restarts of the tracking process too.
+        source: the source of images.
+        process: the tracking process.
+        snapshot: what the newest image says; None before the first image, and from the moment on when
+            capture or tracking is known to be dead (an old snapshot is not kept as if it were live).
+        jpeg: the same image with the overlay burned in; empty when there is no snapshot.
+        server_ms: time of the server's own stages ("overlay", "encode") for this image.
+    """
+
+    sequence: int
+    source: SourceStatus
+    process: ProcessStatus
+    snapshot: NavigationSnapshot | None = None
+    jpeg: bytes = b""
+    server_ms: dict[str, float] = field(default_factory=dict)
+
+
+class LiveHub:
+    """Holds the newest instant and wakes those who wait for the next one."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._newest: Instant | None = None
+        self._waiting: set[tuple[asyncio.AbstractEventLoop, asyncio.Event]] = set()
+
+    def publish(self, instant: Instant) -> None:
+        """Make this the newest instant. From any thread; never blocks on a reader."""
+        with self._lock:
+            self._newest = instant
+            waiting, self._waiting = self._waiting, set()
+        for loop, event in waiting:
+            # A loop that was closed meanwhile has nobody left to wake.
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(event.set)
+
+    @property
+    def newest(self) -> Instant | None:
+        """The newest instant, None before the first."""
+        with self._lock:
+            return self._newest
+
+    async def next_after(self, sequence: int) -> Instant:
+        """The newest instant whose sequence is above `sequence` (use -1 to get whatever there is)."""
+        while True:
+            event = asyncio.Event()
+            entry = (asyncio.get_running_loop(), event)
+            with self._lock:
+                if self._newest is not None and self._newest.sequence > sequence:
+                    return self._newest
+                self._waiting.add(entry)
+            try:
+                await event.wait()
+            finally:
+                with self._lock:
+                    self._waiting.discard(entry)

@@ -1,0 +1,106 @@
+"""The camera as a pinhole with a lens."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+
+DISTORTION_LENGTHS = (4, 5, 8, 12, 14)
+UNDISTORT_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-10)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraModel:
+    """Where a point in front of the camera lands in the image.
+
+    Attributes:
+        matrix: OpenCV's K (3, 3): focal lengths and principal point in px, no skew.
+        distortion: OpenCV's coefficients, 4, 5, 8, 12 or 14 of them (k1 k2 p1 p2 k3 ...).
+        size_wh_px: width and height of the images that it was calibrated on.
+
+    Raises:
+        InvalidInput: CAMERA_MODEL_INVALID, with the number that cannot be.
+    """
+
+    matrix: Array
+    distortion: Array
+    size_wh_px: tuple[int, int]
+
+    def __post_init__(self) -> None:
+        matrix = np.array(self.matrix, dtype=np.float64)
+        distortion = np.array(self.distortion, dtype=np.float64).ravel()
+        if distortion.size == 0:
+            distortion = np.zeros(5)
+        width, height = (int(v) for v in self.size_wh_px)
+        problem = _problem(matrix, distortion, width, height)
+        if problem:
+            raise InvalidInput(
+                "CAMERA_MODEL_INVALID",
+                f"the camera model cannot be used: {problem}",
+                "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size.",
+            )
+        matrix.setflags(write=False)
+        distortion.setflags(write=False)
+        object.__setattr__(self, "matrix", matrix)
+        object.__setattr__(self, "distortion", distortion)
+        object.__setattr__(self, "size_wh_px", (width, height))
+
+    @classmethod
+    def from_mapping(cls, values: Mapping[str, object]) -> "CameraModel":
+        """From the keys `matrix`, `distortion`, `size_wh_px` of a camera file; other keys are let be."""
+        missing = [key for key in ("matrix", "distortion", "size_wh_px") if key not in values]
+        if missing:
+            raise InvalidInput(
+                "CAMERA_FILE_INCOMPLETE",
+                f"the camera file lacks {', '.join(missing)}",
+                "A camera file has matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 numbers) "
+                "and size_wh_px (width, height).",
+                {"missing": missing},
+            )
+        try:
+            matrix = np.asarray(values["matrix"], dtype=np.float64)
+            distortion = np.asarray(values["distortion"], dtype=np.float64)
+            size = np.asarray(values["size_wh_px"], dtype=np.int64).ravel()
+            width, height = (int(v) for v in size)
+        except (TypeError, ValueError) as error:
+            raise InvalidInput(
+                "CAMERA_FILE_INVALID",
+                f"the camera file has a value that is no number: {error}",
+                "A camera file has matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 numbers) "
+                "and size_wh_px (width, height).",
+            ) from error
+        return cls(matrix=matrix, distortion=distortion, size_wh_px=(width, height))
+
+    def px_from_camera(self, points_mm: npt.ArrayLike) -> Array:
+        """Pixels (n, 2) of points (n, 3) in mm of the camera frame; points must be in front (z > 0)."""
+        points = np.asarray(points_mm, dtype=np.float64).reshape(-1, 1, 3)
+        px, _ = cv2.projectPoints(points, np.zeros(3), np.zeros(3), self.matrix, self.distortion)
+        return np.asarray(px, dtype=np.float64).reshape(-1, 2)
+
+    def normalised_from_px(self, px: npt.ArrayLike) -> Array:
+        """Directions (n, 2) as x/z, y/z, with the lens taken out, of pixels (n, 2)."""
+        points = np.asarray(px, dtype=np.float64).reshape(-1, 1, 2)
+        out = cv2.undistortPoints(points, self.matrix, self.distortion, criteria=UNDISTORT_CRITERIA)
+        return np.asarray(out, dtype=np.float64).reshape(-1, 2)
+
+
+def _problem(matrix: Array, distortion: Array, width: int, height: int) -> str:
+    """What is wrong with these numbers, or an empty string."""
+    if matrix.shape != (3, 3):
+        return f"its matrix has shape {matrix.shape}, needed (3, 3)"
+    if distortion.size not in DISTORTION_LENGTHS:
+        return f"it has {distortion.size} distortion coefficients, allowed {DISTORTION_LENGTHS}"
+    if not (np.isfinite(matrix).all() and np.isfinite(distortion).all()):
+        return "a number is not finite"
+    if width < 16 or height < 16:
+        return f"its image size is {width}x{height} px, at least 16x16"
+    if matrix[0, 0] <= 0 or matrix[1, 1] <= 0:
+        return f"its focal lengths are {matrix[0, 0]:g} and {matrix[1, 1]:g} px, needed above 0"
+    if abs(matrix[0, 1]) > 1e-9 or np.abs(matrix[2] - [0, 0, 1]).max() > 1e-9 or abs(matrix[1, 0]) > 1e-9:
+        return "its matrix is not [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]"
+    return ""

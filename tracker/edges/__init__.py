@@ -1,0 +1,1 @@
+"""Edges: gradient, edgels placed to sub-pixel, chains."""

@@ -1,0 +1,28 @@
+"""Frames, rigid motions, angles, and covariance carried through them."""
+
+from tracker.geometry.frames import Camera, Marker, Reference, Tool, Vertebra
+from tracker.geometry.rigid import Rigid, point_covariance_mm2
+from tracker.geometry.rotations import (
+    Array,
+    angle_between_deg,
+    rotation_between,
+    rotation_from_vector,
+    skew,
+    vector_from_rotation,
+)
+
+__all__ = [
+    "Array",
+    "Camera",
+    "Marker",
+    "Reference",
+    "Rigid",
+    "Tool",
+    "Vertebra",
+    "angle_between_deg",
+    "point_covariance_mm2",
+    "rotation_between",
+    "rotation_from_vector",
+    "skew",
+    "vector_from_rotation",
+]

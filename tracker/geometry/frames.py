@@ -1,0 +1,34 @@
+"""The frames of the theatre.
+
+| frame     | origin                         | axes                                           | unit |
+|-----------|--------------------------------|------------------------------------------------|------|
+| Camera    | projection centre              | x right, y down, z forward (OpenCV)            | mm   |
+| Marker    | centre of the black square     | x right, y up on the printed face, z out of it | mm   |
+| Tool      | tip of the burr                | +z the drilling direction                      | mm   |
+| Vertebra  | the CT's patient coordinates   | LPS                                            | mm   |
+| Reference | marker fixed to the patient    | as Marker                                      | mm   |
+
+Pixels (u, v) count from the centre of the top-left pixel, which is (0, 0). The classes below are never
+instantiated: they are the type arguments of `Rigid[To, From]`, so that a swapped product fails in the type
+checker.
+"""
+
+
+class Camera:
+    """The camera's frame."""
+
+
+class Marker:
+    """The frame of one printed marker."""
+
+
+class Tool:
+    """The frame of the instrument behind its marker."""
+
+
+class Vertebra:
+    """The frame of the plan."""
+
+
+class Reference:
+    """The frame of the marker fixed to the patient."""

@@ -1,0 +1,113 @@
+"""`Rigid[To, From]`: where one frame of the theatre stands in another."""
+
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import InvalidInput
+from tracker.geometry.rotations import Array, rotation_from_vector, skew
+
+To = TypeVar("To")
+From = TypeVar("From")
+Other = TypeVar("Other")
+
+# A rotation read from a file with six digits is off by 1e-6; one off by a hundredth is not a rotation.
+ORTHONORMAL_TOLERANCE = 1e-3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rigid(Generic[To, From]):
+    """Takes points from frame `From` to frame `To`: x_to = rotation @ x_from + translation_mm.
+
+    Named `to_from_from` in code (`camera_from_marker`); in a product equal names touch.
+
+    Attributes:
+        rotation: (3, 3), orthonormal, determinant +1.
+        translation_mm: (3,), the origin of `From` seen in `To`.
+
+    Raises:
+        InvalidInput: ROTATION_INVALID, the matrix is not a rotation or a number is not finite.
+    """
+
+    rotation: Array
+    translation_mm: Array
+
+    def __post_init__(self) -> None:
+        rotation = np.array(self.rotation, dtype=np.float64).reshape(3, 3)
+        translation = np.array(self.translation_mm, dtype=np.float64).reshape(3)
+        off = (
+            float(np.abs(rotation @ rotation.T - np.eye(3)).max()) if np.isfinite(rotation).all() else np.inf
+        )
+        if not np.isfinite(translation).all() or off > ORTHONORMAL_TOLERANCE or np.linalg.det(rotation) < 0:
+            raise InvalidInput(
+                "ROTATION_INVALID",
+                f"a pose is not a rigid motion: its rotation is off orthonormal by {off:.3g}, "
+                f"allowed {ORTHONORMAL_TOLERANCE:g}, and all numbers must be finite",
+                "Check where this 4x4 matrix comes from: no scale, no mirror, row by row.",
+                {"off_orthonormal": off},
+            )
+        rotation.setflags(write=False)
+        translation.setflags(write=False)
+        object.__setattr__(self, "rotation", rotation)
+        object.__setattr__(self, "translation_mm", translation)
+
+    @classmethod
+    def identity(cls) -> "Rigid[To, From]":
+        """Both frames are one."""
+        return cls(rotation=np.eye(3), translation_mm=np.zeros(3))
+
+    @classmethod
+    def from_matrix(cls, matrix: npt.ArrayLike) -> "Rigid[To, From]":
+        """From a homogeneous (4, 4) matrix."""
+        m = np.asarray(matrix, dtype=np.float64).reshape(4, 4)
+        return cls(rotation=m[:3, :3], translation_mm=m[:3, 3])
+
+    @classmethod
+    def from_vector(cls, rotation_rad: npt.ArrayLike, translation_mm: npt.ArrayLike) -> "Rigid[To, From]":
+        """From a rotation vector (3,) in radians and a translation (3,) in mm."""
+        return cls(
+            rotation=rotation_from_vector(rotation_rad),
+            translation_mm=np.asarray(translation_mm, dtype=np.float64),
+        )
+
+    @property
+    def matrix(self) -> Array:
+        """The homogeneous (4, 4) matrix."""
+        m = np.eye(4)
+        m[:3, :3], m[:3, 3] = self.rotation, self.translation_mm
+        return m
+
+    @property
+    def inverse(self) -> "Rigid[From, To]":
+        """The same two frames, the other way round."""
+        return Rigid(rotation=self.rotation.T, translation_mm=-self.rotation.T @ self.translation_mm)
+
+    def __matmul__(self, other: "Rigid[From, Other]") -> "Rigid[To, Other]":
+        """`a_from_b @ b_from_c` is `a_from_c`."""
+        return Rigid(
+            rotation=self.rotation @ other.rotation,
+            translation_mm=self.rotation @ other.translation_mm + self.translation_mm,
+        )
+
+    def move_points(self, points_mm: npt.ArrayLike) -> Array:
+        """Points (..., 3) in mm of frame `From`, seen in frame `To`."""
+        return np.asarray(points_mm, dtype=np.float64) @ self.rotation.T + self.translation_mm
+
+    def turn_directions(self, directions: npt.ArrayLike) -> Array:
+        """Directions (..., 3) of frame `From`, seen in frame `To`: turned, never shifted."""
+        return np.asarray(directions, dtype=np.float64) @ self.rotation.T
+
+
+def point_covariance_mm2(
+    transform: Rigid[To, From], pose_covariance: npt.ArrayLike, point_mm: npt.ArrayLike
+) -> Array:
+    """Covariance (3, 3) in mm^2 of a point (3,) of `From` as seen in `To`.
+
+    `pose_covariance` is (6, 6) [mm, rad], translation first, then the rotation as a small rotation vector
+    multiplied from the left in `To`. First order: good while the angles are small (under about 5 degrees).
+    """
+    arm = transform.turn_directions(point_mm)
+    jacobian = np.hstack([np.eye(3), -skew(arm)])
+    return np.asarray(jacobian @ np.asarray(pose_covariance, dtype=np.float64) @ jacobian.T)

@@ -1,0 +1,67 @@
+"""Rotations as 3x3 matrices and as rotation vectors (axis times angle in radians)."""
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+def skew(vector: npt.ArrayLike) -> Array:
+    """The 3x3 matrix whose product with `a` is the cross product `vector x a`."""
+    x, y, z = np.asarray(vector, dtype=np.float64)
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def rotation_from_vector(vector_rad: npt.ArrayLike) -> Array:
+    """Rodrigues' formula: rotation matrix (3, 3) from a rotation vector (3,) in radians."""
+    v = np.asarray(vector_rad, dtype=np.float64)
+    angle = float(np.linalg.norm(v))
+    k = skew(v)
+    # Series below 1e-4 rad: the quotients lose their digits there, and the next term is under 1e-17.
+    if angle < 1e-4:
+        a, b = 1.0 - angle**2 / 6.0, 0.5 - angle**2 / 24.0
+    else:
+        a, b = np.sin(angle) / angle, (1.0 - np.cos(angle)) / angle**2
+    return np.eye(3) + a * k + b * (k @ k)
+
+
+def vector_from_rotation(rotation: npt.ArrayLike) -> Array:
+    """Rotation vector (3,) in radians, length 0..pi, from a rotation matrix (3, 3)."""
+    r = np.asarray(rotation, dtype=np.float64)
+    w = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / 2.0
+    sine = float(np.linalg.norm(w))
+    cosine = (float(np.trace(r)) - 1.0) / 2.0
+    # atan2 of both, because arccos loses half its digits near zero degrees.
+    angle = float(np.arctan2(sine, cosine))
+    if sine > 1e-7:
+        return w * (angle / sine)
+    if cosine > 0.0:
+        return w
+    # Half a turn: the antisymmetric part is gone, the axis is the column of the symmetric part.
+    s = (r + np.eye(3)) / 2.0
+    axis = s[:, int(np.argmax(np.diag(s)))]
+    axis = axis / np.linalg.norm(axis)
+    return axis * angle * (1.0 if float(axis @ w) >= 0.0 else -1.0)
+
+
+def rotation_between(a: npt.ArrayLike, b: npt.ArrayLike) -> Array:
+    """The smallest rotation (3, 3) that takes direction `a` to direction `b`."""
+    p = np.asarray(a, dtype=np.float64) / np.linalg.norm(a)
+    q = np.asarray(b, dtype=np.float64) / np.linalg.norm(b)
+    axis = np.cross(p, q)
+    sine, cosine = float(np.linalg.norm(axis)), float(p @ q)
+    if sine < 1e-12:
+        if cosine > 0.0:
+            return np.eye(3)
+        other = np.eye(3)[int(np.argmin(np.abs(p)))]
+        normal = np.cross(p, other)
+        return rotation_from_vector(normal / np.linalg.norm(normal) * np.pi)
+    return rotation_from_vector(axis / sine * np.arctan2(sine, cosine))
+
+
+def angle_between_deg(a: npt.ArrayLike, b: npt.ArrayLike) -> float:
+    """The angle 0..180 degrees between two directions (3,)."""
+    p, q = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    # atan2 of cross and dot, because arccos loses half its digits near zero degrees,
+    # which is exactly where the surgeon works.
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(p, q)), p @ q)))

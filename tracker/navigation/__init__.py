@@ -1,0 +1,22 @@
+"""From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
+
+from tracker.navigation.deviation import Deviation, deviation_from_channel
+from tracker.navigation.snapshot import (
+    Absent,
+    AbsentReason,
+    NavigationSnapshot,
+    Setup,
+    ToolInView,
+    navigate,
+)
+
+__all__ = [
+    "Absent",
+    "AbsentReason",
+    "Deviation",
+    "NavigationSnapshot",
+    "Setup",
+    "ToolInView",
+    "deviation_from_channel",
+    "navigate",
+]

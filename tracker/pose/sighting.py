@@ -1,0 +1,63 @@
+"""What one image says of one marker: seen with its pose, or not seen with the reason."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Literal, TypeAlias
+
+from tracker.geometry import Array, Camera, Marker, Rigid
+
+FoundBy: TypeAlias = Literal["search", "track"]
+
+
+class UnseenReason(StrEnum):
+    """Why a marker is not claimed in an image."""
+
+    NO_CANDIDATE = "NO_CANDIDATE"  # nothing in the image has the outline of the marker
+    SCORE_TOO_LOW = "SCORE_TOO_LOW"  # something has, but too few of the marker's edges are there
+    TARGET_SCORE_TOO_LOW = "TARGET_SCORE_TOO_LOW"  # ... or edges are there that the marker has not
+    AMBIGUOUS_POSE = "AMBIGUOUS_POSE"  # it is there, but two poses explain it equally well
+    FIT_FAILED = "FIT_FAILED"  # it is there, but no pose fits its edges
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Seen:
+    """A marker found in an image.
+
+    Attributes:
+        camera_from_marker: the pose.
+        pose_covariance: (6, 6) [mm, rad]; translation first, then rotation as a small left-multiplied
+            rotation vector in the camera frame.
+        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the printed face.
+        score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
+        target_score_ratio: target coverage x the same, 0..1.
+        model_coverage_ratio: length of the model's active edges found in the image, 0..1.
+        target_coverage_ratio: length found, by the length of all edges inside the occurrence, 0..1.
+        fit_error_px2: mean squared distance of the common edgels to the model's edges.
+        found_by: "search" (whole image, no prior) or "track" (where it was expected).
+    """
+
+    camera_from_marker: Rigid[Camera, Marker]
+    pose_covariance: Array
+    corners_px: Array
+    score_ratio: float
+    target_score_ratio: float
+    model_coverage_ratio: float
+    target_coverage_ratio: float
+    fit_error_px2: float
+    found_by: FoundBy
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unseen:
+    """A marker that is not claimed in an image.
+
+    Attributes:
+        reason: why not.
+        best_score_ratio: the best score that anything in the image reached, 0 if nothing was scored.
+    """
+
+    reason: UnseenReason
+    best_score_ratio: float = 0.0
+
+
+Sighting: TypeAlias = Seen | Unseen

@@ -1,0 +1,62 @@
+"""The instrument behind its marker."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Marker, Rigid, Tool, rotation_between
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToolModel:
+    """A drill or awl: which marker it carries and where its tip and axis are behind it.
+
+    Attributes:
+        name: what the screen calls it.
+        marker: name of the marker model that it carries.
+        marker_from_tool: the tip (origin) and the drilling direction (+z) in the marker's frame.
+        radius_mm: radius of the drill's cylinder.
+        length_mm: length of the cylinder from the tip backwards.
+    """
+
+    name: str
+    marker: str
+    marker_from_tool: Rigid[Marker, Tool]
+    radius_mm: float
+    length_mm: float
+
+    @classmethod
+    def from_tip_and_axis(
+        cls,
+        *,
+        name: str,
+        marker: str,
+        tip_in_marker_mm: npt.ArrayLike,
+        axis_in_marker: npt.ArrayLike,
+        radius_mm: float,
+        length_mm: float,
+    ) -> "ToolModel":
+        """From the tip (3,) in mm and the drilling direction (3,) of any length, both in the marker's frame.
+
+        Raises:
+            InvalidInput: TOOL_AXIS_INVALID, the direction has no length.
+        """
+        axis = np.asarray(axis_in_marker, dtype=np.float64)
+        if not np.isfinite(axis).all() or float(np.linalg.norm(axis)) < 1e-9:
+            raise InvalidInput(
+                "TOOL_AXIS_INVALID",
+                f"the drilling direction of '{name}' is {axis.tolist()}, which has no length",
+                "Give the direction from the marker towards the tip, as three numbers.",
+            )
+        rotation = rotation_between([0.0, 0.0, 1.0], axis)
+        return cls(
+            name=name,
+            marker=marker,
+            marker_from_tool=Rigid(
+                rotation=rotation, translation_mm=np.asarray(tip_in_marker_mm, dtype=np.float64)
+            ),
+            radius_mm=radius_mm,
+            length_mm=length_mm,
+        )

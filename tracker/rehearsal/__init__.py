@@ -1,0 +1,1 @@
+"""A theatre that exists only in software, with known truth."""
