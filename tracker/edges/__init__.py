@@ -1,1 +1,16 @@
-"""Edges: gradient, edgels placed to sub-pixel, chains."""
+"""Edges: gradient, edgels placed to sub-pixel, chains and their straight pieces."""
+
+from tracker.edges.chains import Chains, chains_of, segments_of
+from tracker.edges.edgels import Edgels, edgels_of
+from tracker.edges.gradient import Gradient, GreyImage, gradient_of
+
+__all__ = [
+    "Chains",
+    "Edgels",
+    "Gradient",
+    "GreyImage",
+    "chains_of",
+    "edgels_of",
+    "gradient_of",
+    "segments_of",
+]

@@ -1,0 +1,18 @@
+"""Hot loops, compiled by Numba once and kept beside the source.
+
+Kept on disk (`cache`), so that nothing compiles in theatre; without the interpreter's lock (`nogil`), so that
+capture goes on meanwhile; with IEEE division (`error_model="numpy"`), so that a division by zero is inf, not
+an exception from a place without a sentence.
+"""
+
+from collections.abc import Callable
+from typing import TypeVar, cast
+
+import numba
+
+Function = TypeVar("Function", bound=Callable[..., object])
+
+
+def compiled(function: Function) -> Function:
+    """The same function as machine code. `tracker.warm_up` calls each one, so that none is compiled later."""
+    return cast("Function", numba.njit(cache=True, nogil=True, error_model="numpy")(function))
