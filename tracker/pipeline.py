@@ -1,29 +1,220 @@
 """The stages of the tracker in order, and nothing else."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
+import cv2
 import numpy as np
 import numpy.typing as npt
 
 from tracker.camera import CameraModel
-from tracker.marker import MarkerModel
-from tracker.pose import Sighting, Unseen, UnseenReason
+from tracker.edges import Gradient, GreyImage, edgels_of, gradient_of
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+from tracker.marker import (
+    Candidate,
+    Look,
+    MarkerModel,
+    ScoreSettings,
+    candidates_of,
+    outlines_in,
+    templates_of,
+)
+from tracker.pose import (
+    Prior,
+    Seen,
+    Sighting,
+    Unseen,
+    UnseenReason,
+    judged,
+    occurrence_near,
+    pose_from_corners,
+    side_px_of,
+    with_target,
+)
+from tracker.stages import Stages
+
+# Corners of an outline are intersections of fitted lines: off by a pixel, two on a bent sheet.
+SEARCH_REACH_PX = 2.5
+# A hand in theatre moves the marker by a few pixels from image to image; prediction takes most of it.
+TRACK_REACH_PX = 6.0
+MOST_FITS = 4
+# Seen (2), with score and target score of 0.9 on average.
+CERTAIN_WORTH = 3.8
+WINDOW_MARGIN_PX, WINDOW_SIDE_RATIO, LEAST_WINDOW_PX = 8.0, 0.15, 24
+
+
+def _window(camera: CameraModel, corners_px: Array) -> tuple[int, int, int, int] | None:
+    """Left, top, right, bottom of the part of the image in which a marker expected at these corners can be.
+
+    None where too little of it would be inside the image.
+    """
+    margin = TRACK_REACH_PX + WINDOW_MARGIN_PX + WINDOW_SIDE_RATIO * side_px_of(corners_px)
+    width, height = camera.size_wh_px
+    left, top = np.floor(corners_px.min(axis=0) - margin).astype(int)
+    right, bottom = np.ceil(corners_px.max(axis=0) + margin).astype(int)
+    left, top, right, bottom = max(left, 0), max(top, 0), min(right, width), min(bottom, height)
+    if right - left < LEAST_WINDOW_PX or bottom - top < LEAST_WINDOW_PX:
+        return None
+    return left, top, right, bottom
 
 
 class Tracker:
-    """Finds any number of markers in images of one camera."""
+    """Finds any number of markers in images of one camera.
 
-    def __init__(self, *, camera: CameraModel, models: Sequence[MarkerModel]) -> None:
+    `step` uses what it knows from the images before; `search` is stateless. Not to be called from two
+    threads at once.
+
+    Attributes:
+        stage_ms: time of each stage of the last image, by name; empty where no clock was given.
+
+    Raises:
+        InvalidInput: MARKER_NAMES_NOT_UNIQUE.
+    """
+
+    def __init__(
+        self,
+        *,
+        camera: CameraModel,
+        models: Sequence[MarkerModel],
+        settings: ScoreSettings | None = None,
+        clock: Callable[[], float] | None = None,
+    ) -> None:
+        names = [model.name for model in models]
+        if len(set(names)) != len(names):
+            raise InvalidInput(
+                "MARKER_NAMES_NOT_UNIQUE",
+                f"{len(names)} markers have {len(set(names))} names: {', '.join(sorted(names))}",
+                "Give each marker a name of its own.",
+            )
         self.camera = camera
         self.models = tuple(models)
+        self.settings = settings or ScoreSettings()
         self.stage_ms: Mapping[str, float] = {}
+        self._templates = templates_of(self.models)
+        self._priors = {name: Prior() for name in names}
+        self._stages = Stages(clock)
 
     def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
-        """What this image says of each marker, using what is known from the images before it."""
-        del captured_at_s
-        return self.search(image)
+        """What this image says of each marker, using what is known from the images before it.
+
+        A marker that was seen is looked for where it is expected; one that is not there is searched for in
+        the whole of the same image.
+
+        Args:
+            image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
+            captured_at_s: time of the image; an image that is older than the last one clears what is known.
+
+        Raises:
+            InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
+        """
+        self._stages.start()
+        grey = self._grey(image)
+        seen: dict[str, Sighting] = {}
+        for model in self.models:
+            sighting = self._track(grey, model, captured_at_s)
+            if isinstance(sighting, Seen):
+                seen[model.name] = sighting
+        missing = [model for model in self.models if model.name not in seen]
+        if missing:
+            seen.update(self._search(grey, missing))
+        for name, prior in self._priors.items():
+            prior.learn(seen[name], captured_at_s)
+        self.stage_ms = self._stages.taken_ms
+        return {model.name: seen[model.name] for model in self.models}
 
     def search(self, image: npt.NDArray[np.uint8]) -> dict[str, Sighting]:
-        """What this image says of each marker: the whole image, no prior, stateless."""
-        del image
-        return {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in self.models}
+        """What this image says of each marker: the whole image, no prior, stateless.
+
+        Raises:
+            InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
+        """
+        self._stages.start()
+        seen = self._search(self._grey(image), self.models)
+        self.stage_ms = self._stages.taken_ms
+        return seen
+
+    def _grey(self, image: npt.NDArray[np.uint8]) -> GreyImage:
+        if image.dtype != np.uint8 or not (image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)):
+            raise InvalidInput(
+                "IMAGE_INVALID",
+                f"an image is {image.dtype} of shape {image.shape}, needed uint8 (h, w) or (h, w, 3)",
+                "Give grey or BGR images with 8 bits.",
+            )
+        height, width = image.shape[:2]
+        if (width, height) != self.camera.size_wh_px:
+            wanted = self.camera.size_wh_px
+            raise InvalidInput(
+                "IMAGE_SIZE_DIFFERS",
+                f"the image is {width}x{height} px, the camera was calibrated at {wanted[0]}x{wanted[1]} px",
+                "Set the camera to the size it was calibrated at, or calibrate it at this size.",
+                {"width_px": width, "height_px": height, "calibrated_wh_px": list(wanted)},
+            )
+        grey = np.ascontiguousarray(image) if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+        self._stages.end("grey")
+        return np.asarray(grey, dtype=np.uint8)
+
+    def _track(self, grey: GreyImage, model: MarkerModel, captured_at_s: float) -> Sighting | None:
+        """The marker where it is expected; None when nothing is expected there."""
+        expected = self._priors[model.name].expected(captured_at_s)
+        if expected is None:
+            return None
+        corners = self.camera.px_from_camera(expected.move_points(model.corners_mm))
+        window = _window(self.camera, corners)
+        if window is None:
+            return None
+        left, top, right, bottom = window
+        part = np.ascontiguousarray(grey[top:bottom, left:right])
+        gradient = gradient_of(part, left_px=left, top_px=top)
+        self._stages.end("gradient")
+        found = occurrence_near(
+            self.camera, model, gradient, expected, first_reach_px=TRACK_REACH_PX, expected=expected
+        )
+        self._stages.end("fit")
+        if found is not None:
+            found = with_target(self.camera, model, gradient, edgels_of(gradient), found)
+        sighting = judged(found, self.settings, model=model, image=part, gradient=gradient, found_by="track")
+        self._stages.end("score")
+        return sighting
+
+    def _search(self, grey: GreyImage, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
+        gradient = gradient_of(grey)
+        self._stages.end("gradient")
+        look = outlines_in(grey, gradient)
+        self._stages.end("edges")
+        which = [self.models.index(model) for model in models]
+        candidates = candidates_of(look, self._templates[which])
+        self._stages.end("candidates")
+        return {
+            model.name: self._search_one(look, model, own)
+            for model, own in zip(models, candidates, strict=True)
+        }
+
+    def _search_one(self, look: Look, model: MarkerModel, candidates: list[Candidate]) -> Sighting:
+        best: Sighting = Unseen(reason=UnseenReason.NO_CANDIDATE)
+        fits = 0
+        for candidate in candidates:
+            start = pose_from_corners(self.camera, candidate.corners_px, side_mm=model.side_mm)
+            if start is None:
+                continue
+            found = occurrence_near(self.camera, model, look.gradient, start, first_reach_px=SEARCH_REACH_PX)
+            self._stages.end("fit")
+            if found is None:
+                continue
+            found = with_target(self.camera, model, look.gradient, look.edgels, found)
+            sighting = judged(
+                found, self.settings, model=model, image=look.image, gradient=look.gradient, found_by="search"
+            )
+            self._stages.end("score")
+            best = max(best, sighting, key=_worth)
+            fits += 1
+            # Candidates come likeliest first: one that leaves nothing open ends the search.
+            if fits >= MOST_FITS or _worth(best) > CERTAIN_WORTH:
+                break
+        return best
+
+
+def _worth(sighting: Sighting) -> float:
+    """What is seen is worth more than what is not, and a better score more than a worse one."""
+    if isinstance(sighting, Seen):
+        return 2.0 + sighting.score_ratio + sighting.target_score_ratio
+    return sighting.best_score_ratio

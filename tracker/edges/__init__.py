@@ -1,6 +1,6 @@
 """Edges: gradient, edgels placed to sub-pixel, chains and their straight pieces."""
 
-from tracker.edges.chains import Chains, chains_of, segments_of
+from tracker.edges.chains import Chains, chains_of, joined_segments, segments_of
 from tracker.edges.edgels import Edgels, edgels_of
 from tracker.edges.gradient import Gradient, GreyImage, gradient_of
 
@@ -12,5 +12,6 @@ __all__ = [
     "chains_of",
     "edgels_of",
     "gradient_of",
+    "joined_segments",
     "segments_of",
 ]

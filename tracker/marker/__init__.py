@@ -1,5 +1,25 @@
-"""The marker: its model, and its occurrences in an image."""
+"""The marker: its model and active edges, its occurrences in an image, and their scores."""
 
+from tracker.marker.active_edges import ActiveEdges
+from tracker.marker.contradiction import Contradiction, contradiction_of
+from tracker.marker.glance import templates_of
 from tracker.marker.model import MarkerModel
+from tracker.marker.score import Agreement, ScoreSettings, model_agreement, reach_px, target_coverage_ratio
+from tracker.marker.search import Candidate, Look, candidates_of, outlines_in
 
-__all__ = ["MarkerModel"]
+__all__ = [
+    "ActiveEdges",
+    "Agreement",
+    "Candidate",
+    "Contradiction",
+    "Look",
+    "MarkerModel",
+    "ScoreSettings",
+    "candidates_of",
+    "contradiction_of",
+    "model_agreement",
+    "outlines_in",
+    "reach_px",
+    "target_coverage_ratio",
+    "templates_of",
+]

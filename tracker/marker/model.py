@@ -2,19 +2,127 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 import numpy.typing as npt
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+from tracker.marker.active_edges import LEVELS_PX, ActiveEdges, active_edges_at
+
+LEAST_SIDE_PX = 8
+SQUARE_TOLERANCE_RATIO = 0.02
+LEAST_CONTRAST_GREY = 40
+# The border must be dark for all but a worn corner.
+LEAST_DARK_BORDER_RATIO = 0.9
+# A shape that looks the same after a quarter or half turn has no top: its pose would be a guess.
+MOST_SYMMETRY = 0.985
+WORKING_SIDE_PX = 480
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MarkerModel:
-    """A printed square with a unique geometric shape."""
+    """A printed square with a unique geometric shape.
+
+    Attributes:
+        name: what the screen calls it.
+        side_mm: outer side of the black square.
+        image: (n, n) grey, the black square fills it edge to edge, row 0 on top.
+        levels: its active edges as they stand out at each size in the image, smallest first.
+    """
 
     name: str
     side_mm: float
     image: npt.NDArray[np.uint8]
+    levels: tuple[ActiveEdges, ...]
 
     @classmethod
     def from_image(cls, image: npt.NDArray[np.uint8], *, side_mm: float, name: str) -> "MarkerModel":
-        """From a grey image (h, w) which the black square fills edge to edge, row 0 on top."""
-        return cls(name=name, side_mm=float(side_mm), image=np.array(image, dtype=np.uint8))
+        """From a grey image (h, w) which the black square fills edge to edge, row 0 on top.
+
+        Raises:
+            InvalidInput: MARKER_IMAGE_INVALID, MARKER_SIDE_INVALID or MARKER_SYMMETRIC.
+        """
+        grey = np.asarray(image)
+        problem = _problem(grey)
+        if problem:
+            raise InvalidInput(
+                "MARKER_IMAGE_INVALID",
+                f"the image of marker '{name}' cannot be used: {problem}",
+                "Give a square grey image that the black square fills edge to edge, with no white margin.",
+                {"name": name, "shape": list(grey.shape)},
+            )
+        if not (np.isfinite(side_mm) and side_mm > 0.0):
+            raise InvalidInput(
+                "MARKER_SIDE_INVALID",
+                f"the side of marker '{name}' is {side_mm} mm, needed above 0 mm",
+                "Measure the outer side of the printed black square in mm.",
+                {"name": name, "side_mm": float(side_mm)},
+            )
+        square = _working_image(grey.astype(np.uint8))
+        _refuse_symmetry(square, name)
+        return cls(
+            name=name,
+            side_mm=float(side_mm),
+            image=square,
+            levels=tuple(active_edges_at(square, side_mm=float(side_mm), level_px=px) for px in LEVELS_PX),
+        )
+
+    @property
+    def corners_mm(self) -> Array:
+        """(4, 3) in the marker's frame: top-left, top-right, bottom-right, bottom-left."""
+        h = self.side_mm / 2.0
+        return np.array([[-h, h, 0.0], [h, h, 0.0], [h, -h, 0.0], [-h, -h, 0.0]])
+
+    def level_for(self, side_px: float) -> ActiveEdges:
+        """The active edges for a marker of about this size in the image."""
+        sizes = np.log([level.level_px for level in self.levels])
+        return self.levels[int(np.argmin(np.abs(sizes - np.log(max(side_px, 1.0)))))]
+
+
+def _problem(grey: npt.NDArray[np.generic]) -> str:
+    """What is wrong with this image, or an empty string."""
+    if grey.ndim != 2 or grey.dtype != np.uint8:
+        return f"it is {grey.dtype} with {grey.ndim} dimensions, needed uint8 grey (h, w)"
+    h, w = grey.shape
+    if min(h, w) < LEAST_SIDE_PX:
+        return f"it is {w}x{h} px, at least {LEAST_SIDE_PX}x{LEAST_SIDE_PX}"
+    if abs(w - h) > max(1.0, SQUARE_TOLERANCE_RATIO * max(w, h)):
+        return f"it is {w}x{h} px, and a square may differ by {SQUARE_TOLERANCE_RATIO:.0%}"
+    low, high = (float(v) for v in np.percentile(grey.astype(np.float64), (1, 99)))
+    if high - low < LEAST_CONTRAST_GREY:
+        return f"its contrast is {high - low:.0f} grey levels, at least {LEAST_CONTRAST_GREY}"
+    ring = np.concatenate([grey[0], grey[-1], grey[:, 0], grey[:, -1]]).astype(np.float64)
+    dark = float(np.mean(ring < (low + high) / 2.0))
+    if dark < LEAST_DARK_BORDER_RATIO:
+        return f"{dark:.0%} of its border is dark, at least {LEAST_DARK_BORDER_RATIO:.0%}"
+    return ""
+
+
+def _working_image(grey: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
+    """The same picture, square and large enough to find its edges to a hundredth of its side."""
+    n = max(grey.shape)
+    if n >= WORKING_SIDE_PX:
+        wanted = (n, n)
+        if grey.shape == wanted:
+            return grey.copy()
+        return np.asarray(cv2.resize(grey, wanted, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    # A picture of a few cells (8x8) is meant with hard edges; a photograph is smooth already.
+    hard = len(np.unique(grey)) <= 4
+    mode = cv2.INTER_NEAREST if hard else cv2.INTER_CUBIC
+    size = n * -(-WORKING_SIDE_PX // n)
+    return np.asarray(cv2.resize(grey, (size, size), interpolation=mode), dtype=np.uint8)
+
+
+def _refuse_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
+    small = cv2.resize(square, (96, 96), interpolation=cv2.INTER_AREA).astype(np.float64)
+    for turns in (1, 2, 3):
+        alike = float(np.corrcoef(small.ravel(), np.rot90(small, turns).ravel())[0, 1])
+        if alike > MOST_SYMMETRY:
+            raise InvalidInput(
+                "MARKER_SYMMETRIC",
+                f"marker '{name}' looks the same when turned by {90 * turns} degrees: "
+                f"correlation {alike:.3f}, allowed {MOST_SYMMETRY}",
+                "Use a shape that has one top only.",
+                {"name": name, "turned_deg": 90 * turns, "correlation": alike},
+            )

@@ -1,6 +1,27 @@
 """From the marker's edges to its pose, and to the tool behind it."""
 
+from tracker.pose.occurrence import Occurrence, judged, occurrence_near, side_px_of, with_target
+from tracker.pose.planar import other_solution, pose_from_corners
+from tracker.pose.prior import Prior
+from tracker.pose.refinement import Fit, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.tool import ToolModel
 
-__all__ = ["FoundBy", "Seen", "Sighting", "ToolModel", "Unseen", "UnseenReason"]
+__all__ = [
+    "Fit",
+    "FoundBy",
+    "Occurrence",
+    "Prior",
+    "Seen",
+    "Sighting",
+    "ToolModel",
+    "Unseen",
+    "UnseenReason",
+    "judged",
+    "occurrence_near",
+    "other_solution",
+    "pose_from_corners",
+    "refined_pose",
+    "side_px_of",
+    "with_target",
+]

@@ -15,6 +15,7 @@ class UnseenReason(StrEnum):
     NO_CANDIDATE = "NO_CANDIDATE"  # nothing in the image has the outline of the marker
     SCORE_TOO_LOW = "SCORE_TOO_LOW"  # something has, but too few of the marker's edges are there
     TARGET_SCORE_TOO_LOW = "TARGET_SCORE_TOO_LOW"  # ... or edges are there that the marker has not
+    SHAPE_DIFFERS = "SHAPE_DIFFERS"  # its edges fit, but a part inside is dark for bright: a look-alike
     AMBIGUOUS_POSE = "AMBIGUOUS_POSE"  # it is there, but two poses explain it equally well
     FIT_FAILED = "FIT_FAILED"  # it is there, but no pose fits its edges
 

@@ -1,0 +1,308 @@
+"""The compiled loops of the edges; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+
+MOST_STEPS = 64
+# A peak at the end of the reach must be this much stronger than one in the middle to be preferred: of two
+# edges side by side the expected one is the nearer.
+END_WORTH = 0.6
+
+
+@compiled
+def find_edgels(gx, gy, threshold):
+    height, width = gx.shape
+    at = np.full((height, width), -1, np.int32)
+    most = height * width // 2 + 1
+    found = np.empty((5, most), np.float32)
+    n = 0
+    for v in range(1, height - 1):
+        for u in range(1, width - 1):
+            a, b = gx[v, u], gy[v, u]
+            abs_a, abs_b = abs(a), abs(b)
+            if abs_a + abs_b < threshold:
+                continue
+            strength = np.sqrt(np.float32(a) * np.float32(a) + np.float32(b) * np.float32(b))
+            if strength < threshold:
+                continue
+            # Compared along the axis that the gradient is nearer to: one edgel for each row of a steep
+            # edge, for each column of a flat one, so that chains have neither gaps nor doubles.
+            if abs_a >= abs_b:
+                sign = 1 if a > 0 else -1
+                before, here, after = sign * gx[v, u - 1], sign * a, sign * gx[v, u + 1]
+            else:
+                sign = 1 if b > 0 else -1
+                before, here, after = sign * gy[v - 1, u], sign * b, sign * gy[v + 1, u]
+            if not (here > before and here >= after):
+                continue
+            shift = np.float32(0.5) * np.float32(before - after) / np.float32(before - 2 * here + after)
+            if abs_a >= abs_b:
+                found[0, n], found[1, n] = u + shift, v
+            else:
+                found[0, n], found[1, n] = u, v + shift
+            found[2, n], found[3, n], found[4, n] = a / strength, b / strength, strength
+            at[v, u] = n
+            n += 1
+    kept = found[:, :n].copy()
+    return kept[0], kept[1], kept[2], kept[3], kept[4], at
+
+
+@compiled
+def link(nx, ny, strength, at):
+    height, width = at.shape
+    count = nx.size
+    successor = np.full(count, -1, np.int32)
+    predecessor = np.full(count, -1, np.int32)
+    claim = np.full(count, -1.0, np.float32)
+    for v in range(1, height - 1):
+        for u in range(1, width - 1):
+            i = at[v, u]
+            if i < 0:
+                continue
+            dx, dy = -ny[i], nx[i]
+            best, best_worth = -1, np.float32(0.0)
+            for dv in range(-1, 2):
+                for du in range(-1, 2):
+                    j = at[v + dv, u + du]
+                    if j < 0 or j == i:
+                        continue
+                    ahead = (du * dx + dv * dy) / np.sqrt(np.float32(du * du + dv * dv))
+                    alike = nx[i] * nx[j] + ny[i] * ny[j]
+                    # Within 67 degrees ahead, and turning by at most 53: a chain may round a blurred
+                    # corner, but never jumps to the other side of a line.
+                    if ahead < 0.38 or alike < 0.6:
+                        continue
+                    # A chain does not leave an edge for the faint halo beside it.
+                    even = min(strength[i], strength[j]) / max(strength[i], strength[j])
+                    if even < 0.3:
+                        continue
+                    worth = ahead + alike + even
+                    if worth > best_worth:
+                        best, best_worth = j, worth
+            if best >= 0 and best_worth > claim[best]:
+                if predecessor[best] >= 0:
+                    successor[predecessor[best]] = -1
+                claim[best] = best_worth
+                predecessor[best] = i
+                successor[i] = best
+    return successor, predecessor
+
+
+@compiled
+def walk(successor, predecessor, x, y, least):
+    count = successor.size
+    order = np.empty(count, np.int32)
+    starts = np.empty(count // least + 2, np.int32)
+    closed = np.zeros(count // least + 2, np.bool_)
+    visited = np.zeros(count, np.bool_)
+    n, c = 0, 0
+    starts[0] = 0
+    for turn in range(2):  # first the open chains from their starts, then what is left: the closed ones
+        for i in range(count):
+            if visited[i] or (turn == 0 and predecessor[i] >= 0):
+                continue
+            first = i
+            if turn == 1:
+                # A closed chain starts at the edgel farthest from any one of it: that is a corner, so that
+                # no side is cut in two.
+                far, j = np.float32(-1.0), i
+                while True:
+                    d = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
+                    if d > far:
+                        far, first = d, j
+                    j = successor[j]
+                    if j == i or j < 0:
+                        break
+            begin, j = n, first
+            while j >= 0 and not visited[j]:
+                visited[j] = True
+                order[n] = j
+                n += 1
+                j = successor[j]
+            if n - begin < least:
+                n = begin
+                continue
+            closed[c] = turn == 1
+            c += 1
+            starts[c] = n
+    return order[:n].copy(), starts[: c + 1].copy(), closed[:c].copy()
+
+
+@compiled
+def _fit_line(x, y, order, a, b, out):
+    """Least squares line through the edgels a..b of a chain; its ends into `out`, its length returned."""
+    # The edgels next to a corner are pulled round it by blur; where there are enough, leave them out.
+    trim = min(2, (b - a) // 6)
+    lo, hi = a + trim, b - trim
+    m = hi - lo + 1
+    sx, sy = 0.0, 0.0
+    for k in range(lo, hi + 1):
+        sx += x[order[k]]
+        sy += y[order[k]]
+    mx, my = sx / m, sy / m
+    sxx, sxy, syy = 0.0, 0.0, 0.0
+    for k in range(lo, hi + 1):
+        ex, ey = x[order[k]] - mx, y[order[k]] - my
+        sxx += ex * ex
+        sxy += ex * ey
+        syy += ey * ey
+    angle = 0.5 * np.arctan2(2.0 * sxy, sxx - syy)
+    dx, dy = np.cos(angle), np.sin(angle)
+    if (x[order[b]] - x[order[a]]) * dx + (y[order[b]] - y[order[a]]) * dy < 0.0:
+        dx, dy = -dx, -dy
+    p = (x[order[a]] - mx) * dx + (y[order[a]] - my) * dy
+    q = (x[order[b]] - mx) * dx + (y[order[b]] - my) * dy
+    out[0], out[1] = mx + p * dx, my + p * dy
+    out[2], out[3] = mx + q * dx, my + q * dy
+    return q - p
+
+
+@compiled
+def cut_straight(x, y, order, starts, tolerance, least_length):
+    most = order.size // 2 + 1
+    found = np.empty((most, 4), np.float32)
+    n = 0
+    stack = np.empty((order.size + 2, 2), np.int32)
+    for c in range(starts.size - 1):
+        stack[0, 0], stack[0, 1] = starts[c], starts[c + 1] - 1
+        depth = 1
+        while depth > 0:
+            depth -= 1
+            a, b = stack[depth, 0], stack[depth, 1]
+            ax, ay = x[order[a]], y[order[a]]
+            dx, dy = x[order[b]] - ax, y[order[b]] - ay
+            length = np.sqrt(dx * dx + dy * dy)
+            if b - a < 3:
+                continue
+            worst, at = np.float32(0.0), -1
+            for k in range(a + 1, b):
+                ex, ey = x[order[k]] - ax, y[order[k]] - ay
+                if length > 1.0:
+                    off = abs(ex * dy - ey * dx) / length
+                else:
+                    off = np.sqrt(ex * ex + ey * ey)
+                if off > worst:
+                    worst, at = off, k
+            if worst > tolerance:
+                stack[depth, 0], stack[depth, 1] = at, b
+                stack[depth + 1, 0], stack[depth + 1, 1] = a, at
+                depth += 2
+                continue
+            if length < least_length or n >= most:
+                continue
+            if _fit_line(x, y, order, a, b, found[n]) >= least_length:
+                n += 1
+    return found[:n].copy()
+
+
+@compiled
+def crossing(gx, gy, u, v, nx, ny, reach):
+    """Offset in px along the unit direction (nx, ny) from (u, v) to the edge, and its strength.
+
+    (u, v) are pixels of the gradient's window. The edge is a peak of the derivative along the direction
+    (dark to bright), within +-reach px. Strength 0 means that there is none.
+    """
+    height, width = gx.shape
+    steps = min(int(np.ceil(reach)) + 1, MOST_STEPS)
+    best, best_worth, best_k = np.float64(0.0), np.float64(0.0), -1000
+    profile = np.empty(2 * MOST_STEPS + 1, np.float64)
+    for k in range(-steps, steps + 1):
+        x, y = u + k * nx, v + k * ny
+        iu, iv = int(np.floor(x)), int(np.floor(y))
+        if iu < 0 or iv < 0 or iu + 1 >= width or iv + 1 >= height:
+            profile[k + steps] = 0.0
+            continue
+        fu, fv = x - iu, y - iv
+        a, b, c, d = (1 - fu) * (1 - fv), fu * (1 - fv), (1 - fu) * fv, fu * fv
+        dx = a * gx[iv, iu] + b * gx[iv, iu + 1] + c * gx[iv + 1, iu] + d * gx[iv + 1, iu + 1]
+        dy = a * gy[iv, iu] + b * gy[iv, iu + 1] + c * gy[iv + 1, iu] + d * gy[iv + 1, iu + 1]
+        profile[k + steps] = dx * nx + dy * ny
+    for k in range(-steps + 1, steps):
+        here = profile[k + steps]
+        if here <= 0.0 or here < profile[k + steps - 1] or here < profile[k + steps + 1]:
+            continue
+        worth = here * (1.0 - (1.0 - END_WORTH) * abs(k) / steps)
+        if worth > best_worth:
+            best_worth, best_k, best = worth, k, here
+    if best_k == -1000:
+        return 0.0, 0.0
+    before, after = profile[best_k + steps - 1], profile[best_k + steps + 1]
+    bend = before - 2.0 * best + after
+    shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
+    offset = best_k + shift
+    if abs(offset) > reach:
+        return 0.0, 0.0
+    return offset, best
+
+
+@compiled
+def _continues(a, b, most_gap, most_off, least_cos):
+    """Whether segment b goes on where a ends: near, in one direction, on one line."""
+    gu, gv = b[0] - a[2], b[1] - a[3]
+    if abs(gu) > most_gap or abs(gv) > most_gap:
+        return False
+    ax, ay, bx, by = a[2] - a[0], a[3] - a[1], b[2] - b[0], b[3] - b[1]
+    la, lb = np.sqrt(ax * ax + ay * ay), np.sqrt(bx * bx + by * by)
+    if min(la, lb) + 2.0 < np.sqrt(gu * gu + gv * gv) or ax * bx + ay * by < least_cos * la * lb:
+        return False
+    tx, ty = b[2] - a[0], b[3] - a[1]
+    lt = np.sqrt(tx * tx + ty * ty)
+    if lt < max(la, lb):
+        return False
+    off = max(abs(ax * ty - ay * tx), abs((b[0] - a[0]) * ty - (b[1] - a[1]) * tx))
+    return off <= most_off * lt
+
+
+@compiled
+def join_collinear(segments, most_gap, most_off, least_cos):
+    """Segments made of two or more given ones that continue one another on one line."""
+    n = len(segments)
+    columns = int(segments.max() / most_gap) + 3
+    head = np.full(columns * columns, -1, np.int32)
+    after = np.full(n, -1, np.int32)
+    for j in range(n):
+        row, column = (
+            int(max(segments[j, 1], 0.0) / most_gap) + 1,
+            int(max(segments[j, 0], 0.0) / most_gap) + 1,
+        )
+        after[j] = head[row * columns + column]
+        head[row * columns + column] = j
+    follower = np.full(n, -1, np.int32)
+    followed = np.zeros(n, np.bool_)
+    for i in range(n):
+        row, column = (
+            int(max(segments[i, 3], 0.0) / most_gap) + 1,
+            int(max(segments[i, 2], 0.0) / most_gap) + 1,
+        )
+        nearest = np.float32(1e9)
+        for r in range(max(row - 1, 0), min(row + 2, columns)):
+            for c in range(max(column - 1, 0), min(column + 2, columns)):
+                j = head[r * columns + c]
+                while j >= 0:
+                    if (
+                        j != i
+                        and not followed[j]
+                        and _continues(segments[i], segments[j], most_gap, most_off, least_cos)
+                    ):
+                        gap = abs(segments[j, 0] - segments[i, 2]) + abs(segments[j, 1] - segments[i, 3])
+                        if gap < nearest:
+                            nearest, follower[i] = gap, j
+                    j = after[j]
+        if follower[i] >= 0:
+            followed[follower[i]] = True
+    kept = np.empty((n, 4), np.float32)
+    m = 0
+    for i in range(n):
+        if followed[i] or follower[i] < 0:
+            continue
+        whole = segments[i].copy()
+        j = follower[i]
+        for _ in range(n):
+            if j < 0 or not _continues(whole, segments[j], most_gap, most_off, least_cos):
+                break
+            whole[2], whole[3] = segments[j, 2], segments[j, 3]
+            j = follower[j]
+        kept[m] = whole
+        m += 1
+    return kept[:m].copy()

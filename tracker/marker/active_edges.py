@@ -1,0 +1,139 @@
+"""The model's active edges: those that stand out at a given size in the image."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.edges import chains_of, edgels_of
+from tracker.edges.gradient import Gradient
+from tracker.geometry import Array
+
+# Sizes of the marker in the image for which edges are kept, a factor of 1.4 apart.
+LEVELS_PX = (12, 17, 24, 34, 48, 68, 96, 136, 192)
+# Pixels of the model for a pixel of the image: its edgels are placed to a hundredth of an image's pixel.
+OVERSAMPLING = 6
+# Blur of a camera in focus (0.6 px), of its pixel (0.3) and of the Sobel filter's smoothing (0.7), together.
+BLUR_PX = 1.0
+# White paper around the square, as a fraction of its side.
+MARGIN_RATIO = 0.25
+# Edges nearer to each other than about two pixels take each other's contrast away; under this part of a
+# free edge's contrast they are no longer active.
+LEAST_STRENGTH_RATIO = 0.3
+MOST_EDGELS = 360
+# An edge's direction is that of the edgels up to this many image pixels away on both sides.
+CORNER_REACH_PX = 1.6
+MOST_CORNER_TURN_COS = 0.9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActiveEdges:
+    """Active edges of a model at one size, as edgels about a pixel apart, weighted by length.
+
+    Attributes:
+        level_px: side of the marker in the image for which they hold.
+        points_mm: (n, 2), in the marker's plane.
+        normals: (n, 2), unit, from dark to bright.
+        length_mm: (n,), the length of edge that each stands for.
+        strength_ratio: (n,), its contrast by that of a free edge, 0..1.
+        inner: (n,), not of the outline of the square.
+        straight: (n,), no corner within reach: only these say where the marker is.
+    """
+
+    level_px: int
+    points_mm: Array
+    normals: Array
+    length_mm: Array
+    strength_ratio: Array
+    inner: npt.NDArray[np.bool_]
+    straight: npt.NDArray[np.bool_]
+
+
+def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: int) -> ActiveEdges:
+    """The edges of a grey square (n, n) that is seen `level_px` wide."""
+    picture, scale, margin = _seen_at(square, level_px)
+    x = cv2.Sobel(picture, cv2.CV_32F, 1, 0)
+    y = cv2.Sobel(picture, cv2.CV_32F, 0, 1)
+    free = float(np.percentile(np.hypot(x, y)[margin, margin : margin + scale], 50))
+    quantise = 8000.0 / max(free, 1e-6)
+    gradient = Gradient(
+        x=np.clip(x * quantise, -32000, 32000).astype(np.int16),
+        y=np.clip(y * quantise, -32000, 32000).astype(np.int16),
+        left_px=0,
+        top_px=0,
+        threshold=8000.0 * LEAST_STRENGTH_RATIO,
+    )
+    edgels = edgels_of(gradient)
+    chains = chains_of(edgels)
+    mm_per_px = side_mm / scale
+    kept: list[npt.NDArray[np.int64]] = []
+    lengths: list[Array] = []
+    straight: list[npt.NDArray[np.bool_]] = []
+    for k in range(len(chains.closed)):
+        chain = chains.order[chains.starts[k] : chains.starts[k + 1]].astype(np.int64)
+        if len(chain) < OVERSAMPLING:
+            continue
+        points = np.stack([edgels.x[chain], edgels.y[chain]], axis=1).astype(np.float64)
+        picked, spacing = _every_pixel(points, closed=bool(chains.closed[k]))
+        kept.append(chain[picked])
+        lengths.append(np.full(len(picked), spacing * mm_per_px))
+        straight.append(_away_from_corners(edgels.nx[chain], edgels.ny[chain], picked))
+    index, length, plain = _thin(kept, lengths, straight)
+    centre = margin + scale / 2.0 - 0.5
+    u = (edgels.x[index].astype(np.float64) - centre) * mm_per_px
+    v = (edgels.y[index].astype(np.float64) - centre) * mm_per_px
+    # The outline lies on the border of the square; within a pixel of it is the outline.
+    near_border = side_mm / 2.0 - 1.2 * side_mm / level_px
+    return ActiveEdges(
+        level_px=level_px,
+        points_mm=np.stack([u, -v], axis=1),
+        normals=np.stack([edgels.nx[index], -edgels.ny[index]], axis=1).astype(np.float64),
+        length_mm=length,
+        strength_ratio=np.minimum(edgels.strength[index].astype(np.float64) / 8000.0, 1.0),
+        inner=np.maximum(np.abs(u), np.abs(v)) < near_border,
+        straight=plain,
+    )
+
+
+def _seen_at(square: npt.NDArray[np.uint8], level_px: int) -> tuple[npt.NDArray[np.float32], int, int]:
+    """The model on white paper as a camera blurs it; its side and the margin in px of that picture."""
+    scale = level_px * OVERSAMPLING
+    mode = cv2.INTER_AREA if scale < square.shape[0] else cv2.INTER_LINEAR
+    seen = cv2.resize(square, (scale, scale), interpolation=mode).astype(np.float32)
+    white = float(np.percentile(square, 98))
+    margin = max(int(MARGIN_RATIO * scale), 4 * OVERSAMPLING)
+    seen = cv2.copyMakeBorder(seen, margin, margin, margin, margin, cv2.BORDER_CONSTANT, value=(white,))
+    blurred = cv2.GaussianBlur(seen, (0, 0), BLUR_PX * OVERSAMPLING)
+    return np.asarray(blurred, dtype=np.float32), scale, margin
+
+
+def _every_pixel(points: Array, *, closed: bool) -> tuple[npt.NDArray[np.int64], float]:
+    """Indexes of the edgels of a chain (n, 2) that are an image's pixel apart, and their true spacing."""
+    ends = np.vstack([points, points[:1]]) if closed else points
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(ends, axis=0), axis=1))])
+    count = max(int(round(along[-1] / OVERSAMPLING)), 1)
+    wanted = (np.arange(count) + 0.5) * (along[-1] / count)
+    picked = np.clip(np.searchsorted(along, wanted), 0, len(points) - 1)
+    return picked.astype(np.int64), float(along[-1] / count)
+
+
+def _away_from_corners(
+    nx: npt.NDArray[np.float32], ny: npt.NDArray[np.float32], picked: npt.NDArray[np.int64]
+) -> npt.NDArray[np.bool_]:
+    """Whether the edge keeps its direction on both sides of each picked edgel."""
+    reach = int(CORNER_REACH_PX * OVERSAMPLING)
+    before = np.clip(picked - reach, 0, len(nx) - 1)
+    after = np.clip(picked + reach, 0, len(nx) - 1)
+    return np.asarray(nx[before] * nx[after] + ny[before] * ny[after] > MOST_CORNER_TURN_COS)
+
+
+def _thin(
+    kept: list[npt.NDArray[np.int64]], lengths: list[Array], straight: list[npt.NDArray[np.bool_]]
+) -> tuple[npt.NDArray[np.int64], Array, npt.NDArray[np.bool_]]:
+    """At most `MOST_EDGELS` of all, evenly, each standing for more of the length."""
+    if not kept:
+        return np.empty(0, np.int64), np.empty(0), np.empty(0, np.bool_)
+    index, length, plain = np.concatenate(kept), np.concatenate(lengths), np.concatenate(straight)
+    step = -(-len(index) // MOST_EDGELS)
+    return index[::step], length[::step] * step, plain[::step]

@@ -1,0 +1,104 @@
+"""Is there a part inside the square that is dark where the model is bright, or the other way round?
+
+Two markers may differ in one small field only. Nine tenths of their edges are then the same, and no
+threshold on a score tells them apart; but the field itself contradicts. Light that varies over the marker
+does not, and something that covers the marker comes over its border, where the outline is missing too: only
+what lies wholly inside, within an outline that is there, contradicts.
+"""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from tracker.edges import GreyImage
+from tracker.geometry import Array
+from tracker.marker.active_edges import BLUR_PX
+from tracker.marker.kernels import sample_square
+
+# Fields a side. A field of a 3x3 code with a border of a quarter is 4x4 of them.
+FIELDS = 24
+SAMPLES = 2  # a side, in each field
+# A flipped part differs by one whole contrast; blur and its bleeding take up to half of it.
+CONTRADICTION = 0.45
+# Under this part of the square, a contradiction is a speck (dirt, a highlight) and not another shape.
+LEAST_AREA_RATIO = 3 / FIELDS**2 - 1e-9
+FIT_ROUNDS = 4
+# Residuals over this part of the contrast lose their say in the fit of the light.
+OUTLIER_CONTRAST = 0.25
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contradiction:
+    """Where image and model disagree beyond what light can do.
+
+    Attributes:
+        inside_ratio: area of the contradicting parts that lie wholly inside the square, by its area, 0..1.
+        covered_ratio: area of those that reach its border, by its area, 0..1.
+    """
+
+    inside_ratio: float
+    covered_ratio: float
+
+    @property
+    def is_other_shape(self) -> bool:
+        """Whether this is another shape than the model's."""
+        return self.inside_ratio >= LEAST_AREA_RATIO
+
+
+def contradiction_of(
+    image: GreyImage, square: GreyImage, corners_px: Array, *, side_px: float
+) -> Contradiction:
+    """What a grey image (h, w) says against a model (n, n) at these corners (4, 2).
+
+    `corners_px` are pixels of `image`: top-left, top-right, bottom-right, bottom-left of the printed face.
+    """
+    seen = np.asarray(sample_square(image, corners_px, FIELDS, SAMPLES), dtype=np.float64)
+    rest = _without_light(seen, _expected(square, side_px))
+    smooth = cv2.blur(rest, (3, 3), borderType=cv2.BORDER_REPLICATE)
+    inside, covered = 0, 0
+    for sign in (1.0, -1.0):
+        count, labels, stats, _ = cv2.connectedComponentsWithStats(
+            (sign * smooth > CONTRADICTION).astype(np.uint8), connectivity=4
+        )
+        del labels
+        for left, top, width, height, area in stats[1:count].tolist():
+            at_border = left == 0 or top == 0 or left + width == FIELDS or top + height == FIELDS
+            if at_border:
+                covered += area
+            else:
+                inside = max(inside, area)
+    return Contradiction(inside_ratio=inside / FIELDS**2, covered_ratio=covered / FIELDS**2)
+
+
+def _expected(square: GreyImage, side_px: float) -> Array:
+    """The model's fields (24, 24), blurred as a camera does, 0 dark to 1 bright."""
+    small = cv2.resize(square, (4 * FIELDS, 4 * FIELDS), interpolation=cv2.INTER_AREA).astype(np.float64)
+    blur = BLUR_PX * 4 * FIELDS / max(side_px, 8.0)
+    small = cv2.GaussianBlur(small, (0, 0), blur, borderType=cv2.BORDER_REPLICATE)
+    fields = cv2.resize(small, (FIELDS, FIELDS), interpolation=cv2.INTER_AREA)
+    low, high = float(square.min()), float(square.max())
+    return np.asarray((fields - low) / (high - low), dtype=np.float64)
+
+
+def _without_light(seen: Array, expected: Array) -> Array:
+    """What is left of the fields when contrast and light (a quadratic over the square) are taken out.
+
+    In units of the contrast: +1 is bright where the model is dark.
+    """
+    v, u = np.mgrid[0:FIELDS, 0:FIELDS] * (2.0 / (FIELDS - 1)) - 1.0
+    columns = [expected, np.ones_like(u), u, v, u * u, u * v, v * v]
+    basis = np.stack([column.ravel() for column in columns], axis=1)
+    values = seen.ravel()
+    weight = np.ones_like(values)
+    contrast, rest = 0.0, np.zeros_like(values)
+    for _ in range(FIT_ROUNDS):
+        weighted = basis * weight[:, None]
+        solution = np.linalg.lstsq(weighted.T @ basis, weighted.T @ values, rcond=1e-9)[0]
+        contrast = float(solution[0])
+        if contrast <= 1.0:
+            # No contrast at all, or the negative of the model: everything contradicts.
+            return np.ones_like(seen)
+        rest = (values - basis @ solution) / contrast
+        weight = 1.0 / (1.0 + (rest / OUTLIER_CONTRAST) ** 2) ** 2
+    return rest.reshape(seen.shape)

@@ -1,0 +1,283 @@
+"""The compiled loops of the marker; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+from tracker.edges.kernels import crossing
+
+MOST_SUCCESSORS = 8
+MOST_QUADS = 4000
+CELL_PX = 16
+MOST_GAP_PX = 30.0
+LEAST_SIDE_PX = 4.0
+
+
+@compiled
+def _length(s):
+    return np.sqrt((s[2] - s[0]) ** 2 + (s[3] - s[1]) ** 2)
+
+
+@compiled
+def _corner(a, b, out):
+    """Where the lines of two segments meet; False when they are nearly parallel."""
+    dax, day = a[2] - a[0], a[3] - a[1]
+    dbx, dby = b[2] - b[0], b[3] - b[1]
+    cross = dax * dby - day * dbx
+    if abs(cross) < 1e-6:
+        return False
+    t = ((b[0] - a[0]) * dby - (b[1] - a[1]) * dbx) / cross
+    out[0], out[1] = a[0] + t * dax, a[1] + t * day
+    return True
+
+
+@compiled
+def successors_of(segments):
+    """For each segment those that may follow it round a corner, nearest first."""
+    n = len(segments)
+    columns = int(segments[:, :].max() / CELL_PX) + 3
+    head = np.full(columns * columns, -1, np.int32)
+    after = np.full(n, -1, np.int32)
+    for j in range(n):
+        cell = (
+            (int(max(segments[j, 1], 0.0)) // CELL_PX + 1) * columns
+            + int(max(segments[j, 0], 0.0)) // CELL_PX
+            + 1
+        )
+        after[j] = head[cell]
+        head[cell] = j
+    successors = np.full((n, MOST_SUCCESSORS), -1, np.int32)
+    gaps = np.empty((n, MOST_SUCCESSORS), np.float32)
+    counts = np.zeros(n, np.int32)
+    corner = np.empty(2, np.float32)
+    for i in range(n):
+        a = segments[i]
+        la = _length(a)
+        dax, day = (a[2] - a[0]) / la, (a[3] - a[1]) / la
+        reach = min(3.0 + 0.3 * la, MOST_GAP_PX)
+        cu, cv = int(max(a[2], 0.0)) // CELL_PX + 1, int(max(a[3], 0.0)) // CELL_PX + 1
+        cells = int(reach) // CELL_PX + 1
+        for row in range(max(cv - cells, 0), min(cv + cells + 1, columns)):
+            for column in range(max(cu - cells, 0), min(cu + cells + 1, columns)):
+                j = head[row * columns + column]
+                while j >= 0:
+                    b = segments[j]
+                    k, j = j, after[j]
+                    if k == i:
+                        continue
+                    lb = _length(b)
+                    limit = min(3.0 + 0.3 * min(la, lb), MOST_GAP_PX)
+                    gap = np.sqrt((b[0] - a[2]) ** 2 + (b[1] - a[3]) ** 2)
+                    if gap > limit:
+                        continue
+                    dbx, dby = (b[2] - b[0]) / lb, (b[3] - b[1]) / lb
+                    turn = dax * dby - day * dbx
+                    # A right turn of 15 to 165 degrees: a square seen at 60 degrees of tilt has corners
+                    # from 53 to 127, and perspective adds some.
+                    if turn < 0.26 or not _corner(a, b, corner):
+                        continue
+                    if (corner[0] - a[2]) ** 2 + (corner[1] - a[3]) ** 2 > limit * limit:
+                        continue
+                    if (corner[0] - b[0]) ** 2 + (corner[1] - b[1]) ** 2 > limit * limit:
+                        continue
+                    m = counts[i]
+                    if m < MOST_SUCCESSORS:
+                        counts[i] += 1
+                    elif gap < gaps[i, m - 1]:
+                        m -= 1
+                    else:
+                        continue
+                    while m > 0 and gaps[i, m - 1] > gap:
+                        successors[i, m], gaps[i, m] = successors[i, m - 1], gaps[i, m - 1]
+                        m -= 1
+                    successors[i, m], gaps[i, m] = k, gap
+    return successors, counts
+
+
+@compiled
+def _plausible(quad):
+    """Convex, clockwise, no side under four pixels, none over five times its opposite."""
+    sides = np.empty(4, np.float32)
+    for k in range(4):
+        p, q, r = quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]
+        sides[k] = np.sqrt((q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2)
+        if sides[k] < LEAST_SIDE_PX:
+            return False
+        if (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]) <= 0.0:
+            return False
+    for k in range(2):
+        ratio = sides[k] / sides[k + 2]
+        if ratio > 2.5 or ratio < 0.4:
+            return False
+    ratio = (sides[0] + sides[2]) / (sides[1] + sides[3])
+    return 0.2 < ratio < 5.0
+
+
+@compiled
+def closed_and_open_quads(segments, successors, counts):
+    n = len(segments)
+    quads = np.empty((MOST_QUADS, 4, 2), np.float32)
+    q = 0
+    in_closed = np.zeros(n, np.bool_)
+    for i in range(n):
+        for a in range(counts[i]):
+            j = successors[i, a]
+            if j <= i:
+                continue
+            for b in range(counts[j]):
+                k = successors[j, b]
+                if k <= i or k == j:
+                    continue
+                for c in range(counts[k]):
+                    m = successors[k, c]
+                    if m <= i or m == j or m == k or q >= MOST_QUADS:
+                        continue
+                    for d in range(counts[m]):
+                        if successors[m, d] != i:
+                            continue
+                        quad = quads[q]
+                        ok = _corner(segments[m], segments[i], quad[0])
+                        ok = ok and _corner(segments[i], segments[j], quad[1])
+                        ok = ok and _corner(segments[j], segments[k], quad[2])
+                        ok = ok and _corner(segments[k], segments[m], quad[3])
+                        if ok and _plausible(quad):
+                            q += 1
+                            in_closed[i] = in_closed[j] = in_closed[k] = in_closed[m] = True
+                        break
+    for i in range(n):
+        for a in range(counts[i]):
+            j = successors[i, a]
+            for b in range(counts[j]):
+                k = successors[j, b]
+                if k == i or q >= MOST_QUADS or (in_closed[i] and in_closed[j] and in_closed[k]):
+                    continue
+                quad = quads[q]
+                quad[0, 0], quad[0, 1] = segments[i, 0], segments[i, 1]
+                quad[3, 0], quad[3, 1] = segments[k, 2], segments[k, 3]
+                ok = _corner(segments[i], segments[j], quad[1]) and _corner(segments[j], segments[k], quad[2])
+                if ok and _plausible(quad):
+                    q += 1
+    return quads[:q].copy()
+
+
+@compiled
+def crossings(gx, gy, points, normals, reach):
+    n = len(points)
+    offset, response = np.zeros(n), np.zeros(n)
+    for i in range(n):
+        offset[i], response[i] = crossing(
+            gx, gy, points[i, 0], points[i, 1], normals[i, 0], normals[i, 1], reach
+        )
+    return offset, response
+
+
+@compiled
+def explained(at, ex, ey, enx, eny, strength, points, normals, corners, radius, margin, least):
+    height, width = at.shape
+    u0 = max(int(corners[:, 0].min() - margin), 0)
+    u1 = min(int(corners[:, 0].max() + margin) + 1, width - 1)
+    v0 = max(int(corners[:, 1].min() - margin), 0)
+    v1 = min(int(corners[:, 1].max() + margin) + 1, height - 1)
+    common, present = 0, 0
+    for v in range(v0, v1 + 1):
+        for u in range(u0, u1 + 1):
+            i = at[v, u]
+            if i < 0 or strength[i] < least:
+                continue
+            x, y = ex[i], ey[i]
+            inside = True
+            for k in range(4):
+                ax, ay = corners[k, 0], corners[k, 1]
+                bx, by = corners[(k + 1) % 4, 0], corners[(k + 1) % 4, 1]
+                side = np.sqrt((bx - ax) ** 2 + (by - ay) ** 2)
+                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) < -margin * side:
+                    inside = False
+                    break
+            if not inside:
+                continue
+            present += 1
+            for j in range(len(points)):
+                dx, dy = points[j, 0] - x, points[j, 1] - y
+                if dx * dx + dy * dy > radius * radius:
+                    continue
+                # The same polarity, within 60 degrees: at a corner the image's edge is rounder.
+                if enx[i] * normals[j, 0] + eny[i] * normals[j, 1] > 0.5:
+                    common += 1
+                    break
+    return common, present
+
+
+@compiled
+def square_to_quad(quad, h):
+    """The homography (8 numbers, h33 = 1) from the unit square to four corners, clockwise from (0, 0)."""
+    x0, y0, x1, y1 = quad[0, 0], quad[0, 1], quad[1, 0], quad[1, 1]
+    x2, y2, x3, y3 = quad[2, 0], quad[2, 1], quad[3, 0], quad[3, 1]
+    sx, sy = x0 - x1 + x2 - x3, y0 - y1 + y2 - y3
+    dx1, dy1, dx2, dy2 = x1 - x2, y1 - y2, x3 - x2, y3 - y2
+    det = dx1 * dy2 - dy1 * dx2
+    g, k = (sx * dy2 - sy * dx2) / det, (dx1 * sy - dy1 * sx) / det
+    h[0], h[1], h[2] = x1 - x0 + g * x1, x3 - x0 + k * x3, x0
+    h[3], h[4], h[5] = y1 - y0 + g * y1, y3 - y0 + k * y3, y0
+    h[6], h[7] = g, k
+
+
+@compiled
+def correlate(image, quads, templates):
+    height, width = image.shape
+    count, models, cells = len(quads), templates.shape[0], templates.shape[2]
+    side = int(np.sqrt(cells))
+    out = np.zeros((count, models, 4), np.float32)
+    seen = np.empty(cells, np.float32)
+    h = np.empty(8, np.float64)
+    for q in range(count):
+        square_to_quad(quads[q], h)
+        mean = 0.0
+        for r in range(side):
+            for c in range(side):
+                a, b = (c + 0.5) / side, (r + 0.5) / side
+                w = h[6] * a + h[7] * b + 1.0
+                u = min(max((h[0] * a + h[1] * b + h[2]) / w, 0.0), width - 1.001)
+                v = min(max((h[3] * a + h[4] * b + h[5]) / w, 0.0), height - 1.001)
+                iu, iv = int(u), int(v)
+                fu, fv = u - iu, v - iv
+                value = (1 - fv) * ((1 - fu) * image[iv, iu] + fu * image[iv, iu + 1]) + fv * (
+                    (1 - fu) * image[iv + 1, iu] + fu * image[iv + 1, iu + 1]
+                )
+                seen[r * side + c] = value
+                mean += value
+        mean /= cells
+        length = 0.0
+        for i in range(cells):
+            seen[i] -= mean
+            length += seen[i] * seen[i]
+        length = np.sqrt(length)
+        if length < 1.0:
+            continue
+        for m in range(models):
+            for turn in range(4):
+                total = 0.0
+                for i in range(cells):
+                    total += seen[i] * templates[m, turn, i]
+                out[q, m, turn] = total / length
+    return out
+
+
+@compiled
+def sample_square(image, corners, fields, samples):
+    """Mean grey of fields x fields cells of a square at these corners, samples x samples in each."""
+    height, width = image.shape
+    h = np.empty(8, np.float64)
+    square_to_quad(corners, h)
+    out = np.zeros((fields, fields))
+    n = fields * samples
+    for r in range(n):
+        for c in range(n):
+            a, b = (c + 0.5) / n, (r + 0.5) / n
+            w = h[6] * a + h[7] * b + 1.0
+            u = min(max((h[0] * a + h[1] * b + h[2]) / w, 0.0), width - 1.001)
+            v = min(max((h[3] * a + h[4] * b + h[5]) / w, 0.0), height - 1.001)
+            iu, iv = int(u), int(v)
+            fu, fv = u - iu, v - iv
+            upper = (1 - fu) * image[iv, iu] + fu * image[iv, iu + 1]
+            lower = (1 - fu) * image[iv + 1, iu] + fu * image[iv + 1, iu + 1]
+            out[r // samples, c // samples] += (1 - fv) * upper + fv * lower
+    return out / (samples * samples)

@@ -1,0 +1,156 @@
+"""How well a model and an image agree: the paper's score and target score (2.3)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.edges import Edgels, Gradient
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+from tracker.marker.active_edges import ActiveEdges
+from tracker.marker.kernels import crossings, explained
+
+# An edge counts where its gradient has this part of what its own contrast and the marker's let expect.
+LEAST_RESPONSE_RATIO = 0.35
+# Common edgels lie this near to their model edge: pixels, or this part of the marker's side if that is more
+# (paper bends).
+REACH_PX, REACH_SIDE_RATIO, MOST_REACH_PX = 1.5, 0.03, 5.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScoreSettings:
+    """What is accepted as the marker.
+
+    Attributes:
+        accept_score_ratio: least score, 0..1.
+        accept_target_score_ratio: least target score, 0..1.
+        accept_inner_coverage_ratio: least coverage of the edges inside the square alone, 0..1: the outline
+            is what all square markers share, the inside is what makes this one unique.
+        fit_error_weight: the paper's fit error weighing factor, here on the normalised fit error, 0..1.
+    """
+
+    accept_score_ratio: float = 0.7
+    accept_target_score_ratio: float = 0.55
+    accept_inner_coverage_ratio: float = 0.6
+    fit_error_weight: float = 0.25
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            value = float(getattr(self, name))
+            if not 0.0 <= value <= 1.0:
+                raise InvalidInput(
+                    "SCORE_SETTING_INVALID",
+                    f"the tracker's setting {name} is {value:g}, allowed 0 to 1",
+                    "Set a ratio between 0 and 1.",
+                    {"setting": name, "value": value},
+                )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Agreement:
+    """The model's edges laid over an image.
+
+    Attributes:
+        model_coverage_ratio: length of active edges found, by their total length, 0..1.
+        inner_coverage_ratio: the same for the edges inside the square.
+        target_coverage_ratio: length of edges in the occurrence that are the model's, by all of them, 0..1.
+        fit_error_px2: mean squared distance of common edgels to their model edges.
+        normalised_fit_error: the same by the square of the farthest distance that counts, 0..1.
+        contrast: gradient of a free edge of this occurrence, Sobel's scale.
+    """
+
+    model_coverage_ratio: float
+    inner_coverage_ratio: float
+    target_coverage_ratio: float
+    fit_error_px2: float
+    normalised_fit_error: float
+    contrast: float
+
+    def score_ratio(self, settings: ScoreSettings) -> float:
+        """Score = model coverage x (1 - weight x normalised fit error)."""
+        return self.model_coverage_ratio * (1.0 - settings.fit_error_weight * self.normalised_fit_error)
+
+    def target_score_ratio(self, settings: ScoreSettings) -> float:
+        """Target score = target coverage x (1 - weight x normalised fit error)."""
+        return self.target_coverage_ratio * (1.0 - settings.fit_error_weight * self.normalised_fit_error)
+
+
+def reach_px(side_px: float) -> float:
+    """How far from its model edge an edgel still counts as common, in px."""
+    return float(np.clip(REACH_SIDE_RATIO * side_px, REACH_PX, MOST_REACH_PX))
+
+
+def model_agreement(
+    gradient: Gradient,
+    active: ActiveEdges,
+    points_px: Array,
+    normals_px: Array,
+    *,
+    side_px: float,
+    shift_px: float = 0.0,
+) -> Agreement:
+    """Agreement of projected active edges (n, 2), normals (n, 2) unit and dark to bright, with an image.
+
+    `shift_px` is the shift common to all edges (camera response, ink): it is no error of the fit.
+    The target coverage is left at 1: it needs the edgels, see `with_target`.
+    """
+    reach = reach_px(side_px)
+    offset, response = crossings(
+        gradient.x, gradient.y, points_px - [gradient.left_px, gradient.top_px], normals_px, reach
+    )
+    contrast = contrast_of(response, active)
+    found = response >= np.maximum(
+        0.6 * gradient.threshold, LEAST_RESPONSE_RATIO * contrast * active.strength_ratio
+    )
+    length, inner = active.length_mm, active.inner
+    fit = float(np.mean((offset[found] - shift_px) ** 2)) if found.any() else reach**2
+    inner_length = float(length[inner].sum())
+    return Agreement(
+        model_coverage_ratio=float(length[found].sum() / length.sum()),
+        inner_coverage_ratio=float(length[found & inner].sum() / inner_length) if inner_length > 0 else 1.0,
+        target_coverage_ratio=1.0,
+        fit_error_px2=fit,
+        normalised_fit_error=min(fit / reach**2, 1.0),
+        contrast=contrast,
+    )
+
+
+def contrast_of(response: Array, active: ActiveEdges) -> float:
+    """The gradient of a free edge of this occurrence: the median over the edgels that answer at all."""
+    answers = response > 0.0
+    if not answers.any():
+        return 0.0
+    return float(np.median(response[answers] / active.strength_ratio[answers]))
+
+
+def target_coverage_ratio(
+    edgels: Edgels,
+    gradient: Gradient,
+    points_px: Array,
+    normals_px: Array,
+    *,
+    corners_px: Array,
+    side_px: float,
+    contrast: float,
+) -> float:
+    """Share of the edgels inside the square (and a little around it) that are edges of the model, 0..1.
+
+    Edgels under a third of the marker's contrast are texture and do not count.
+    """
+    shift = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
+    common, present = explained(
+        edgels.at,
+        edgels.x,
+        edgels.y,
+        edgels.nx,
+        edgels.ny,
+        edgels.strength,
+        points_px - shift,
+        normals_px,
+        corners_px - shift,
+        # The common edgels lie up to the reach beyond a model edge, whose samples are a pixel or more apart.
+        reach_px(side_px) + max(0.5, 0.5 * side_px * 6.0 / max(len(points_px), 1)),
+        reach_px(side_px),
+        LEAST_RESPONSE_RATIO * contrast,
+    )
+    return float(common / present) if present else 0.0

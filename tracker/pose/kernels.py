@@ -1,0 +1,211 @@
+"""The compiled loops of the pose; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.camera.kernels import project_with_derivative
+from tracker.compiled import compiled
+from tracker.edges.kernels import crossing
+
+PARAMETERS = 7  # translation, rotation, and one shift common to all edges
+PROJECTION_STEP = 1e-3
+
+
+@compiled
+def project_edges(rotation, translation, lens, points, normals, pixels, directions):
+    """Active edges (n, 2) in mm as pixels (n, 2) and unit image normals (n, 2), dark to bright.
+
+    False where the marker reaches behind the camera.
+    """
+    derivative = np.empty((2, 3))
+    p = np.empty(3)
+    for i in range(len(points)):
+        x, y = points[i, 0], points[i, 1]
+        for k in range(3):
+            p[k] = rotation[k, 0] * x + rotation[k, 1] * y + translation[k]
+        if p[2] < 1.0:
+            return False
+        pixels[i, 0], pixels[i, 1] = project_with_derivative(p, lens, derivative)
+        # The image's normal is across the image of the tangent, on the side to which the plane's points.
+        a, b = normals[i, 0], normals[i, 1]
+        tu, tv, nu, nv = 0.0, 0.0, 0.0, 0.0
+        for k in range(3):
+            along = -rotation[k, 0] * b + rotation[k, 1] * a
+            across = rotation[k, 0] * a + rotation[k, 1] * b
+            tu += derivative[0, k] * along
+            tv += derivative[1, k] * along
+            nu += derivative[0, k] * across
+            nv += derivative[1, k] * across
+        length = np.sqrt(tu * tu + tv * tv)
+        du, dv = -tv / length, tu / length
+        if du * nu + dv * nv < 0.0:
+            du, dv = -du, -dv
+        directions[i, 0], directions[i, 1] = du, dv
+    return True
+
+
+@compiled
+def _turn(rotation, w):
+    """Multiply a rotation vector from the left into a rotation matrix, in place."""
+    angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    k = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+    a, b = 1.0, 0.5
+    if angle > 1e-6:
+        a, b = np.sin(angle) / angle, (1.0 - np.cos(angle)) / (angle * angle)
+    rotation[:, :] = (np.eye(3) + a * k + b * (k @ k)) @ rotation
+
+
+@compiled
+def _residuals(gx, gy, left, top, pixels, directions, strength, least, reach, found, offset):
+    """Offsets of the image's edges from the predicted ones into `offset`; how many there are."""
+    n = 0
+    for i in range(len(pixels)):
+        o, response = crossing(
+            gx, gy, pixels[i, 0] - left, pixels[i, 1] - top, directions[i, 0], directions[i, 1], reach
+        )
+        found[i] = response >= least * strength[i] and response > 0.0
+        offset[i] = o
+        n += found[i]
+    return n
+
+
+@compiled
+def _normal_equations(
+    rotation, translation, lens, points, directions, found, offset, weight, shift, shift_sd, scale, a, g
+):
+    """Gauss-Newton's matrix (7, 7) and right side (7,) of the robustly weighted offsets."""
+    a[:, :] = 0.0
+    g[:] = 0.0
+    derivative = np.empty((2, 3))
+    p, arm, row, toward = np.empty(3), np.empty(3), np.empty(PARAMETERS), np.empty(3)
+    weights = 0.0
+    for i in range(len(points)):
+        if not found[i]:
+            continue
+        for k in range(3):
+            arm[k] = rotation[k, 0] * points[i, 0] + rotation[k, 1] * points[i, 1]
+            p[k] = arm[k] + translation[k]
+        project_with_derivative(p, lens, derivative)
+        for k in range(3):
+            toward[k] = directions[i, 0] * derivative[0, k] + directions[i, 1] * derivative[1, k]
+        row[0], row[1], row[2] = toward[0], toward[1], toward[2]
+        row[3] = arm[1] * toward[2] - arm[2] * toward[1]
+        row[4] = arm[2] * toward[0] - arm[0] * toward[2]
+        row[5] = arm[0] * toward[1] - arm[1] * toward[0]
+        row[6] = 1.0
+        r = offset[i] - shift
+        # Tukey's biweight: what is far off is another edge and has no say at all.
+        z = r / (4.685 * scale)
+        w = weight[i] * (1.0 - z * z) ** 2 if abs(z) < 1.0 else 0.0
+        weights += w
+        for m in range(PARAMETERS):
+            for k in range(PARAMETERS):
+                a[m, k] += w * row[m] * row[k]
+            g[m] += w * row[m] * r
+    # The shift is not free: a camera's response or the printer's ink moves all edges by tenths of a pixel.
+    prior = (scale / shift_sd) ** 2
+    a[6, 6] += prior
+    g[6] -= prior * shift
+    return weights
+
+
+@compiled
+def _median_size(values, found):
+    """Median of the absolute values that are found, as the sd of a normal distribution."""
+    kept = np.empty(len(values))
+    n = 0
+    for i in range(len(values)):
+        if found[i]:
+            kept[n] = abs(values[i])
+            n += 1
+    return 1.4826 * np.median(kept[:n])
+
+
+@compiled
+def refine(
+    gx,
+    gy,
+    left,
+    top,
+    rotation,
+    translation,
+    lens,
+    points,
+    normals,
+    strength,
+    weight,
+    least,
+    reaches,
+    shift_sd,
+):
+    """Gauss-Newton of the pose on the offsets along the normals, searched anew at each of `reaches` px.
+
+    Changes rotation (3, 3) and translation (3,) in place. Returns the matrix (7, 7) of the last step, the
+    scale of its residuals in px, the shift in px, the weighted sum of squared residuals in px^2, the
+    robust cost in px^2, the weights' sum and the number of edges; a number of 0 means that it failed.
+    """
+    n = len(points)
+    pixels, directions = np.empty((n, 2)), np.empty((n, 2))
+    found, offset = np.zeros(n, np.bool_), np.zeros(n)
+    a, g = np.zeros((PARAMETERS, PARAMETERS)), np.zeros(PARAMETERS)
+    shift, scale = 0.0, 1.0
+    failed = (a, 0.0, 0.0, 0.0, 0.0, 0.0, 0)
+    for reach in reaches:
+        if not project_edges(rotation, translation, lens, points, normals, pixels, directions):
+            return failed
+        count = _residuals(gx, gy, left, top, pixels, directions, strength, least, reach, found, offset)
+        if count < 12:
+            return failed
+        scale = max(_median_size(offset - shift, found), 0.05)
+        _normal_equations(
+            rotation,
+            translation,
+            lens,
+            points,
+            directions,
+            found,
+            offset,
+            weight,
+            shift,
+            shift_sd,
+            scale,
+            a,
+            g,
+        )
+        # Depth and angles differ by orders of magnitude: scale before solving.
+        d = np.sqrt(np.diag(a).copy())
+        if d.min() <= 0.0:
+            return failed
+        step = np.linalg.solve(a / np.outer(d, d) + 1e-9 * np.eye(PARAMETERS), g / d) / d
+        turn = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
+        if not np.isfinite(turn):
+            return failed
+        # A step over half a radian leaves the image far behind: shorten it as a whole.
+        if turn > 0.5:
+            step[:6] *= 0.5 / turn
+        translation += step[:3]
+        _turn(rotation, step[3:6])
+        shift += step[6]
+        # A face seen from behind, or a marker behind the camera, is no pose.
+        if translation[2] <= 1.0 or (rotation[:, 2] * translation).sum() >= 0.0:
+            return failed
+    if not project_edges(rotation, translation, lens, points, normals, pixels, directions):
+        return failed
+    count = _residuals(gx, gy, left, top, pixels, directions, strength, least, reaches[-1], found, offset)
+    if count < 12:
+        return failed
+    scale = max(_median_size(offset - shift, found), 0.02)
+    weights = _normal_equations(
+        rotation, translation, lens, points, directions, found, offset, weight, shift, shift_sd, scale, a, g
+    )
+    squares, cost = 0.0, 0.0
+    reach = reaches[-1]
+    for i in range(n):
+        if not found[i]:
+            cost += weight[i] * reach * reach
+            continue
+        r = offset[i] - shift
+        cost += weight[i] * min(r * r, reach * reach)
+        z = r / (4.685 * scale)
+        if abs(z) < 1.0:
+            squares += weight[i] * (1.0 - z * z) ** 2 * r * r
+    return a, scale, shift, squares, cost, weights, count

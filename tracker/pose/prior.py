@@ -1,0 +1,50 @@
+"""What the last images let expect of the next."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+from tracker.pose.sighting import Seen, Sighting
+
+# A hand changes its mind within a tenth of a second: farther ahead a straight line is a guess.
+LONGEST_AHEAD_S = 0.25
+# Two poses nearer in time than this say nothing about speed.
+LEAST_INTERVAL_S = 1e-3
+
+
+@dataclass(slots=True)
+class Prior:
+    """The last pose of one marker and how fast it moved. Mutable: the tracker's window."""
+
+    pose: Rigid[Camera, Marker] | None = None
+    at_s: float = 0.0
+    velocity_mm_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    turning_rad_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
+
+    def expected(self, at_s: float) -> Rigid[Camera, Marker] | None:
+        """Where the marker should be at this time; None when nobody can know."""
+        ahead = at_s - self.at_s
+        if self.pose is None or not 0.0 < ahead <= LONGEST_AHEAD_S:
+            return None
+        translation = self.pose.translation_mm + self.velocity_mm_s * ahead
+        rotation = rotation_from_vector(self.turning_rad_s * ahead) @ self.pose.rotation
+        if translation[2] <= 1.0 or float(rotation[:, 2] @ translation) >= 0.0:
+            return None
+        return Rigid(rotation=rotation, translation_mm=translation)
+
+    def learn(self, sighting: Sighting, at_s: float) -> None:
+        """Take in what an image said; a marker that is not seen is forgotten."""
+        if not isinstance(sighting, Seen):
+            self.pose = None
+            return
+        interval = at_s - self.at_s
+        self.velocity_mm_s, self.turning_rad_s = np.zeros(3), np.zeros(3)
+        if self.pose is not None and LEAST_INTERVAL_S < interval <= LONGEST_AHEAD_S:
+            now = sighting.camera_from_marker
+            self.velocity_mm_s = (now.translation_mm - self.pose.translation_mm) / interval
+            turned = vector_from_rotation(now.rotation @ self.pose.rotation.T)
+            # From one planar solution to the other is no turn of the hand.
+            if float(np.linalg.norm(turned)) < np.radians(15.0):
+                self.turning_rad_s = turned / interval
+        self.pose, self.at_s = sighting.camera_from_marker, at_s
