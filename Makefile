@@ -27,8 +27,8 @@ export npm_config_audit := false
 export npm_config_omit_lockfile_registry_resolved := true
 
 TRACKER_SOURCES := $(shell find tracker -name '*.py')
-# Folders are listed too: their time changes when a file in them goes away.
-PAGE_SOURCES := $(shell find web/src web/public 2>/dev/null) \
+# Folders are listed too: their time changes when a file in them goes away. The schema's types are made, not written.
+PAGE_SOURCES := $(shell find web/src web/public -not -name schema.d.ts 2>/dev/null) \
 	$(filter-out web/dist web/node_modules,$(wildcard web/*.json web/*.ts web/*.js web/*.html))
 
 # An environment that was made elsewhere, or whose Python has gone, is made again.
@@ -68,7 +68,8 @@ format: $(STAMPS)/dev $(STAMPS)/page-packages ## put all code into its form
 lint: $(STAMPS)/dev $(STAMPS)/page-packages ## form, lint and import contracts
 	@$(PYTHON_IN_VENV) -m ruff format --check .
 	@$(PYTHON_IN_VENV) -m ruff check .
-	@.venv/bin/lint-imports
+	@.venv/bin/lint-imports --no-logo
+	@$(NPM) run --silent format:check
 	@$(NPM) run --silent lint
 
 .PHONY: types
