@@ -43,7 +43,9 @@ def test_every_command_can_be_made(document: Path) -> None:
 
 
 def test_a_dead_link_and_a_dead_command_are_seen() -> None:
-    text = "See [there](nowhere.md#part) and [out](https://example.org).\n\n```sh\nmake coffee   # now\n```\nor `make tea`"
+    text = (
+        "[there](nowhere.md#part), [out](https://example.org)\n```sh\nmake coffee   # now\n```\nor `make tea`"
+    )
     assert links(text) == ["nowhere.md"]
     assert commands(text) == {"coffee", "tea"}
 
