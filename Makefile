@@ -11,7 +11,7 @@ PYTHON_IN_VENV := .venv/bin/python
 STAMPS := .venv/stamps
 STEP := sh .make/step
 PIP := $(PYTHON_IN_VENV) -m pip
-NPM := sh .make/with-node npm --prefix web
+NPM := sh .make/with-node web npm
 
 # Whatever the shell around has set, packages go into .venv and caches nowhere else.
 unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX NODE_ENV
