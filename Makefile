@@ -118,7 +118,7 @@ anew:
 
 $(STAMPS)/packages: requirements.lock requirements-build.lock $(STAMPS)/place
 	@$(STEP) packages "Installing Python packages (about a minute, once)" \
-		"Look whether this machine reaches its package index, then try again." \
+		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
 		$(PIP) install --require-hashes --no-deps -r requirements.lock -r requirements-build.lock
 	@touch $@
 
@@ -129,7 +129,7 @@ $(STAMPS)/project: pyproject.toml $(STAMPS)/packages
 
 $(STAMPS)/dev: requirements-dev.lock $(STAMPS)/packages
 	@$(STEP) dev "Installing what the tests need (about a minute, once)" \
-		"Look whether this machine reaches its package index, then try again." \
+		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
 		$(PIP) install --require-hashes --no-deps -r requirements-dev.lock
 	@touch $@
 
