@@ -23,7 +23,8 @@ CODE = (".py", ".ts", ".tsx")
 def files_in_git() -> list[Path]:
     """What is tracked or about to be, relative to the top, as far as it exists."""
     listed = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        # The checkout may belong to somebody else than who tests it, as in a container.
+        ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
         check=True,
         capture_output=True,
