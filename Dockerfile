@@ -32,7 +32,7 @@ LABEL org.opencontainers.image.title="Coaxial" \
     org.opencontainers.image.description="Navigation dashboard for pedicle-screw surgery by video. Research software, not a medical device." \
     org.opencontainers.image.licenses="Apache-2.0"
 RUN useradd --system --uid 10001 --groups video --home-dir /var/lib/coaxial --shell /usr/sbin/nologin coaxial \
-    && install --directory --owner coaxial --group coaxial /var/lib/coaxial /var/cache/coaxial /etc/coaxial
+    && install --directory --owner coaxial /var/lib/coaxial /var/cache/coaxial
 COPY --from=packages /opt/coaxial /opt/coaxial
 COPY config.yaml /etc/coaxial/config.yaml
 ENV PATH=/opt/coaxial/bin:$PATH \
