@@ -76,6 +76,6 @@ def test_the_licence_is_the_one_that_is_promised() -> None:
 
 def test_the_gate_calls_what_a_person_calls() -> None:
     gate = text_of(ROOT / ".ci" / "run")
-    assert "make test" in gate
-    assert "set -euo pipefail" in gate
+    assert gate.splitlines()[-1].startswith("exec make test")
+    assert "\nset -euo pipefail\n" in gate
     assert (ROOT / ".ci" / "run").stat().st_mode & 0o111

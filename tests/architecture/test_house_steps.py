@@ -48,12 +48,18 @@ def test_a_machine_without_python_is_told_what_it_needs(bare_path: Path) -> None
     assert "Traceback" not in said.stderr
 
 
-def test_a_python_that_is_too_old_is_named_with_its_version(bare_path: Path) -> None:
-    put(bare_path, "python3", 'case "$2" in *version_info\\[:2\\]*) echo 3.9;; *) exit 1;; esac')
+def python_of_version(major: int, minor: int) -> str:
+    """A script that answers as a Python of this version would."""
+    pretend = f"import sys; sys.version_info = ({major}, {minor}, 0, 'final', 0); exec(sys.argv[1])"
+    return f'exec {sys.executable} -c "{pretend}" "$2"'
+
+
+@pytest.mark.parametrize(("minor", "taken"), [(9, False), (10, False), (11, True), (14, True)])
+def test_a_python_is_taken_from_3_11_on(bare_path: Path, minor: int, *, taken: bool) -> None:
+    put(bare_path, "python3", python_of_version(3, minor))
     said = step("find-python", path=bare_path)
-    assert said.returncode == 1
-    assert "3.9" in said.stderr
-    assert "PYTHON=" in said.stderr
+    assert (said.returncode == 0) is taken
+    assert (f"is 3.{minor}." in said.stderr and "PYTHON=" in said.stderr) is not taken
 
 
 def test_a_python_without_venv_is_told_the_package_to_install(bare_path: Path) -> None:
