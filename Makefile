@@ -41,7 +41,7 @@ SOUND := $(shell [ "$$(cat $(STAMPS)/place 2>/dev/null)" = "$$(pwd)" ] \
 
 .PHONY: help
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
 
 .PHONY: run
 run: ready ## start Coaxial with the rehearsal theatre, and print the address to open (ARGS="..." go to coaxial run)
@@ -99,7 +99,7 @@ lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest
 
 .PHONY: clean
 clean: ## take away everything that was made (cases and state in .coaxial stay)
-	rm -rf .venv web/node_modules web/dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf .venv web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # ---------------------------------------------------------------- what they stand on
