@@ -1,0 +1,150 @@
+# Coaxial. `make help` lists what there is; `make run` and `make test` do all their own set-up.
+# Everything that is made lies in .venv, web/node_modules and web/dist; `make clean` takes it away again.
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.SUFFIXES:
+# The steps share one environment, and two installers in it at once would trip over each other.
+.NOTPARALLEL:
+MAKEFLAGS += --no-builtin-rules --no-print-directory
+SHELL := /bin/sh
+
+PYTHON_IN_VENV := .venv/bin/python
+STAMPS := .venv/stamps
+STEP := sh .make/step
+PIP := $(PYTHON_IN_VENV) -m pip
+NPM := sh .make/with-node web npm
+
+# Whatever the shell around has set, packages go into .venv and caches nowhere else.
+unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX NODE_ENV
+export PIP_USER := 0
+export PIP_NO_CACHE_DIR := 1
+export PIP_NO_INPUT := 1
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export npm_config_cache := $(CURDIR)/.venv/cache/npm
+export npm_config_update_notifier := false
+export npm_config_fund := false
+export npm_config_audit := false
+# The page's lock must not remember from where its packages came.
+export npm_config_omit_lockfile_registry_resolved := true
+
+TRACKER_SOURCES := $(shell find tracker -name '*.py')
+# Folders are listed too: their time changes when a file in them goes away. The schema's types are made, not written.
+PAGE_SOURCES := $(shell find web/src web/public -not -name schema.d.ts 2>/dev/null) \
+	$(filter-out web/dist web/node_modules,$(wildcard web/*.json web/*.ts web/*.js web/*.html))
+
+# An environment that was made elsewhere, or whose Python has gone, is made again.
+SOUND := $(shell [ "$$(cat $(STAMPS)/place 2>/dev/null)" = "$$(pwd)" ] \
+	&& $(PYTHON_IN_VENV) -c '' 2>/dev/null && echo yes)
+
+# ---------------------------------------------------------------- for everybody
+
+.PHONY: help
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
+
+.PHONY: run
+run: ready ## start Coaxial with the rehearsal theatre, and print the address to open (ARGS="..." go to coaxial run)
+	@exec $(PYTHON_IN_VENV) -m server run $(ARGS)
+
+.PHONY: test
+test: ready $(STAMPS)/dev ## everything: format, lint, types, contracts, Python, web and browser tests
+	@$(MAKE) check
+	@$(MAKE) test-web
+	@$(MAKE) test-python
+
+.PHONY: check
+check: ## what is checked without running the program: lint and types
+	@$(MAKE) lint
+	@$(MAKE) types
+
+# ---------------------------------------------------------------- for developers
+
+.PHONY: format
+format: $(STAMPS)/dev $(STAMPS)/page-packages ## put all code into its form
+	@$(PYTHON_IN_VENV) -m ruff format .
+	@$(PYTHON_IN_VENV) -m ruff check --fix .
+	@$(NPM) run --silent format
+
+.PHONY: lint
+lint: $(STAMPS)/dev $(STAMPS)/page-packages ## form, lint and import contracts
+	@$(PYTHON_IN_VENV) -m ruff format --check .
+	@$(PYTHON_IN_VENV) -m ruff check .
+	@.venv/bin/lint-imports --no-logo
+	@$(NPM) run --silent format:check
+	@$(NPM) run --silent lint
+
+.PHONY: types
+types: $(STAMPS)/dev $(STAMPS)/page-packages ## strict types, Python and TypeScript
+	@$(PYTHON_IN_VENV) -m mypy
+	@$(NPM) run --silent types
+
+.PHONY: test-web
+test-web: $(STAMPS)/page-packages
+	@$(NPM) run --silent test
+
+.PHONY: test-python
+test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests/server -k words" narrows them)
+	@COAXIAL_CHROMIUM="$$(sh .make/find-chromium)" || exit 1; export COAXIAL_CHROMIUM; \
+	$(PYTHON_IN_VENV) -m pytest --junitxml=.venv/log/pytest.xml $(TESTS) && \
+	$(PYTHON_IN_VENV) .make/some-test-passed .venv/log/pytest.xml
+
+.PHONY: benchmark
+benchmark: ready $(STAMPS)/dev ## time each stage, and measure the poses against the rehearsal's truth
+	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)
+
+.PHONY: lock
+lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest of everything)
+	@UPGRADE="$(UPGRADE)" sh .make/lock
+
+.PHONY: clean
+clean: ## take away everything that was made (cases and state in .coaxial stay)
+	rm -rf .venv web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# ---------------------------------------------------------------- what they stand on
+
+.PHONY: ready
+ready: $(STAMPS)/project $(STAMPS)/page $(STAMPS)/warm
+
+$(STAMPS)/place: $(if $(SOUND),,anew)
+	@python=$$(PYTHON="$(PYTHON)" sh .make/find-python) && rm -rf .venv && mkdir -p .venv/log && \
+	$(STEP) environment "Making the environment in .venv with $$python" \
+		"Look whether the disk is full or this folder may not be written." \
+		"$$python" -m venv .venv && mkdir -p $(STAMPS) && pwd >$@
+
+.PHONY: anew
+anew:
+
+$(STAMPS)/packages: requirements.lock requirements-build.lock $(STAMPS)/place
+	@$(STEP) packages "Installing Python packages (about a minute, once)" \
+		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
+		$(PIP) install --require-hashes --no-deps -r requirements.lock -r requirements-build.lock
+	@touch $@
+
+$(STAMPS)/project: pyproject.toml $(STAMPS)/packages
+	@$(STEP) project "Installing Coaxial itself" "Look at pyproject.toml." \
+		$(PIP) install --no-index --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(STAMPS)/dev: requirements-dev.lock $(STAMPS)/packages
+	@$(STEP) dev "Installing what the tests need (about a minute, once)" \
+		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
+		$(PIP) install --require-hashes --no-deps -r requirements-dev.lock
+	@touch $@
+
+$(STAMPS)/page-packages: web/package-lock.json requirements-node.lock $(STAMPS)/place
+	@$(STEP) page-packages "Installing the page's packages (about a minute, once)" \
+		"Look whether this machine reaches its package registry, then try again." \
+		$(NPM) ci --include=dev
+	@touch $@
+
+$(STAMPS)/page: $(PAGE_SOURCES) $(STAMPS)/page-packages
+	@$(STEP) page "Building the page" "Look at the log; the page's sources are in web/src." \
+		$(NPM) run build
+	@touch $@
+
+$(STAMPS)/warm: $(TRACKER_SOURCES) $(STAMPS)/project
+	@$(STEP) warm "Compiling the tracker for this machine (once)" "Look at the log." \
+		$(PYTHON_IN_VENV) -m tracker.warm_up
+	@touch $@

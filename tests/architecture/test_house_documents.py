@@ -1,0 +1,81 @@
+"""The documents: what they name exists, and what a stranger needs stands on the first screen."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+DOCUMENTS = sorted(
+    [*ROOT.glob("*.md"), *(ROOT / room / "README.md" for room in ("tracker", "server", "web", "tests"))]
+)
+FIRST_SCREEN = 30  # lines
+LARGEST_PICTURE_BYTES = 300_000
+
+
+def text_of(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+def targets(makefile: str) -> set[str]:
+    return set(re.findall(r"^([a-z][a-z-]*):", makefile, re.MULTILINE))
+
+
+def links(text: str) -> list[str]:
+    """Where the document's links to files of this project point."""
+    found = re.findall(r"\]\(([^)\s]+)\)", text)
+    return [link.split("#")[0] for link in found if "://" not in link and not link.startswith("#")]
+
+
+def commands(text: str) -> set[str]:
+    """Every target that the document tells the reader to make, in a line of code or in a sentence."""
+    return set(re.findall(r"(?:^|`)make ([a-z][a-z-]*)", text, re.MULTILINE))
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_every_link_leads_to_a_file(document: Path) -> None:
+    assert [link for link in links(text_of(document)) if not (document.parent / link).exists()] == []
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_every_command_can_be_made(document: Path) -> None:
+    assert commands(text_of(document)) - targets(text_of(ROOT / "Makefile")) == set()
+
+
+def test_a_dead_link_and_a_dead_command_are_seen() -> None:
+    text = (
+        "[there](nowhere.md#part), [out](https://example.org)\n```sh\nmake coffee   # now\n```\nor `make tea`"
+    )
+    assert links(text) == ["nowhere.md"]
+    assert commands(text) == {"coffee", "tea"}
+
+
+def test_the_first_screen_says_what_a_stranger_must_know() -> None:
+    screen = "\n".join(text_of(ROOT / "README.md").splitlines()[:FIRST_SCREEN])
+    assert "Research software, not a medical device" in screen
+    assert "](web/dashboard.png)" in screen
+    assert {"run", "test"} <= commands(screen)
+
+
+def test_the_picture_is_small() -> None:
+    assert (ROOT / "web" / "dashboard.png").stat().st_size < LARGEST_PICTURE_BYTES
+
+
+def test_help_lists_every_target_that_the_documents_name() -> None:
+    makefile = text_of(ROOT / "Makefile")
+    helped = set(re.findall(r"^([a-z][a-z-]*):.*## ", makefile, re.MULTILINE))
+    assert set().union(*(commands(text_of(document)) for document in DOCUMENTS)) <= helped
+
+
+def test_the_licence_is_the_one_that_is_promised() -> None:
+    licence = text_of(ROOT / "LICENSE")
+    assert licence.split("\n", 2)[1].strip() == "Apache License"
+    assert "END OF TERMS AND CONDITIONS" in licence
+    assert 'license = "Apache-2.0"' in text_of(ROOT / "pyproject.toml")
+
+
+def test_the_gate_calls_what_a_person_calls() -> None:
+    gate = text_of(ROOT / ".ci" / "run")
+    assert gate.splitlines()[-1].startswith("exec make test")
+    assert "\nset -euo pipefail\n" in gate
+    assert (ROOT / ".ci" / "run").stat().st_mode & 0o111

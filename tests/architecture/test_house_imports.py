@@ -1,0 +1,9 @@
+"""Who may import whom, as pyproject.toml says it."""
+
+import pytest
+from importlinter.cli import lint_imports
+
+
+def test_every_import_contract_is_kept(capsys: pytest.CaptureFixture[str]) -> None:
+    kept = lint_imports(no_cache=True) == 0
+    assert kept, capsys.readouterr().out

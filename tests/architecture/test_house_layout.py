@@ -1,0 +1,120 @@
+"""The house as it stands in git: what lies where, what it is called, how long it is."""
+
+import ast
+import subprocess
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+TOP = {
+    *("pyproject.toml", "server", "tracker", "web", "tests", "config.yaml", "Dockerfile", "Makefile"),
+    *("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE"),
+}
+ROOMS = ("tracker", "server", "tests", "web")
+PACKAGES = ("tracker", "server")
+SAYS_NOTHING = {"utils", "util", "helpers", "helper", "common", "manager", "data", "info", "misc"}
+MOST_LINES = 350
+MOST_LINES_OF_A_FUNCTION = 60
+CODE = (".py", ".ts", ".tsx")
+
+
+def files_in_git() -> list[Path]:
+    """What is tracked or about to be, relative to the top, as far as it exists."""
+    listed = subprocess.run(
+        # The checkout may belong to somebody else than who tests it, as in a container.
+        ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    return [Path(name) for name in listed.stdout.split("\0") if name and (ROOT / name).exists()]
+
+
+def odd_at_the_top(files: Iterable[Path]) -> set[str]:
+    top = {file.parts[0] for file in files}
+    return {name for name in top - TOP if not name.startswith(".") and not name.startswith("requirements")}
+
+
+def named_for_nothing(files: Iterable[Path]) -> list[Path]:
+    return [file for file in files if SAYS_NOTHING & {part.lower() for part in (*file.parts[:-1], file.stem)}]
+
+
+def too_long(name: str, text: str) -> list[str]:
+    lines = text.count("\n")
+    faults = [f"{name} has {lines} lines"] if lines > MOST_LINES else []
+    if not name.endswith(".py"):
+        return faults
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            length = (node.end_lineno or node.lineno) - node.lineno + 1
+            if length > MOST_LINES_OF_A_FUNCTION:
+                faults.append(f"{name}: {node.name} has {length} lines")
+    return faults
+
+
+def packages_that_say_nothing(top: Path) -> list[str]:
+    """Folders with Python in them whose __init__.py is missing or has no docstring."""
+    silent = []
+    for folder in sorted({file.parent for file in top.rglob("*.py")}):
+        door = folder / "__init__.py"
+        if not door.exists() or not ast.get_docstring(ast.parse(door.read_text(encoding="utf-8"))):
+            silent.append(str(folder))
+    return silent
+
+
+def test_at_the_top_lies_only_what_was_agreed() -> None:
+    files = files_in_git()
+    assert odd_at_the_top(files) == set()
+    assert {file.parts[0] for file in files} >= TOP
+
+
+def test_a_stray_file_at_the_top_is_seen() -> None:
+    assert odd_at_the_top([Path("setup.cfg"), Path("tracker/a.py"), Path(".gitignore")]) == {"setup.cfg"}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_each_room_says_in_a_readme_what_it_is_for(room: str) -> None:
+    readme = ROOT / room / "README.md"
+    assert readme.exists(), f"{room} has no README.md"
+    assert readme.read_text(encoding="utf-8").startswith("# ")
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_each_package_says_in_a_docstring_what_it_is_for(package: str) -> None:
+    assert packages_that_say_nothing(ROOT / package) == []
+
+
+def test_a_package_without_docstring_is_seen(tmp_path: Path) -> None:
+    (tmp_path / "told").mkdir()
+    (tmp_path / "told" / "__init__.py").write_text('"""Says it."""\n')
+    (tmp_path / "mute").mkdir()
+    (tmp_path / "mute" / "__init__.py").write_text("import os\n")
+    (tmp_path / "bare").mkdir()
+    (tmp_path / "bare" / "thing.py").write_text("x = 1\n")
+    assert [Path(name).name for name in packages_that_say_nothing(tmp_path)] == ["bare", "mute"]
+
+
+def test_no_name_says_nothing() -> None:
+    assert named_for_nothing(file for file in files_in_git() if file.suffix in CODE) == []
+
+
+def test_a_name_that_says_nothing_is_seen() -> None:
+    files = [Path("server/utils.py"), Path("tracker/common/edge.py"), Path("tracker/data_rate.py")]
+    assert named_for_nothing(files) == files[:2]
+
+
+def test_files_and_functions_fit_the_eye() -> None:
+    faults: list[str] = []
+    for file in files_in_git():
+        if file.suffix in CODE:
+            faults += too_long(str(file), (ROOT / file).read_text(encoding="utf-8"))
+    assert faults == []
+
+
+def test_what_is_too_long_is_seen() -> None:
+    function = "def endless() -> None:\n" + "    x = 1\n" * 60
+    assert too_long("a.py", function) == ["a.py: endless has 61 lines"]
+    assert too_long("a.ts", "\n" * 351) == ["a.ts has 351 lines"]

@@ -1,0 +1,99 @@
+"""The locks: exact, with hashes, agreeing with each other and with what is asked for, and without a place."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+LOCKS = ("requirements.lock", "requirements-build.lock", "requirements-node.lock", "requirements-dev.lock")
+PIN = re.compile(r"^([a-z0-9][a-z0-9.-]*)==(\S+)")
+PLACE = re.compile(r"://|\bfile:|^-|--(index|find|extra|trusted)|@ |(^|\s)[./~]", re.MULTILINE)
+
+
+def text_of(lock: str) -> str:
+    return (ROOT / lock).read_text(encoding="utf-8")
+
+
+def entries(text: str) -> list[str]:
+    """One entry a package: comments gone, continued lines joined."""
+    bare = "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("#"))
+    return [line for line in bare.replace("\\\n", " ").splitlines() if line.strip()]
+
+
+def faults_of(text: str) -> list[str]:
+    faults = []
+    for entry in entries(text):
+        name = entry.split()[0]
+        if not PIN.match(entry):
+            faults.append(f"{name} is not pinned to one version")
+        if not re.search(r"--hash=sha256:[0-9a-f]{64}", entry):
+            faults.append(f"{name} has no hash")
+        if PLACE.search(re.sub(r"--hash=\S+", "", entry)):
+            faults.append(f"{name} names a place")
+    return faults
+
+
+def versions(lock: str) -> dict[str, str]:
+    matches = (PIN.match(entry) for entry in entries(text_of(lock)))
+    return {match[1]: match[2] for match in matches if match}
+
+
+def asked_for() -> dict[str, list[str]]:
+    """Names that pyproject.toml asks for, by the lock that must hold them."""
+    project: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    groups = project["dependency-groups"]
+
+    def names(requirements: list[Any]) -> list[str]:
+        strings = [r for r in requirements if isinstance(r, str)]
+        return [re.split(r"[^A-Za-z0-9._-]", r)[0].lower().replace("_", "-") for r in strings]
+
+    runtime = names(project["project"]["dependencies"])
+    return {
+        "requirements.lock": runtime,
+        "requirements-build.lock": names(groups["build"]),
+        "requirements-node.lock": names(groups["node"]),
+        "requirements-dev.lock": runtime + names(groups["build"]) + names(groups["dev"]),
+    }
+
+
+@pytest.mark.parametrize("lock", LOCKS)
+def test_every_package_is_pinned_with_hashes_and_without_a_place(lock: str) -> None:
+    assert versions(lock)
+    assert faults_of(text_of(lock)) == []
+
+
+@pytest.mark.parametrize(
+    ("line", "fault"),
+    [
+        pytest.param("numpy>=2 --hash=sha256:" + "a" * 64, "is not pinned", id="a-range"),
+        pytest.param("numpy==2.0", "has no hash", id="no-hash"),
+        pytest.param("--find-links wheels", "names a place", id="a-folder-of-wheels"),
+        pytest.param("-i somewhere", "names a place", id="an-index"),
+        pytest.param("a @ file:///x.whl --hash=sha256:" + "a" * 64, "names a place", id="a-local-file"),
+    ],
+)
+def test_what_must_not_be_in_a_lock_is_seen(line: str, fault: str) -> None:
+    assert any(fault in told for told in faults_of(line))
+
+
+@pytest.mark.parametrize("lock", LOCKS)
+def test_a_lock_holds_what_the_project_asks_for(lock: str) -> None:
+    assert set(asked_for()[lock]) <= versions(lock).keys()
+
+
+@pytest.mark.parametrize("lock", ["requirements.lock", "requirements-build.lock"])
+def test_what_runs_is_what_was_tested(lock: str) -> None:
+    tested = versions("requirements-dev.lock")
+    assert {name: tested.get(name) for name in versions(lock)} == versions(lock)
+
+
+def test_the_page_s_lock_has_hashes_and_names_no_registry() -> None:
+    lock = json.loads((ROOT / "web" / "package-lock.json").read_text(encoding="utf-8"))
+    packages = {name: entry for name, entry in lock["packages"].items() if name}
+    assert packages
+    assert [name for name, entry in packages.items() if "resolved" in entry] == []
+    assert [name for name, entry in packages.items() if "integrity" not in entry] == []

@@ -1,0 +1,157 @@
+"""The steps of the set-up: what they say on a machine where something is missing."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def bare_path(tmp_path: Path) -> Path:
+    """A folder for the path in which there is a shell's bread and butter, and no Python, Node or browser."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    for name in ("sh", "cat", "tail", "mkdir", "id", "env", "dirname", "rm", "ln", "chmod"):
+        found = next(p for p in (Path("/bin") / name, Path("/usr/bin") / name) if p.exists())
+        (folder / name).symlink_to(found)
+    return folder
+
+
+def put(folder: Path, name: str, script: str) -> None:
+    program = folder / name
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+
+
+def step(
+    name: str, *arguments: str, path: Path, cwd: Path = ROOT, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [str(path / "sh"), str(ROOT / ".make" / name), *arguments],
+        env={"PATH": str(path), **environment},
+        cwd=cwd,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_a_machine_without_python_is_told_what_it_needs(bare_path: Path) -> None:
+    said = step("find-python", path=bare_path)
+    assert said.returncode == 1
+    assert said.stdout == ""
+    assert "needs Python 3.11 or newer, and none was found" in said.stderr
+    assert "Traceback" not in said.stderr
+
+
+def python_of_version(major: int, minor: int) -> str:
+    """A script that answers as a Python of this version would."""
+    pretend = f"import sys; sys.version_info = ({major}, {minor}, 0, 'final', 0); exec(sys.argv[1])"
+    return f'exec {sys.executable} -c "{pretend}" "$2"'
+
+
+@pytest.mark.parametrize(("minor", "taken"), [(9, False), (10, False), (11, True), (14, True)])
+def test_a_python_is_taken_from_3_11_on(bare_path: Path, minor: int, *, taken: bool) -> None:
+    put(bare_path, "python3", python_of_version(3, minor))
+    said = step("find-python", path=bare_path)
+    assert (said.returncode == 0) is taken
+    assert (f"is 3.{minor}." in said.stderr and "PYTHON=" in said.stderr) is not taken
+
+
+def test_a_python_without_venv_is_told_the_package_to_install(bare_path: Path) -> None:
+    real = sys.executable
+    put(bare_path, "python3.12", f'case "$2" in *ensurepip*) exit 1;; *) exec {real} "$@";; esac')
+    said = step("find-python", path=bare_path)
+    assert said.returncode == 1
+    assert f"python{sys.version_info[0]}.{sys.version_info[1]}-venv" in said.stderr
+
+
+def test_a_launcher_that_starts_nothing_is_passed_over(bare_path: Path) -> None:
+    put(bare_path, "python3.13", "echo no such version >&2; exit 127")
+    put(bare_path, "python3", f'exec {sys.executable} "$@"')
+    said = step("find-python", path=bare_path)
+    assert said.returncode == 0
+    assert Path(said.stdout.strip()).exists()
+
+
+def test_a_python_that_was_named_is_the_one_that_is_taken(bare_path: Path) -> None:
+    put(bare_path, "python3", "exit 1")
+    said = step("find-python", path=bare_path, PYTHON=sys.executable)
+    assert said.stdout.strip() == sys.executable
+
+
+def test_a_machine_without_browser_is_told_how_to_name_one(bare_path: Path) -> None:
+    said = step("find-chromium", path=bare_path)
+    assert said.returncode == 1
+    assert "COAXIAL_CHROMIUM=" in said.stderr
+
+
+def test_a_browser_that_was_named_wrongly_is_not_replaced_silently(bare_path: Path) -> None:
+    put(bare_path, "chromium", "exit 0")
+    said = step("find-chromium", path=bare_path, COAXIAL_CHROMIUM="/no/such/chromium")
+    assert said.returncode == 1
+    assert "/no/such/chromium" in said.stderr
+
+
+def test_a_browser_on_the_path_is_found(bare_path: Path) -> None:
+    put(bare_path, "chromium", "exit 0")
+    assert step("find-chromium", path=bare_path).stdout.strip() == str(bare_path / "chromium")
+
+
+@pytest.mark.parametrize(
+    ("version", "taken"),
+    [
+        ("20.18.3", False),
+        ("20.19.0", True),
+        ("21.7.0", False),
+        ("22.11.0", False),
+        ("22.12.0", True),
+        ("26.1.0", True),
+    ],
+)
+def test_the_machine_s_node_is_taken_only_if_it_can_build_the_page(
+    bare_path: Path, tmp_path: Path, version: str, *, taken: bool
+) -> None:
+    put(bare_path, "node", f"echo v{version}")
+    put(bare_path, "npm", "echo 11")
+    said = step("with-node", ".", "cat", "/dev/null", path=bare_path, cwd=tmp_path)
+    # Without the machine's node it reaches for the environment, which this folder has not.
+    assert (said.returncode == 0) is taken
+    assert (".venv/bin/python" in said.stderr) is not taken
+
+
+def test_a_step_that_works_says_one_line(bare_path: Path, tmp_path: Path) -> None:
+    put(bare_path, "chatter", "echo much; echo more >&2")
+    said = step("step", "talk", "Talking", "Be quiet.", "chatter", path=bare_path, cwd=tmp_path)
+    assert (said.returncode, said.stdout, said.stderr) == (0, "Talking ...\n", "")
+
+
+def test_a_step_that_fails_says_why_and_what_to_do(bare_path: Path, tmp_path: Path) -> None:
+    put(bare_path, "broken", "echo the cable is out >&2; exit 7")
+    said = step("step", "plug", "Plugging in", "Look at the cable.", "broken", path=bare_path, cwd=tmp_path)
+    assert said.returncode == 1
+    assert "the cable is out" in said.stderr
+    assert "Failed: Plugging in. Look at the cable." in said.stderr
+
+
+@pytest.mark.parametrize(
+    ("suite", "passes"),
+    [
+        pytest.param('<testsuite tests="3" skipped="3"/>', False, id="all-skipped"),
+        pytest.param('<testsuite tests="0" skipped="0"/>', False, id="none"),
+        pytest.param('<testsuite tests="3" skipped="2"/>', True, id="one-ran"),
+    ],
+)
+def test_a_run_that_executed_nothing_is_no_pass(tmp_path: Path, suite: str, *, passes: bool) -> None:
+    report = tmp_path / "report.xml"
+    report.write_text(f"<testsuites>{suite}</testsuites>")
+    judged = subprocess.run(
+        [sys.executable, str(ROOT / ".make" / "some-test-passed"), str(report)],
+        check=False,
+        capture_output=True,
+    )
+    assert (judged.returncode == 0) is passes
