@@ -56,16 +56,28 @@ LIMBS = (
     ),
     # articular pillar, superior and inferior articular process, mammillary process
     Limb(start_mm=(17.6, 11.0, 8.0), end_mm=(15.5, 13.0, -12.0), start_radius_mm=6.6, end_radius_mm=5.8),
-    Limb(start_mm=(19.0, 10.5, 10.0), end_mm=(19.8, 13.5, 21.0), start_radius_mm=5.8, end_radius_mm=4.6),
-    Limb(start_mm=(14.6, 14.0, -10.0), end_mm=(12.8, 17.0, -25.0), start_radius_mm=5.8, end_radius_mm=4.8),
+    Limb(
+        start_mm=(19.0, 10.5, 10.0),
+        end_mm=(20.2, 13.5, 21.5),
+        start_radius_mm=6.6,
+        end_radius_mm=5.4,
+        squash=(0.8, 1.0, 1.0),
+    ),
+    Limb(
+        start_mm=(14.6, 14.0, -10.0),
+        end_mm=(13.2, 17.0, -24.5),
+        start_radius_mm=6.4,
+        end_radius_mm=5.6,
+        squash=(1.0, 0.72, 1.0),
+    ),
     Limb(start_mm=(21.0, 15.5, 12.0), end_mm=(21.5, 18.0, 13.5), start_radius_mm=3.4, end_radius_mm=2.6),
     # transverse process, flat from front to back
     Limb(
         start_mm=(19.0, 9.5, 3.0),
         end_mm=(41.6, 13.5, 6.0),
-        start_radius_mm=6.0,
-        end_radius_mm=4.2,
-        squash=(1.0, 0.72, 1.0),
+        start_radius_mm=7.2,
+        end_radius_mm=4.4,
+        squash=(1.0, 0.62, 1.0),
     ),
     # lamina: a plate from the pillar to the midline
     Limb(
@@ -125,7 +137,8 @@ def bone_normals(points_mm: npt.ArrayLike, reach_mm: float = 0.4) -> Array:
     """Unit directions (n, 3) out of the bone at points (n, 3), from differences over `reach_mm`."""
     p = np.asarray(points_mm, dtype=np.float64)
     gradient = _gradient(p, reach_mm)
-    return gradient / np.maximum(np.linalg.norm(gradient, axis=1, keepdims=True), 1e-9)
+    length = np.linalg.norm(gradient, axis=1, keepdims=True)
+    return np.asarray(gradient / np.maximum(length, 1e-9), dtype=np.float64)
 
 
 @lru_cache(maxsize=1)
@@ -186,7 +199,7 @@ def _body(x: Field, y: Field, z: Field) -> Field:
     oval = np.sqrt((x / half_x) ** 2 + ((y - BODY_CENTRE_Y_MM) / half_y) ** 2)
     wall = (oval - waist) * half_y
     hollow = 1.4 * np.clip(1.0 - oval**2, 0.0, 1.0)
-    plate = np.abs(z) - half_z + hollow
+    plate = np.asarray(np.abs(z) - half_z + hollow, dtype=np.float32)
     return np.asarray(-_melt(-wall, -plate, 5.0), dtype=np.float32)
 
 

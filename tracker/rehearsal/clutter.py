@@ -41,8 +41,10 @@ def sheets(clutter: float, random: np.random.Generator) -> list[Sheet]:
     for i in range(round(1.4 * clutter)):
         picture, size = _gauze(random) if i % 2 == 0 else _label(random)
         out.append(_laid(picture, size, places[i % len(places)], 0.05 + 0.02 * i, random))
-    for i in range(round(max(0.0, clutter - LOOKALIKES_ABOVE) * 1.5)):
-        out.append(_laid(_lookalike(random), (36.0, 36.0), places[(i + 3) % len(places)], 0.10, random))
+    out.extend(
+        _laid(_lookalike(random), (36.0, 36.0), places[(i + 3) % len(places)], 0.10, random)
+        for i in range(round(max(0.0, clutter - LOOKALIKES_ABOVE) * 1.5))
+    )
     return out
 
 
@@ -56,8 +58,8 @@ def instruments(
         x, z = x + random.normal(0.0, 12.0), z + random.normal(0.0, 12.0)
         angle = random.uniform(0.0, np.pi)
         pair = i % 2 == 0
-        for side in (-1.0, 1.0) if pair else (0.0,):
-            out.append(_bar(field, (x, z), angle, side, random.uniform(105.0, 150.0)))
+        length_mm = random.uniform(105.0, 150.0)
+        out.extend(_bar(field, (x, z), angle, side, length_mm) for side in ((-1.0, 1.0) if pair else (0.0,)))
     return out
 
 
@@ -112,26 +114,26 @@ def _gauze(random: np.random.Generator) -> tuple[Image32, tuple[float, float]]:
 
 
 def _label(random: np.random.Generator) -> tuple[Image32, tuple[float, float]]:
-    picture = np.full((120, 260, 4), (0.93, 0.93, 0.92, 1.0), dtype=np.float32)
-    cv2.rectangle(picture, (0, 0), (259, 24), (0.60, 0.38, 0.16, 1.0), -1)
-    ink = (0.20, 0.18, 0.18, 1.0)
+    picture = np.full((120, 260, 4), (237, 237, 234, 255), dtype=np.uint8)
+    cv2.rectangle(picture, (0, 0), (259, 24), (153, 97, 41, 255), -1)
+    ink, white, font = (51, 46, 46, 255), (242, 242, 242, 255), cv2.FONT_HERSHEY_SIMPLEX
     number = int(random.integers(10000, 99999))
-    cv2.putText(picture, "SPINE TRAY", (8, 19), cv2.FONT_HERSHEY_SIMPLEX, 0.6, (0.95, 0.95, 0.95, 1.0), 2)
-    cv2.putText(picture, f"LOT {number}", (8, 56), cv2.FONT_HERSHEY_SIMPLEX, 0.7, ink, 2)
+    cv2.putText(picture, "SPINE TRAY", (8, 19), font, 0.6, white, 2)
+    cv2.putText(picture, f"LOT {number}", (8, 56), font, 0.7, ink, 2)
     x = 8
     while x < 240:
         bar = int(random.integers(2, 6))
         cv2.rectangle(picture, (x, 72), (x + bar - 1, 108), ink, -1)
         x += bar + int(random.integers(2, 6))
-    return picture, (46.0, 21.0)
+    return picture.astype(np.float32) / 255.0, (46.0, 21.0)
 
 
 def _lookalike(random: np.random.Generator) -> Image32:
     """A black square with a white shape of its own on white paper, as another team's marker may be."""
-    side = 144
-    picture = np.full((side, side, 4), (0.90, 0.90, 0.90, 1.0), dtype=np.float32)
-    cv2.rectangle(picture, (22, 22), (121, 121), (0.08, 0.08, 0.08, 1.0), -1)
+    side, paper, ink = 144, (230, 230, 230, 255), (20, 20, 20, 255)
+    picture = np.full((side, side, 4), paper, dtype=np.uint8)
+    cv2.rectangle(picture, (22, 22), (121, 121), ink, -1)
     corners = random.uniform(38.0, 106.0, (int(random.integers(3, 7)), 2)).astype(np.int32)
     hull = cv2.convexHull(corners.reshape(-1, 1, 2))
-    cv2.fillConvexPoly(picture, hull, (0.90, 0.90, 0.90, 1.0), cv2.LINE_AA)
-    return picture
+    cv2.fillConvexPoly(picture, hull, paper, cv2.LINE_AA)
+    return picture.astype(np.float32) / 255.0

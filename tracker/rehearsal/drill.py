@@ -8,7 +8,31 @@ Image8 = npt.NDArray[np.uint8]
 
 # Radius over the distance from the tip: burr, shaft, sleeve, nose, handpiece, tail, cable.
 PROFILE_MM = np.array(
-    [0.0, 0.4, 1.0, 2.0, 3.0, 3.8, 4.4, 40, 40.2, 56, 56.2, 58, 74, 78, 88, 96, 168, 172, 180, 182, 190, 192, 330]
+    [
+        0.0,
+        0.4,
+        1.0,
+        2.0,
+        3.0,
+        3.8,
+        4.4,
+        40,
+        40.2,
+        56,
+        56.2,
+        58,
+        74,
+        78,
+        88,
+        96,
+        168,
+        172,
+        180,
+        182,
+        190,
+        192,
+        330,
+    ]
 )
 RADIUS_MM = np.array(
     [
@@ -22,7 +46,7 @@ PORTRAIT_START_MM, PORTRAIT_END_MM = -3.0, 330.0
 
 BOARD_HALF_MM = 17.5
 BOARD_PER_MM = 16.0
-BOARD_WHITE, BOARD_BLACK = 0.90, 0.09
+BOARD_WHITE, BOARD_BLACK = 0.97, 0.09
 BOARD_THICK_MM = 1.6
 BOARD_EDGE_GREY = 0.50
 
@@ -33,9 +57,9 @@ def drill_portrait() -> Image8:
     Columns run along the axis from `PORTRAIT_START_MM`, rows across it from -`PORTRAIT_HALF_MM`, both
     `PORTRAIT_PER_MM` to a millimetre.
     """
-    t = PORTRAIT_START_MM + (np.arange(int((PORTRAIT_END_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM)) + 0.5) / (
-        PORTRAIT_PER_MM
-    )
+    t = PORTRAIT_START_MM + (
+        np.arange(int((PORTRAIT_END_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM)) + 0.5
+    ) / (PORTRAIT_PER_MM)
     d = -PORTRAIT_HALF_MM + (np.arange(int(2 * PORTRAIT_HALF_MM * PORTRAIT_PER_MM)) + 0.5) / PORTRAIT_PER_MM
     radius = np.interp(t, PROFILE_MM, RADIUS_MM, left=0.0)[None, :]
     across = np.clip(d[:, None] / np.maximum(radius, 1e-6), -1.0, 1.0)
@@ -51,7 +75,7 @@ def board_face(emblem: Image8) -> Image8:
     start = (side - emblem.shape[0]) // 2
     printed = BOARD_BLACK + (BOARD_WHITE - BOARD_BLACK) * emblem.astype(np.float32) / 255.0
     face[start : start + emblem.shape[0], start : start + emblem.shape[1]] = printed
-    return np.rint(face * 255.0).astype(np.uint8)
+    return np.asarray(np.rint(face * 255.0), dtype=np.uint8)
 
 
 def _colour(t: npt.NDArray[np.float64], s: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
@@ -81,4 +105,4 @@ def _premultiplied(colour: npt.NDArray[np.float64], coverage: npt.NDArray[np.flo
     layer = np.dstack([colour * coverage[..., None], coverage])
     # Half a pixel of softness keeps the outline smooth when it is looked up askew.
     soft = cv2.GaussianBlur(layer.astype(np.float32), (0, 0), 0.7)
-    return np.rint(soft * 255.0).astype(np.uint8)
+    return np.asarray(np.rint(soft * 255.0), dtype=np.uint8)

@@ -15,7 +15,7 @@ FINER = 4
 
 
 def drill_emblem(side_px: int = 400) -> npt.NDArray[np.uint8]:
-    """The printed face (side_px, side_px), black 0 and white 255, which the black square fills edge to edge."""
+    """The printed face (side_px, side_px), black 0, white 255; the black square fills it edge to edge."""
     fine_px = side_px * FINER
     image = np.zeros((fine_px, fine_px), dtype=np.uint8)
     for shape in (BOOT, BAR):
@@ -30,4 +30,4 @@ def drill_emblem(side_px: int = 400) -> npt.NDArray[np.uint8]:
 def _fixed(points: tuple[tuple[float, float], ...], side_px: int) -> npt.NDArray[np.int32]:
     """Fixed-point pixel coordinates of points in sides; the square's edge lies half a pixel outside 0."""
     px = np.asarray(points, dtype=np.float64) * side_px - 0.5
-    return np.rint(px * 2**SHIFT_BITS).astype(np.int32)
+    return np.asarray(np.rint(px * 2**SHIFT_BITS), dtype=np.int32)

@@ -24,10 +24,14 @@ class OperatingField:
         zs = np.arange(MAP_Z_MM[0], MAP_Z_MM[1], MAP_STEP_MM, dtype=np.float32)
         x, z = np.meshgrid(xs, zs)
         rho = wound_ratio(x, z)
-        height = BED_MM + (SKIN_MM - BED_MM) * _step(rho, *WALL) + 2.2 * _step(rho, DRAPE_EDGE, DRAPE_EDGE + 0.035)
+        height = (
+            BED_MM + (SKIN_MM - BED_MM) * _step(rho, *WALL) + 2.2 * _step(rho, DRAPE_EDGE, DRAPE_EDGE + 0.035)
+        )
         height += _folds(x, z, random) * _step(rho, DRAPE_EDGE, 2.6)
         # The muscle is not flat: it bulges between the processes and sinks beside them.
-        height += 1.5 * np.sin(x / 7.0 + random.uniform(0, 6)) * np.sin(z / 9.0) * (1.0 - _step(rho, 0.8, 1.0))
+        height += (
+            1.5 * np.sin(x / 7.0 + random.uniform(0, 6)) * np.sin(z / 9.0) * (1.0 - _step(rho, 0.8, 1.0))
+        )
         self._height = height.astype(np.float32)
 
     def height_at(self, x_mm: Image32, z_mm: Image32) -> Image32:

@@ -19,7 +19,8 @@ class Grain:
         # Amplitude over frequency to 1.2: bone, skin and cloth all have about as much on every scale.
         cloudy = np.fft.irfft2(spectrum / size**1.2, s=(TILE, TILE))
         self._cloudy = ((cloudy - cloudy.mean()) / cloudy.std()).astype(np.float32)
-        self._white = cv2.GaussianBlur(white, (0, 0), 0.6, borderType=cv2.BORDER_REFLECT_101)
+        soft = cv2.GaussianBlur(white, (0, 0), 0.6, borderType=cv2.BORDER_REFLECT_101)
+        self._white: Image32 = np.asarray(soft, dtype=np.float32)
 
     def clouds(self, x_mm: Image32, y_mm: Image32, period_mm: float) -> Image32:
         """Clouds that repeat every `period_mm`, at coordinates of any one shape (h, w)."""

@@ -9,13 +9,13 @@ Image32 = npt.NDArray[np.float32]
 
 # In the vertebra's frame: from the patient's left, above, and a little from the camera's side.
 TO_LAMP = np.array([0.50, 0.84, -0.22]) / np.linalg.norm([0.50, 0.84, -0.22])
-AMBIENT, DIFFUSE = 0.40, 0.66
+AMBIENT, DIFFUSE = 0.46, 0.74
 # A theatre lamp is wide: shadows are soft, and fade out with the distance of what throws them.
 PENUMBRA_MM, PENUMBRA_PER_MM = 0.7, 0.10
 SHADOW_DEPTH, SHADOW_FADES_MM = 0.55, 110.0
 
 
-def lit(normals: Image32) -> Image32:
+def lit(normals: Image32 | Array) -> Image32:
     """Brightness (n,) of a matt white surface with these unit normals (n, 3) in the vertebra's frame."""
     facing = normals @ TO_LAMP.astype(np.float32)
     # Half Lambert: light comes from many sides in a theatre, nothing is pitch dark.
@@ -36,9 +36,9 @@ def rod_shadow(
 ) -> Image32:
     """How much of the lamp a rod takes away, 0..1, at points (n, 3).
 
-    The rod starts at `tip` and runs along the unit direction `along`; its radius is given over the distance
-    from the tip. All in the vertebra's frame, mm. Distances between the rod and the ray to the lamp are linear
-    in the point, which makes this cheap.
+    The rod starts at `tip` and runs along the unit direction `along`; its radius is given over the
+    distance from the tip. All in the vertebra's frame, mm. Distances between the rod and the ray to the
+    lamp are linear in the point, which makes this cheap.
     """
     slant = float(along @ TO_LAMP)
     lean = max(1.0 - slant**2, 1e-6)
@@ -54,5 +54,7 @@ def rod_shadow(
     covered = np.clip((radius + soft - distance) / (2.0 * soft), 0.0, 1.0)
     # A rod thinner than its penumbra never hides the whole lamp.
     strength = np.minimum(1.0, radius / soft * 1.6) * np.exp(-np.maximum(s, 0.0) / SHADOW_FADES_MM)
-    ends = np.clip((t - profile_mm[0] + soft) / soft, 0, 1) * np.clip((profile_mm[-1] - t + soft) / soft, 0, 1)
+    ends = np.clip((t - profile_mm[0] + soft) / soft, 0, 1) * np.clip(
+        (profile_mm[-1] - t + soft) / soft, 0, 1
+    )
     return np.asarray(SHADOW_DEPTH * covered * strength * ends * (s > 0.0), dtype=np.float32)

@@ -41,6 +41,12 @@ class RayGrid:
         return self.nodes[row : row + height // NODE_PX + 2, column : column + width // NODE_PX + 2]
 
 
+def resized(image: Image32, width: int, height: int) -> Image32:
+    """The image at another size: averaged when it shrinks, linear when it grows."""
+    way = cv2.INTER_AREA if width < image.shape[1] else cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(image, (width, height), interpolation=way), dtype=np.float32)
+
+
 def spread(nodes: Image32, samples: int) -> Image32:
     """Values on the nodes of a block with its margin, as values on a grid of `samples` to a pixel's side."""
     finer = NODE_PX * samples

@@ -6,7 +6,9 @@ import numpy.typing as npt
 from tracker.geometry import Array
 
 CORNERS = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
-EDGES = np.array([(a, b) for a in range(8) for b in range(a + 1, 8) if np.abs(CORNERS[a] - CORNERS[b]).sum() == 1])
+EDGES = np.array(
+    [(a, b) for a in range(8) for b in range(a + 1, 8) if np.abs(CORNERS[a] - CORNERS[b]).sum() == 1]
+)
 
 
 def surface_net(
@@ -14,8 +16,8 @@ def surface_net(
 ) -> tuple[Array, npt.NDArray[np.int64]]:
     """Vertices (n, 3) and faces (m, 3), outward winding, of where `values` (i, j, k) turn positive.
 
-    Each cell that the surface crosses gives one vertex, the mean of the crossings on its edges; each grid edge
-    that it crosses gives two triangles between its four cells. Closed if no outermost value is negative.
+    Each cell that the surface crosses gives one vertex, the mean of the crossings on its edges; each grid
+    edge that it crosses gives two triangles between its four cells. Closed if no outermost value is negative.
     """
     inside = values < 0.0
     cells = tuple(n - 1 for n in values.shape)
@@ -41,9 +43,7 @@ def _mean_crossings(values: npt.NDArray[np.float32], crossed: npt.NDArray[np.int
     return np.asarray((points * crossing[..., None]).sum(1) / crossing.sum(1)[:, None], dtype=np.float64)
 
 
-def _quads(
-    inside: npt.NDArray[np.bool_], number: npt.NDArray[np.int64], axis: int
-) -> npt.NDArray[np.int64]:
+def _quads(inside: npt.NDArray[np.bool_], number: npt.NDArray[np.int64], axis: int) -> npt.NDArray[np.int64]:
     """The four cells (n, 4) around each crossed grid edge along `axis`, counter-clockwise from outside."""
     first = np.moveaxis(inside, axis, 0)
     cells = np.moveaxis(number, axis, 0)

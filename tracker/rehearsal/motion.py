@@ -35,7 +35,7 @@ PHASE_STARTS_S = (
 )
 
 # time s | across x mm, across y mm, depth mm | turn x deg, turn y deg, roll deg: of the drill against the
-# channel, about its own axes at rest (x to the right in the picture, y towards the camera, z down the channel).
+# channel, about its own axes at rest (x right in the picture, y towards the camera, z down the channel).
 KEYFRAMES = np.array(
     [
         [0.0, 62.0, 8.0, -38.0, -6.0, -15.0, 12.0],
@@ -58,7 +58,7 @@ KEYFRAMES = np.array(
     ]
 )
 
-# Hundredths of this many whole turns a cycle keep the motion periodic.
+# Whole turns a cycle keep the motion periodic.
 WOBBLE_TURNS = np.array([5, 9, 14, 22])
 WOBBLE_SIZE = np.array([0.10, 0.08, 0.06, 0.03])
 TREMOR_TURNS = np.array([327, 371, 411, 437])  # 8.2, 9.3, 10.3, 10.9 Hz

@@ -10,7 +10,6 @@ from tracker.rehearsal.drill import (
     BOARD_HALF_MM,
     BOARD_PER_MM,
     BOARD_THICK_MM,
-    PORTRAIT_END_MM,
     PORTRAIT_HALF_MM,
     PORTRAIT_PER_MM,
     PORTRAIT_START_MM,
@@ -57,11 +56,12 @@ class Renderer:
         picture = scenery.picture * self._sensor.gain[..., None]
         sigma = DEFOCUS_PX * theatre.settings.blur
         if sigma > 0.05:
-            picture = cv2.GaussianBlur(picture, (0, 0), sigma)
+            picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
         self._background = np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
         self._sigmas = self._sensor.sigmas(self._background)
         self._portrait = drill_portrait()
         self._face = board_face(theatre.marker.image)
+        self._whole = np.full_like(self._face, 255)
 
     def image_at(self, at_s: float) -> Image8:
         """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
@@ -85,7 +85,9 @@ class Renderer:
         axis = np.stack([np.zeros(5), np.zeros(5), -stations], axis=1)
         reach = np.stack([half, np.zeros(5), np.zeros(5)], axis=1)
         board = _board_corners(0.0)
-        points = np.concatenate([axis + reach, axis - reach, self._theatre.tool.marker_from_tool.inverse.move_points(board)])
+        points = np.concatenate(
+            [axis + reach, axis - reach, self._theatre.tool.marker_from_tool.inverse.move_points(board)]
+        )
         in_camera = to_camera.move_points(points)
         return self._theatre.camera.px_from_camera(in_camera[in_camera[:, 2] > 50.0])
 
@@ -103,14 +105,20 @@ class Renderer:
         x, y = (int(v) * NODE_PX for v in low)
         across, down = (int(v) * NODE_PX for v in high - low)
         # The image may end within a block.
-        return x, y, min(across, -(-(width - x) // NODE_PX) * NODE_PX), min(down, -(-(height - y) // NODE_PX) * NODE_PX)
+        return (
+            x,
+            y,
+            min(across, -(-(width - x) // NODE_PX) * NODE_PX),
+            min(down, -(-(height - y) // NODE_PX) * NODE_PX),
+        )
 
     def _draw_drill(self, image: Image8, box: Box, truth: Truth) -> None:
         layer = self._body(box, truth)
         self._add_board(layer, box, truth)
         kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
         if kernel is not None:
-            layer = cv2.filter2D(layer, -1, kernel, borderType=cv2.BORDER_REPLICATE)
+            soft = cv2.filter2D(layer, -1, kernel, borderType=cv2.BORDER_REPLICATE)
+            layer = np.asarray(soft, dtype=np.uint8)
         x, y, width, height = box
         part = image[y : y + height, x : x + width]
         layer = layer[: part.shape[0], : part.shape[1]]
@@ -124,7 +132,10 @@ class Renderer:
         """How fast the marker moves through the image."""
         ends = []
         for step in (-SPEED_OVER_S / 2.0, SPEED_OVER_S / 2.0):
-            pose = self._theatre.camera_from_tool_at(truth.at_s + step) @ self._theatre.tool.marker_from_tool.inverse
+            pose = (
+                self._theatre.camera_from_tool_at(truth.at_s + step)
+                @ self._theatre.tool.marker_from_tool.inverse
+            )
             ends.append(self._theatre.camera.px_from_camera(pose.translation_mm)[0])
         return np.asarray((ends[1] - ends[0]) / SPEED_OVER_S, dtype=np.float64)
 
@@ -132,7 +143,7 @@ class Renderer:
         """The drill's body (h, w, 4), premultiplied, without what is hidden in or behind the bone."""
         rays = self._rays.block(*box)
         where = spread(_along_across_depth(rays, truth.camera_from_tool), 1)
-        along, across, depth = cv2.split(where)
+        along, across, depth = (np.ascontiguousarray(where[..., i]) for i in range(3))
         column = (along - np.float32(PORTRAIT_START_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
         row = (across + np.float32(PORTRAIT_HALF_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
         layer = np.asarray(cv2.remap(self._portrait, column, row, cv2.INTER_LINEAR), dtype=np.uint8)
@@ -170,11 +181,11 @@ class Renderer:
         on_plane = rays @ np.linalg.inv(plane).T.astype(np.float32)
         mm = on_plane[..., :2] / on_plane[..., 2:]
         scale, half = np.float32(BOARD_PER_MM), np.float32(BOARD_HALF_MM)
-        face_px = np.dstack([(mm[..., 0] + half) * scale - 0.5, (half - mm[..., 1]) * scale - 0.5])
-        fine = spread(face_px.astype(np.float32), BOARD_SAMPLES)
+        column = spread((mm[..., :1] + half) * scale - np.float32(0.5), BOARD_SAMPLES)
+        row = spread((half - mm[..., 1:]) * scale - np.float32(0.5), BOARD_SAMPLES)
         brightness = float(lit((truth.camera_from_vertebra.rotation.T @ pose.rotation[:, 2])[None])[0])
-        grey = cv2.remap(self._face, fine, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
-        inside = cv2.remap(np.full_like(self._face, 255), fine, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
+        grey = cv2.remap(self._face, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
+        inside = cv2.remap(self._whole, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
         size = inner[2:]
         shade = cv2.resize(grey, size, interpolation=cv2.INTER_AREA).astype(np.float32) * brightness
         coverage = cv2.resize(inside, size, interpolation=cv2.INTER_AREA)

@@ -13,7 +13,7 @@ from tracker.rehearsal.clutter import PLACES, Sheet, instruments, sheets
 from tracker.rehearsal.field import OperatingField
 from tracker.rehearsal.grain import Grain
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow, shine
-from tracker.rehearsal.lens import NODE_PX, RayGrid, spread
+from tracker.rehearsal.lens import NODE_PX, RayGrid, resized, spread
 from tracker.rehearsal.raster import Covered, rasterise
 from tracker.rehearsal.soft import soft_colours
 from tracker.rehearsal.solids import Solid, ball, joined, tube
@@ -22,6 +22,7 @@ from tracker.rehearsal.theatre import Theatre
 Image32 = npt.NDArray[np.float32]
 FINER = 2
 LAMP_STEPS_MM = (2.5, 5.0, 9.0, 15.0, 24.0, 36.0)
+FARTHEST_SHADOW_MM = 60.0
 NEEDLE_COLOUR, NEEDLE_HEADS = (0.74, 0.73, 0.72), ((0.25, 0.75, 0.95), (0.85, 0.60, 0.20), (0.45, 0.75, 0.35))
 
 
@@ -51,7 +52,14 @@ class _Rod:
 
     def shadow(self, points: Image32) -> Image32:
         profile, radius = np.array([0.0, self.length_mm]), np.full(2, self.radius_mm)
-        return rod_shadow(points, self.tip_mm, self.along, profile, radius)
+        out = np.zeros(len(points), dtype=np.float32)
+        middle = (self.tip_mm + 0.5 * self.length_mm * self.along).astype(np.float32)
+        reach = 0.5 * self.length_mm + FARTHEST_SHADOW_MM
+        near = np.flatnonzero(
+            (np.abs(points[:, 0] - middle[0]) < reach) & (np.abs(points[:, 2] - middle[2]) < reach)
+        )
+        out[near] = rod_shadow(points[near], self.tip_mm, self.along, profile, radius)
+        return out
 
 
 def still_scenery(theatre: Theatre, rays: RayGrid) -> Scenery:
@@ -66,13 +74,13 @@ def still_scenery(theatre: Theatre, rays: RayGrid) -> Scenery:
     steel = instruments(clutter, field, _spots(points), random)
     rods = [_rod_of_needle(needle) for needle in theatre.needles] + [_rod_of_bar(bar) for bar in steel]
     shade = _soft_shade(points, rods)
-    picture = soft_colours(field, grain, points, shade, pose.inverse.translation_mm)
+    picture, light = soft_colours(field, grain, points, shade, pose.inverse.translation_mm)
     for sheet in sheets(clutter, random):
-        _lay(picture, sheet, field, points, theatre.camera, pose)
+        _lay(picture, light, sheet, field, points, theatre.camera, pose)
     solid = joined([_bone_solid(theatre), *_needle_solids(theatre.needles), *steel])
     depth = _draw_solids(picture, soft_depth, solid, theatre, grain, rods)
-    quarter = cv2.resize(points, (rays.columns, rays.rows), interpolation=cv2.INTER_AREA)
-    return Scenery(picture=picture, depth_mm=depth, points_mm=np.asarray(quarter, dtype=np.float32))
+    quarter = resized(points, rays.columns, rays.rows)
+    return Scenery(picture=picture, depth_mm=depth, points_mm=quarter)
 
 
 def _soft_points(
@@ -84,10 +92,10 @@ def _soft_points(
     origin = pose.inverse.translation_mm
     directions = rays @ turn
     # Cloth and muscle are soft enough to be found on every other pixel.
-    half = cv2.resize(directions, (width // 2, height // 2), interpolation=cv2.INTER_AREA)
-    depth = cv2.resize(field.meet(origin, half), (width, height), interpolation=cv2.INTER_LINEAR)
+    half = resized(directions, width // 2, height // 2)
+    depth = resized(field.meet(origin, half), width, height)
     points = origin.astype(np.float32) + depth[..., None] * directions
-    return np.asarray(depth, dtype=np.float32), np.asarray(points, dtype=np.float32)
+    return depth, np.asarray(points, dtype=np.float32)
 
 
 def _spots(points: Image32) -> list[tuple[float, float]]:
@@ -100,7 +108,7 @@ def _spots(points: Image32) -> list[tuple[float, float]]:
 def _soft_shade(points: Image32, rods: list[_Rod]) -> Image32:
     """What is left of the lamp (h, w) on the soft field, beside bone, needles and instruments."""
     height, width = points.shape[:2]
-    half = cv2.resize(points, (width // 2, height // 2), interpolation=cv2.INTER_AREA).reshape(-1, 3)
+    half = resized(points, width // 2, height // 2).reshape(-1, 3)
     left = np.ones(len(half), dtype=np.float32)
     near = np.flatnonzero((np.abs(half[:, 0]) < 75) & (np.abs(half[:, 2]) < 80))
     left[near] -= 0.62 * _bone_shadow(half[near], 0.4)
@@ -108,8 +116,7 @@ def _soft_shade(points: Image32, rods: list[_Rod]) -> Image32:
     left[near] *= 0.55 + 0.45 * np.clip(bone_field(half[near]) / 5.0, 0.0, 1.0)
     for rod in rods:
         left *= 1.0 - rod.shadow(half)
-    wide = cv2.resize(left.reshape(height // 2, width // 2), (width, height), interpolation=cv2.INTER_LINEAR)
-    return np.asarray(wide, dtype=np.float32)
+    return resized(left.reshape(height // 2, width // 2), width, height)
 
 
 def _bone_shadow(points: Image32, lift_mm: float) -> Image32:
@@ -132,13 +139,13 @@ def _bone_solid(theatre: Theatre) -> Solid:
     # Clean bone on top; blood and muscle cling to what lies deep and in the creases.
     stain = np.clip((17.0 - vertices[:, 1]) / 14.0, 0.0, 1.0) * 0.55 + 0.5 * (1.0 - near)
     stain = np.clip(stain, 0.0, 0.85)[:, None]
-    ivory, wet = np.array([0.66, 0.80, 0.90]), np.array([0.27, 0.34, 0.66])
+    ivory, wet = np.array([0.64, 0.79, 0.90]), np.array([0.24, 0.28, 0.62])
     return Solid(
         vertices_mm=vertices,
         normals=normals,
         faces=theatre.surface.faces,
         colours=(ivory * (1.0 - stain) + wet * stain) * light[:, None],
-        gloss=0.32 * light,
+        gloss=0.42 * light,
     )
 
 
@@ -169,6 +176,7 @@ def _rod_of_bar(bar: Solid) -> _Rod:
 
 def _lay(
     picture: Image32,
+    light: Image32,
     sheet: Sheet,
     field: OperatingField,
     points: Image32,
@@ -179,15 +187,15 @@ def _lay(
     height, width = picture.shape[:2]
     middle = points[int(sheet.place[1] * (height - 1)), int(sheet.place[0] * (width - 1))]
     half = np.array(sheet.size_mm) / 2.0
-    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
+    # Seen from above the patient's back, x runs to the left and z up: top-left is where both are great.
+    corners = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]) * half
     cosine, sine = np.cos(sheet.turn_rad), np.sin(sheet.turn_rad)
     xz = corners @ np.array([[cosine, sine], [-sine, cosine]]) + middle[[0, 2]]
     ground = field.height_at(xz[None, :, 0].astype(np.float32), xz[None, :, 1].astype(np.float32))[0]
     px = camera.px_from_camera(pose.move_points(np.stack([xz[:, 0], ground + 0.5, xz[:, 1]], axis=1)))
-    # Laid face up: seen from above, LPS's x and z run the other way round than the picture's rows.
     rows, columns = sheet.picture.shape[:2]
     source = np.array([[0, 0], [columns, 0], [columns, rows], [0, rows]], dtype=np.float32) - 0.5
-    matrix = cv2.getPerspectiveTransform(source, px[::-1].astype(np.float32))
+    matrix = cv2.getPerspectiveTransform(source, px.astype(np.float32))
     low = np.clip(np.floor(px.min(axis=0)).astype(int) - 3, 0, [width, height])
     high = np.clip(np.ceil(px.max(axis=0)).astype(int) + 4, 0, [width, height])
     if (high <= low).any():
@@ -196,11 +204,11 @@ def _lay(
     size = (int(high[0] - low[0]), int(high[1] - low[1]))
     flat = sheet.picture.copy()
     flat[..., :3] *= flat[..., 3:]
-    flat = cv2.GaussianBlur(flat, (0, 0), max(0.3, 0.25 * columns / sheet.size_mm[0]))
-    warped = cv2.warpPerspective(flat, shift @ matrix, size, flags=cv2.INTER_LINEAR)
+    soft = cv2.GaussianBlur(flat, (0, 0), max(0.3, 0.25 * columns / sheet.size_mm[0]))
+    warped = cv2.warpPerspective(soft, shift @ matrix, size, flags=cv2.INTER_LINEAR)
     part = picture[low[1] : high[1], low[0] : high[0]]
     part *= 1.0 - warped[..., 3:]
-    part += warped[..., :3] * 0.86
+    part += warped[..., :3] * light[low[1] : high[1], low[0] : high[0], None]
 
 
 def _draw_solids(
@@ -217,7 +225,11 @@ def _draw_solids(
     in_camera = pose.move_points(solid.vertices_mm)
     px = theatre.camera.px_from_camera(in_camera)
     covered = rasterise(
-        px * FINER + (FINER - 1) / 2.0, in_camera[:, 2], solid.faces, width=width * FINER, height=height * FINER
+        px * FINER + (FINER - 1) / 2.0,
+        in_camera[:, 2],
+        solid.faces,
+        width=width * FINER,
+        height=height * FINER,
     )
     row, column = np.divmod(covered.pixel, width * FINER)
     in_front = covered.depth_mm < soft_depth[row // FINER, column // FINER] + 0.2
@@ -231,9 +243,7 @@ def _draw_solids(
     fine = np.zeros((height * FINER * width * FINER, 4), dtype=np.float32)
     fine[covered.pixel, :3] = colour
     fine[covered.pixel, 3] = 1.0
-    layer = cv2.resize(
-        fine.reshape(height * FINER, width * FINER, 4), (width, height), interpolation=cv2.INTER_AREA
-    )
+    layer = resized(fine.reshape(height * FINER, width * FINER, 4), width, height)
     picture *= 1.0 - layer[..., 3:]
     picture += layer[..., :3]
     depth = soft_depth.copy()
@@ -251,16 +261,33 @@ def _solid_colours(
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-6)
     to_camera = pose.inverse.translation_mm.astype(np.float32) - points
     to_camera /= np.linalg.norm(to_camera, axis=1, keepdims=True)
+    bony = (gloss < 0.5).astype(np.float32)
+    normals += bony[:, None] * _roughness(points, grain)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-6)
     light = lit(normals)
     for rod in rods:
         # A rod's own surface is at its radius: it throws no shadow on itself.
-        light *= 1.0 - rod.shadow(points) * (gloss < 0.5)
-    bony = (gloss < 0.5).astype(np.float32)
+        light *= 1.0 - rod.shadow(points) * bony
     side = points[:, 0] + 0.6 * points[:, 1]
     mottle = grain.clouds(side, points[:, 2] + 0.5 * points[:, 1], 60.0)
     pores = grain.specks(side, points[:, 2] - 0.4 * points[:, 1], 0.8)
     texture = 1.0 + bony * (0.055 * mottle + 0.035 * pores)
     wet = np.clip(0.6 + 0.35 * mottle, 0.0, 1.4) * bony + (1.0 - bony)
     out = colours * (light * texture)[:, None]
-    out += (gloss * wet * (0.75 * shine(normals, to_camera, 42.0) + 0.12 * shine(normals, to_camera, 6.0)))[:, None]
+    out += (gloss * wet * (0.75 * shine(normals, to_camera, 42.0) + 0.12 * shine(normals, to_camera, 6.0)))[
+        :, None
+    ]
     return np.asarray(np.clip(out, 0.0, 1.0), dtype=np.float32)
+
+
+def _roughness(points: Image32, grain: Grain) -> Image32:
+    """How bone's normals (n, 3) stray: it is lumpy, and scraped clean by hand."""
+    x, y, z = (np.ascontiguousarray(points[:, i]) for i in range(3))
+    return np.stack(
+        [
+            0.13 * grain.clouds(y + 0.4 * x, z, 90.0),
+            0.13 * grain.clouds(x + 37.0, z + 0.5 * y, 90.0),
+            0.13 * grain.clouds(x, y + 0.3 * z, 90.0),
+        ],
+        axis=1,
+    )

@@ -1,9 +1,8 @@
 """From light to 8 bit: how lens, exposure, lamp and sensor spoil the picture."""
 
+import cv2
 import numpy as np
 import numpy.typing as npt
-
-import cv2
 
 from tracker.geometry import Array
 from tracker.rehearsal.settings import TheatreSettings
@@ -42,7 +41,7 @@ class Sensor:
         lit = self._flickered(picture, at_s)
         if self.settings.noise == 0.0:
             return lit
-        stamp = int(round(at_s * 1e6)) % 2**63
+        stamp = round(at_s * 1e6) % 2**63
         row, column = np.random.default_rng([self.settings.seed, stamp]).integers(0, BANK_MARGIN, 2)
         height, width = picture.shape[:2]
         grains = self._bank[row : row + height, column : column + width]

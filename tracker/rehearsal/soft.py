@@ -25,12 +25,16 @@ MUSCLE, DEEP, FAT, SKIN, CLOTH = (
 
 def soft_colours(
     field: OperatingField, grain: Grain, points: Image32, shade: Image32, camera_mm: Array
-) -> Image32:
-    """BGR 0..1 (h, w, 3) of the field at points (h, w, 3), under what the shadows leave of the lamp (h, w)."""
+) -> tuple[Image32, Image32]:
+    """BGR 0..1 (h, w, 3) of the field at points (h, w, 3), and the light (h, w) that falls there.
+
+    `shade` (h, w) is how much of the lamp the shadows leave.
+    """
     x, z = np.ascontiguousarray(points[..., 0]), np.ascontiguousarray(points[..., 2])
     rho = wound_ratio(x, z)
     cloudy, fine = grain.clouds(x, z, 70.0), grain.clouds(x, z, 23.0)
-    muscle, fat, skin, cloth = _shares(rho + 0.012 * fine)
+    ragged = grain.clouds(x, z, 160.0)
+    muscle, fat, skin, cloth = _shares(rho, 0.02 * ragged)
     normals = field.normals_at(x, z)
     # Fibres of muscle run along the spine; the cloth has a weave.
     fibres = grain.clouds(x * 2.6, z * 0.5, 60.0)
@@ -54,16 +58,18 @@ def soft_colours(
     circle = 0.62 + 0.38 * np.exp(-((x / 260.0) ** 2) - ((z - 20.0) / 300.0) ** 2)
     # The drape casts a thin line of shade on the skin at its edge.
     seam = 1.0 - 0.35 * np.exp(-(((rho - DRAPE_EDGE + 0.012) / 0.018) ** 2))
-    out = colour * (tone * lit(normals) * shade * circle * seam)[..., None]
+    light = lit(normals) * shade * circle
+    out = colour * (tone * light * seam)[..., None]
     out += (wet * (0.8 * shine(normals, to_camera, 30.0) + 0.10 * shine(normals, to_camera, 5.0)))[..., None]
-    return np.asarray(np.clip(out, 0.0, 1.0), dtype=np.float32)
+    return np.asarray(np.clip(out, 0.0, 1.0), dtype=np.float32), np.asarray(light, dtype=np.float32)
 
 
-def _shares(rho: Image32) -> tuple[Image32, Image32, Image32, Image32]:
+def _shares(rho: Image32, ragged: Image32) -> tuple[Image32, Image32, Image32, Image32]:
     """How much of each material there is; they add up to 1."""
 
-    def after(edge: float, width: float) -> Image32:
-        return np.asarray(np.clip((rho - edge) / width + 0.5, 0.0, 1.0), dtype=np.float32)
+    def after(edge: float, width: float, rough: Image32 | float = 0.0) -> Image32:
+        return np.asarray(np.clip((rho + rough - edge) / width + 0.5, 0.0, 1.0), dtype=np.float32)
 
-    fat, skin, cloth = after(0.93, 0.06), after(1.045, 0.02), after(DRAPE_EDGE, 0.01)
+    # The film's and the cloth's edges are cut; only flesh is ragged.
+    fat, skin, cloth = after(0.93, 0.07, ragged), after(1.045, 0.015), after(DRAPE_EDGE, 0.008)
     return 1.0 - fat, fat - skin, skin - cloth, cloth

@@ -53,7 +53,9 @@ def ball(centre_mm: Array, radius_mm: float, *, colour: Colour, gloss: float) ->
     polar = np.linspace(1e-3, np.pi - 1e-3, 11)
     centre = np.asarray(centre_mm, dtype=np.float64)
     points = centre + np.stack([np.zeros(11), np.zeros(11), -np.cos(polar) * radius_mm], axis=1)
-    solid = tube(points + np.outer(np.zeros(11), [1, 0, 0]), np.sin(polar) * radius_mm, colour=colour, gloss=gloss)
+    solid = tube(
+        points + np.outer(np.zeros(11), [1, 0, 0]), np.sin(polar) * radius_mm, colour=colour, gloss=gloss
+    )
     normals = (solid.vertices_mm - centre) / radius_mm
     return Solid(
         vertices_mm=solid.vertices_mm,

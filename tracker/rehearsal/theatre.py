@@ -112,8 +112,7 @@ class Theatre:
 
     def renderer(self) -> "Renderer":
         """What makes its images; rendering the still scenery takes about a second."""
-        # The renderer is built on the theatre; importing it here keeps the two modules from needing each other.
-        from tracker.rehearsal.renderer import Renderer  # noqa: PLC0415
+        from tracker.rehearsal.renderer import Renderer  # noqa: PLC0415  the renderer needs the theatre first
 
         return Renderer(self)
 
@@ -168,7 +167,7 @@ def _camera_from_vertebra(channel: Channel, random: np.random.Generator) -> Rigi
     )
     # Look at a point some way up the drill, so that bone and marker share the picture.
     aim = channel.entry_in_vertebra_mm - 76.0 * channel.axis_in_vertebra
-    distance_mm = random.uniform(475.0, 500.0)
+    distance_mm = random.uniform(455.0, 475.0)
     return Rigid(rotation=rows, translation_mm=np.array([0.0, 0.0, distance_mm]) - rows @ aim)
 
 
