@@ -12,9 +12,14 @@ from tracker.rehearsal.solids import Solid, tube
 Image32 = npt.NDArray[np.float32]
 
 # Where things may lie, as parts of the image's width and height: around the wound, never under the drill.
-PLACES = ((0.11, 0.80), (0.87, 0.78), (0.12, 0.42), (0.90, 0.40), (0.30, 0.13), (0.80, 0.13), (0.27, 0.93))
+PLACES = ((0.11, 0.80), (0.90, 0.80), (0.12, 0.42), (0.91, 0.40), (0.30, 0.13), (0.80, 0.13), (0.24, 0.95))
 STEEL = (0.66, 0.65, 0.64)
 LOOKALIKES_ABOVE = 2.0
+# A retractor's prong in the plane across the spine, from inside the wound's wall over its edge: x and height.
+PRONG_MM = np.array([[44.0, 9.5], [46.5, 16.0], [52.0, 24.0], [58.5, 29.5], [66.0, 31.0], [80.0, 31.5]])
+PRONGS_Z_MM = (-11.0, 2.0, 15.0)
+RETRACTORS_FROM = 0.5
+BAR_RINGS = 30
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,8 +56,8 @@ def sheets(clutter: float, random: np.random.Generator) -> list[Sheet]:
 def instruments(
     clutter: float, field: OperatingField, spots_mm: list[tuple[float, float]], random: np.random.Generator
 ) -> list[Solid]:
-    """Bars of steel that lie on the drapes at these places (x, z)."""
-    out: list[Solid] = []
+    """Bars of steel: retractors in the wound, and what lies on the drapes at these places (x, z)."""
+    out = _retractors() if clutter >= RETRACTORS_FROM else []
     for i in range(min(round(1.6 * clutter), 12)):
         x, z = spots_mm[i % len(spots_mm)]
         x, z = x + random.normal(0.0, 12.0), z + random.normal(0.0, 12.0)
@@ -63,11 +68,29 @@ def instruments(
     return out
 
 
+def _retractors() -> list[Solid]:
+    """Two rakes that hold the wound open, left and right."""
+    out = []
+    at = np.linspace(0.0, 1.0, BAR_RINGS)
+    given = np.linspace(0.0, 1.0, len(PRONG_MM))
+    x, height = (np.interp(at, given, PRONG_MM[:, i]) for i in range(2))
+    for side in (-1.0, 1.0):
+        for z in PRONGS_Z_MM:
+            prong = np.stack([side * x, height, np.full(BAR_RINGS, z)], axis=1)
+            out.append(tube(prong, 1.1 + 0.5 * at, colour=STEEL, gloss=0.9))
+        ends = np.array(
+            [[side * 80.0, 31.5, PRONGS_Z_MM[0] - 4.0], [side * 80.0, 31.5, PRONGS_Z_MM[-1] + 34.0]]
+        )
+        bar = ends[0] + at[:, None] * (ends[1] - ends[0])
+        out.append(tube(bar, np.full(BAR_RINGS, 2.4), colour=STEEL, gloss=0.9))
+    return out
+
+
 def _bar(
     field: OperatingField, middle: tuple[float, float], angle: float, side: float, length_mm: float
 ) -> Solid:
     """One leg of a forceps (side -1 or 1), or a probe with a handle (side 0)."""
-    t = np.linspace(0.0, 1.0, 30)
+    t = np.linspace(0.0, 1.0, BAR_RINGS)
     along = (t - 0.5) * length_mm
     across = side * (0.8 + 5.0 * np.sin(np.pi * np.clip(t * 1.15, 0, 1)) ** 1.5)
     x = middle[0] + np.cos(angle) * along - np.sin(angle) * across

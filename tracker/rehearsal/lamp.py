@@ -11,8 +11,8 @@ Image32 = npt.NDArray[np.float32]
 TO_LAMP = np.array([0.50, 0.84, -0.22]) / np.linalg.norm([0.50, 0.84, -0.22])
 AMBIENT, DIFFUSE = 0.46, 0.74
 # A theatre lamp is wide: shadows are soft, and fade out with the distance of what throws them.
-PENUMBRA_MM, PENUMBRA_PER_MM = 0.7, 0.10
-SHADOW_DEPTH, SHADOW_FADES_MM = 0.55, 110.0
+PENUMBRA_MM, PENUMBRA_PER_MM = 0.7, 0.06
+SHADOW_DEPTH, SHADOW_FADES_MM = 0.62, 170.0
 
 
 def lit(normals: Image32 | Array) -> Image32:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Rigid, Vertebra
 from tracker.rehearsal.anatomy import Needle, bone_field, bone_normals
-from tracker.rehearsal.clutter import PLACES, Sheet, instruments, sheets
+from tracker.rehearsal.clutter import BAR_RINGS, PLACES, Sheet, instruments, sheets
 from tracker.rehearsal.field import OperatingField
 from tracker.rehearsal.grain import Grain
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow, shine
@@ -167,8 +167,7 @@ def _rod_of_needle(needle: Needle) -> _Rod:
 
 
 def _rod_of_bar(bar: Solid) -> _Rod:
-    sides = len(bar.vertices_mm) // 30
-    centres = bar.vertices_mm.reshape(30, sides, 3).mean(axis=1)
+    centres = bar.vertices_mm.reshape(BAR_RINGS, -1, 3).mean(axis=1)
     line = centres[-1] - centres[0]
     length = float(np.linalg.norm(line))
     return _Rod(tip_mm=centres[0], along=line / length, length_mm=length, radius_mm=1.8)
@@ -273,6 +272,9 @@ def _solid_colours(
     pores = grain.specks(side, points[:, 2] - 0.4 * points[:, 1], 0.8)
     texture = 1.0 + bony * (0.055 * mottle + 0.035 * pores)
     wet = np.clip(0.6 + 0.35 * mottle, 0.0, 1.4) * bony + (1.0 - bony)
+    # Where the muscle was scraped off in a hurry some of it is left.
+    rest = np.clip(0.45 * mottle + (20.0 - points[:, 1]) / 14.0 - 0.35, 0.0, 0.6) * bony
+    colours = colours * (1.0 - rest[:, None] * np.array([0.62, 0.58, 0.22], dtype=np.float32))
     out = colours * (light * texture)[:, None]
     out += (gloss * wet * (0.75 * shine(normals, to_camera, 42.0) + 0.12 * shine(normals, to_camera, 6.0)))[
         :, None
