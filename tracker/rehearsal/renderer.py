@@ -10,6 +10,7 @@ from tracker.rehearsal.drill import (
     BOARD_HALF_MM,
     BOARD_PER_MM,
     BOARD_THICK_MM,
+    PORTRAIT_END_MM,
     PORTRAIT_HALF_MM,
     PORTRAIT_PER_MM,
     PORTRAIT_START_MM,
@@ -68,9 +69,11 @@ class Renderer:
         truth = self._theatre.truth_at(at_s)
         image, sigmas = self._background.copy(), self._sigmas
         self._cast_shadow(image, truth)
-        box = self._box_around(self._outline_px(truth))
+        kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
+        reach_px = 4 if kernel is None else 4 + kernel.shape[0] // 2
+        box = self._box_around(self._outline_px(truth), reach_px)
         if box is not None:
-            self._draw_drill(image, box, truth)
+            self._draw_drill(image, box, truth, kernel)
             x, y, width, height = box
             sigmas = sigmas.copy()
             part = np.s_[y : y + height, x : x + width]
@@ -80,7 +83,7 @@ class Renderer:
     def _outline_px(self, truth: Truth) -> Array:
         """Points (n, 2) around everything of the drill that can be in the image."""
         to_camera = truth.camera_from_tool
-        stations = np.array([PORTRAIT_START_MM, 40.0, 96.0, 180.0, 250.0])
+        stations = np.array([PORTRAIT_START_MM, 40.0, 96.0, 180.0, PORTRAIT_END_MM])
         half = np.array([4.0, 5.0, 10.0, 10.0, 4.0])
         axis = np.stack([np.zeros(5), np.zeros(5), -stations], axis=1)
         reach = np.stack([half, np.zeros(5), np.zeros(5)], axis=1)
@@ -91,7 +94,7 @@ class Renderer:
         in_camera = to_camera.move_points(points)
         return self._theatre.camera.px_from_camera(in_camera[in_camera[:, 2] > 50.0])
 
-    def _box_around(self, px: Array, margin_px: int = 12) -> Box | None:
+    def _box_around(self, px: Array, margin_px: int) -> Box | None:
         """The rectangle of whole blocks around these points inside the image, None if there is none."""
         width, height = self._theatre.camera.size_wh_px
         if len(px) == 0:
@@ -112,10 +115,9 @@ class Renderer:
             min(down, -(-(height - y) // NODE_PX) * NODE_PX),
         )
 
-    def _draw_drill(self, image: Image8, box: Box, truth: Truth) -> None:
+    def _draw_drill(self, image: Image8, box: Box, truth: Truth, kernel: Image32 | None) -> None:
         layer = self._body(box, truth)
         self._add_board(layer, box, truth)
-        kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
         if kernel is not None:
             soft = cv2.filter2D(layer, -1, kernel, borderType=cv2.BORDER_REPLICATE)
             layer = np.asarray(soft, dtype=np.uint8)

@@ -23,6 +23,8 @@ Image32 = npt.NDArray[np.float32]
 FINER = 2
 LAMP_STEPS_MM = (2.5, 5.0, 9.0, 15.0, 24.0, 36.0)
 FARTHEST_SHADOW_MM = 60.0
+# What traces of muscle take from bone's blue, green and red.
+TRACES = np.array([0.62, 0.58, 0.22], dtype=np.float32)
 NEEDLE_COLOUR, NEEDLE_HEADS = (0.74, 0.73, 0.72), ((0.25, 0.75, 0.95), (0.85, 0.60, 0.20), (0.45, 0.75, 0.35))
 
 
@@ -274,8 +276,8 @@ def _solid_colours(
     wet = np.clip(0.6 + 0.35 * mottle, 0.0, 1.4) * bony + (1.0 - bony)
     # Where the muscle was scraped off in a hurry some of it is left.
     rest = np.clip(0.45 * mottle + (20.0 - points[:, 1]) / 14.0 - 0.35, 0.0, 0.6) * bony
-    colours = colours * (1.0 - rest[:, None] * np.array([0.62, 0.58, 0.22], dtype=np.float32))
-    out = colours * (light * texture)[:, None]
+    traces = 1.0 - rest[:, None] * TRACES
+    out = colours * traces * (light * texture)[:, None]
     out += (gloss * wet * (0.75 * shine(normals, to_camera, 42.0) + 0.12 * shine(normals, to_camera, 6.0)))[
         :, None
     ]

@@ -153,6 +153,18 @@ def test_blur_softens_the_marker() -> None:
     assert sharpness[0] > 1.2 * sharpness[1] > 1.2 * 1.5 * sharpness[2]
 
 
+def test_a_very_blurred_drill_has_no_cut_edges() -> None:
+    theatre, renderer = staged(blur=10.0)
+    empty = renderer.image_at(34.0).astype(np.int16)
+    changed = np.abs(renderer.image_at(9.0) - empty).max(axis=2)
+    # Far to the left of the board its blur has faded, and on the way there the tail has no step.
+    row = int(theatre.truth_at(9.0).corners_px[:, 1].mean())
+    left = int(theatre.truth_at(9.0).corners_px[:, 0].min())
+    assert changed[row, : left - 80].max() == 0
+    tail = changed[row, left - 80 : left]
+    assert np.abs(np.diff(tail[tail < 8])).max() <= 2
+
+
 def test_worse_light_is_dimmer_more_uneven_and_unsteady() -> None:
     means = []
     for light in (0.0, 1.0, 8.0):
