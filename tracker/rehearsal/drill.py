@@ -1,0 +1,108 @@
+"""The drill as it looks: a body of revolution, and the board with the marker on its front."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+Image8 = npt.NDArray[np.uint8]
+
+# Radius over the distance from the tip: burr, shaft, sleeve, nose, handpiece, tail, cable.
+PROFILE_MM = np.array(
+    [
+        0.0,
+        0.4,
+        1.0,
+        2.0,
+        3.0,
+        3.8,
+        4.4,
+        40,
+        40.2,
+        56,
+        56.2,
+        58,
+        74,
+        78,
+        88,
+        96,
+        168,
+        172,
+        180,
+        182,
+        190,
+        192,
+        330,
+    ]
+)
+RADIUS_MM = np.array(
+    [
+        *(0.0, 1.15, 1.75, 2.0, 1.75, 1.2, 1.15),
+        *(1.15, 2.4, 2.4, 3.6, 3.9, 5.6, 7.6, 8.2, 8.5, 8.5, 8.2, 7.4, 4.2, 3.2, 2.3, 2.3),
+    ]
+)
+PORTRAIT_PER_MM = 4.0
+PORTRAIT_HALF_MM = 11.0
+PORTRAIT_START_MM, PORTRAIT_END_MM = -3.0, 330.0
+
+BOARD_HALF_MM = 17.5
+BOARD_PER_MM = 16.0
+BOARD_WHITE, BOARD_BLACK = 0.97, 0.09
+BOARD_THICK_MM = 1.6
+BOARD_EDGE_GREY = 0.50
+
+
+def drill_portrait() -> Image8:
+    """The drill's body seen from the side, BGR and coverage, premultiplied.
+
+    Columns run along the axis from `PORTRAIT_START_MM`, rows across it from -`PORTRAIT_HALF_MM`, both
+    `PORTRAIT_PER_MM` to a millimetre.
+    """
+    t = PORTRAIT_START_MM + (
+        np.arange(int((PORTRAIT_END_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM)) + 0.5
+    ) / (PORTRAIT_PER_MM)
+    d = -PORTRAIT_HALF_MM + (np.arange(int(2 * PORTRAIT_HALF_MM * PORTRAIT_PER_MM)) + 0.5) / PORTRAIT_PER_MM
+    radius = np.interp(t, PROFILE_MM, RADIUS_MM, left=0.0)[None, :]
+    across = np.clip(d[:, None] / np.maximum(radius, 1e-6), -1.0, 1.0)
+    coverage = np.clip((radius - np.abs(d[:, None])) * PORTRAIT_PER_MM + 0.5, 0.0, 1.0) * (radius > 0)
+    colour = _colour(t[None, :] + 0 * across, across)
+    return _premultiplied(colour, coverage)
+
+
+def board_face(emblem: Image8) -> Image8:
+    """The white board with the marker in its middle, grey, `BOARD_PER_MM` pixels to a millimetre."""
+    side = round(2 * BOARD_HALF_MM * BOARD_PER_MM)
+    face = np.full((side, side), BOARD_WHITE, dtype=np.float32)
+    start = (side - emblem.shape[0]) // 2
+    printed = BOARD_BLACK + (BOARD_WHITE - BOARD_BLACK) * emblem.astype(np.float32) / 255.0
+    face[start : start + emblem.shape[0], start : start + emblem.shape[1]] = printed
+    return np.asarray(np.rint(face * 255.0), dtype=np.uint8)
+
+
+def _colour(t: npt.NDArray[np.float64], s: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """BGR 0..1 at distances t from the tip and s across (-1..1)."""
+    turn = np.arcsin(s)
+    round_light = 0.34 + 0.66 * np.clip(np.cos(turn - 0.55), 0.0, 1.0) ** 1.3
+    band = np.exp(-(((s - 0.42) / 0.16) ** 2)) + 0.35 * np.exp(-(((s + 0.62) / 0.12) ** 2))
+    steel = np.array([0.70, 0.68, 0.66]) * (0.62 * round_light + 0.55 * band)[..., None]
+    satin = np.array([0.80, 0.79, 0.77]) * (0.80 * round_light + 0.22 * band)[..., None]
+    dark = np.array([0.24, 0.22, 0.21]) * (round_light + 0.5 * band)[..., None]
+    blue = np.array([0.62, 0.36, 0.12]) * (round_light + 0.3 * band)[..., None]
+    out = satin
+    out = np.where((t < 56.1)[..., None], steel, out)
+    flutes = 0.72 + 0.28 * np.sign(np.sin(7.0 * turn + 2.2 * t))
+    out = np.where((t < 4.4)[..., None], steel * flutes[..., None], out)
+    # The sleeve's end, the grip's grooves, a coloured ring, the tail and the cable.
+    out = np.where(((t > 40) & (t < 41.2))[..., None], steel * 0.55, out)
+    grooves = (t > 60) & (t < 74) & (np.mod(t, 2.8) < 1.0)
+    out = np.where(grooves[..., None], out * 0.62, out)
+    out = np.where(((t > 90) & (t < 93.5))[..., None], blue, out)
+    out = np.where(((t > 142) & (t < 143) | (t > 164) & (t < 165))[..., None], satin * 0.5, out)
+    out = np.where((t > 172)[..., None], dark, out)
+    return np.clip(out, 0.0, 1.0)
+
+
+def _premultiplied(colour: npt.NDArray[np.float64], coverage: npt.NDArray[np.float64]) -> Image8:
+    layer = np.dstack([colour * coverage[..., None], coverage])
+    # Half a pixel of softness keeps the outline smooth when it is looked up askew.
+    soft = cv2.GaussianBlur(layer.astype(np.float32), (0, 0), 0.7)
+    return np.asarray(np.rint(soft * 255.0), dtype=np.uint8)

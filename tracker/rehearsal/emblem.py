@@ -1,0 +1,33 @@
+"""The drill's marker: a unique geometric shape in a black square, drawn by the project itself."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+# In sides of the square, x right and y down. A white boot with a black disc in its heel, and a white bar
+# across from its shin: edges of both polarities, nothing thinner than a tenth of the side (3 px at 30 px),
+# and no turn or mirror takes it to itself.
+BOOT = ((0.17, 0.17), (0.59, 0.17), (0.59, 0.41), (0.83, 0.65), (0.83, 0.83), (0.17, 0.83))
+BAR = ((0.71, 0.17), (0.83, 0.17), (0.83, 0.41), (0.71, 0.41))
+DISC_CENTRE, DISC_RADIUS = (0.38, 0.60), 0.125
+SHIFT_BITS = 4
+FINER = 4
+
+
+def drill_emblem(side_px: int = 400) -> npt.NDArray[np.uint8]:
+    """The printed face (side_px, side_px), black 0, white 255; the black square fills it edge to edge."""
+    fine_px = side_px * FINER
+    image = np.zeros((fine_px, fine_px), dtype=np.uint8)
+    for shape in (BOOT, BAR):
+        cv2.fillPoly(image, [_fixed(shape, fine_px)], 255, lineType=cv2.LINE_8, shift=SHIFT_BITS)
+    centre = _fixed((DISC_CENTRE,), fine_px)[0]
+    radius = round(DISC_RADIUS * fine_px * 2**SHIFT_BITS)
+    cv2.circle(image, (int(centre[0]), int(centre[1])), radius, 0, -1, cv2.LINE_8, SHIFT_BITS)
+    small = cv2.resize(image, (side_px, side_px), interpolation=cv2.INTER_AREA)
+    return np.asarray(small, dtype=np.uint8)
+
+
+def _fixed(points: tuple[tuple[float, float], ...], side_px: int) -> npt.NDArray[np.int32]:
+    """Fixed-point pixel coordinates of points in sides; the square's edge lies half a pixel outside 0."""
+    px = np.asarray(points, dtype=np.float64) * side_px - 0.5
+    return np.asarray(np.rint(px * 2**SHIFT_BITS), dtype=np.int32)

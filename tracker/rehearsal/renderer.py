@@ -1,0 +1,246 @@
+"""Images of the theatre: the still scenery, and the moving drill drawn into it."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array, Camera, Rigid, Tool
+from tracker.rehearsal.drill import (
+    BOARD_EDGE_GREY,
+    BOARD_HALF_MM,
+    BOARD_PER_MM,
+    BOARD_THICK_MM,
+    PORTRAIT_END_MM,
+    PORTRAIT_HALF_MM,
+    PORTRAIT_PER_MM,
+    PORTRAIT_START_MM,
+    PROFILE_MM,
+    RADIUS_MM,
+    board_face,
+    drill_portrait,
+)
+from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
+from tracker.rehearsal.lens import NODE_PX, RayGrid, spread
+from tracker.rehearsal.scenery import still_scenery
+from tracker.rehearsal.sensor import DEFOCUS_PX, Sensor, spread_kernel
+from tracker.rehearsal.theatre import Theatre, Truth
+
+Image8 = npt.NDArray[np.uint8]
+Image32 = npt.NDArray[np.float32]
+
+BOARD_SAMPLES = 4
+SPEED_OVER_S = 0.004
+# Only this much of the drill ever comes near the bone.
+NEAR_BONE_MM = 78.0
+SHADOW_GROUND_MM, SHADOW_REACH_MM = 14.0, 260.0
+# The board is wider than the body and throws most of its shadow.
+SHADOW_PROFILE_MM = np.array([*PROFILE_MM[:17], 102, 102.5, 137.5, 138, 168])
+SHADOW_RADIUS_MM = np.array([*RADIUS_MM[:16], 8.5, 8.5, 14.0, 14.0, 8.5, 8.5])
+
+
+Box = tuple[int, int, int, int]  # x, y, width, height in px, all multiples of 4
+
+
+class Renderer:
+    """Renders the theatre's images. Reads nothing but the theatre: same time, same image.
+
+    Building it renders the still scenery (about a second); an image then costs some milliseconds. It keeps no
+    state between images, so that they may be asked for in any order.
+    """
+
+    def __init__(self, theatre: Theatre) -> None:
+        self._theatre = theatre
+        self._rays = RayGrid(theatre.camera)
+        self._sensor = Sensor(theatre.settings)
+        scenery = still_scenery(theatre, self._rays)
+        self._depth_mm, self._points_mm = scenery.depth_mm, scenery.points_mm
+        picture = scenery.picture * self._sensor.gain[..., None]
+        sigma = DEFOCUS_PX * theatre.settings.blur
+        if sigma > 0.05:
+            picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
+        self._background = np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
+        self._sigmas = self._sensor.sigmas(self._background)
+        self._portrait = drill_portrait()
+        self._face = board_face(theatre.marker.image)
+        self._whole = np.full_like(self._face, 255)
+
+    def image_at(self, at_s: float) -> Image8:
+        """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
+        truth = self._theatre.truth_at(at_s)
+        image, sigmas = self._background.copy(), self._sigmas
+        self._cast_shadow(image, truth)
+        kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
+        reach_px = 4 if kernel is None else 4 + kernel.shape[0] // 2
+        box = self._box_around(self._outline_px(truth), reach_px)
+        if box is not None:
+            self._draw_drill(image, box, truth, kernel)
+            x, y, width, height = box
+            sigmas = sigmas.copy()
+            part = np.s_[y : y + height, x : x + width]
+            sigmas[part] = self._sensor.sigmas(image[part])
+        return self._sensor.read_out(image, sigmas, at_s)
+
+    def _outline_px(self, truth: Truth) -> Array:
+        """Points (n, 2) around everything of the drill that can be in the image."""
+        to_camera = truth.camera_from_tool
+        stations = np.array([PORTRAIT_START_MM, 40.0, 96.0, 180.0, PORTRAIT_END_MM])
+        half = np.array([4.0, 5.0, 10.0, 10.0, 4.0])
+        axis = np.stack([np.zeros(5), np.zeros(5), -stations], axis=1)
+        reach = np.stack([half, np.zeros(5), np.zeros(5)], axis=1)
+        board = _board_corners(0.0)
+        points = np.concatenate(
+            [axis + reach, axis - reach, self._theatre.tool.marker_from_tool.inverse.move_points(board)]
+        )
+        in_camera = to_camera.move_points(points)
+        return self._theatre.camera.px_from_camera(in_camera[in_camera[:, 2] > 50.0])
+
+    def _box_around(self, px: Array, margin_px: int) -> Box | None:
+        """The rectangle of whole blocks around these points inside the image, None if there is none."""
+        width, height = self._theatre.camera.size_wh_px
+        if len(px) == 0:
+            return None
+        low = np.floor((px.min(axis=0) - margin_px) / NODE_PX).astype(int)
+        high = np.ceil((px.max(axis=0) + margin_px) / NODE_PX).astype(int)
+        low = np.maximum(low, 0)
+        high = np.minimum(high, [self._rays.columns, self._rays.rows])
+        if (high <= low).any():
+            return None
+        x, y = (int(v) * NODE_PX for v in low)
+        across, down = (int(v) * NODE_PX for v in high - low)
+        # The image may end within a block.
+        return (
+            x,
+            y,
+            min(across, -(-(width - x) // NODE_PX) * NODE_PX),
+            min(down, -(-(height - y) // NODE_PX) * NODE_PX),
+        )
+
+    def _draw_drill(self, image: Image8, box: Box, truth: Truth, kernel: Image32 | None) -> None:
+        layer = self._body(box, truth)
+        self._add_board(layer, box, truth)
+        if kernel is not None:
+            soft = cv2.filter2D(layer, -1, kernel, borderType=cv2.BORDER_REPLICATE)
+            layer = np.asarray(soft, dtype=np.uint8)
+        x, y, width, height = box
+        part = image[y : y + height, x : x + width]
+        layer = layer[: part.shape[0], : part.shape[1]]
+        gain = self._sensor.gain[y : y + height, x : x + width]
+        coverage = cv2.merge([255 - layer[..., 3]] * 3)
+        behind = cv2.multiply(part, coverage, scale=1.0 / 255.0)
+        colour = cv2.multiply(cv2.cvtColor(layer, cv2.COLOR_BGRA2BGR), cv2.merge([gain] * 3), dtype=cv2.CV_8U)
+        cv2.add(behind, colour, dst=part)
+
+    def _speed_px_s(self, truth: Truth) -> Array:
+        """How fast the marker moves through the image."""
+        ends = []
+        for step in (-SPEED_OVER_S / 2.0, SPEED_OVER_S / 2.0):
+            pose = (
+                self._theatre.camera_from_tool_at(truth.at_s + step)
+                @ self._theatre.tool.marker_from_tool.inverse
+            )
+            ends.append(self._theatre.camera.px_from_camera(pose.translation_mm)[0])
+        return np.asarray((ends[1] - ends[0]) / SPEED_OVER_S, dtype=np.float64)
+
+    def _body(self, box: Box, truth: Truth) -> Image8:
+        """The drill's body (h, w, 4), premultiplied, without what is hidden in or behind the bone."""
+        rays = self._rays.block(*box)
+        where = spread(_along_across_depth(rays, truth.camera_from_tool), 1)
+        along, across, depth = (np.ascontiguousarray(where[..., i]) for i in range(3))
+        column = (along - np.float32(PORTRAIT_START_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
+        row = (across + np.float32(PORTRAIT_HALF_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
+        layer = np.asarray(cv2.remap(self._portrait, column, row, cv2.INTER_LINEAR), dtype=np.uint8)
+        self._hide_behind_bone(layer, box, along, across, depth)
+        return layer
+
+    def _hide_behind_bone(
+        self, layer: Image8, box: Box, along: Image32, across: Image32, depth: Image32
+    ) -> None:
+        x, y, _, _ = box
+        near = np.flatnonzero((along < NEAR_BONE_MM).any(axis=1) & (layer[..., 3].any(axis=1)))
+        if len(near) == 0:
+            return
+        rows = slice(int(near[0]), int(near[-1]) + 1)
+        still = self._depth_mm[y : y + layer.shape[0], x : x + layer.shape[1]][rows]
+        at = np.s_[rows.start : rows.start + still.shape[0], : still.shape[1]]
+        radius = np.interp(along[at], PROFILE_MM, RADIUS_MM).astype(np.float32)
+        front = depth[at] - np.sqrt(np.maximum(radius**2 - across[at] ** 2, 0.0))
+        seen = np.clip((still - front) * 1.5 + 0.5, 0.0, 1.0)
+        seen[along[at] > NEAR_BONE_MM] = 1.0
+        layer[at] = cv2.multiply(layer[at], cv2.merge([seen] * 4), dtype=cv2.CV_8U)
+
+    def _add_board(self, layer: Image8, box: Box, truth: Truth) -> None:
+        """Draws the board with the marker over the body: exact through lens and perspective, 4x4 samples."""
+        pose = truth.camera_from_marker
+        if float(pose.rotation[:, 2] @ pose.translation_mm) >= 0.0:
+            return
+        front = self._theatre.camera.px_from_camera(pose.move_points(_board_corners(0.0)))
+        inner = self._box_around(front, 2)
+        if inner is None:
+            return
+        self._add_board_edge(layer, box, truth, front)
+        plane = np.column_stack([pose.rotation[:, :2], pose.translation_mm])
+        rays = self._rays.block(*inner)
+        on_plane = rays @ np.linalg.inv(plane).T.astype(np.float32)
+        mm = on_plane[..., :2] / on_plane[..., 2:]
+        scale, half = np.float32(BOARD_PER_MM), np.float32(BOARD_HALF_MM)
+        column = spread((mm[..., :1] + half) * scale - np.float32(0.5), BOARD_SAMPLES)
+        row = spread((half - mm[..., 1:]) * scale - np.float32(0.5), BOARD_SAMPLES)
+        brightness = float(lit((truth.camera_from_vertebra.rotation.T @ pose.rotation[:, 2])[None])[0])
+        grey = cv2.remap(self._face, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
+        inside = cv2.remap(self._whole, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
+        size = inner[2:]
+        shade = cv2.resize(grey, size, interpolation=cv2.INTER_AREA).astype(np.float32) * brightness
+        coverage = cv2.resize(inside, size, interpolation=cv2.INTER_AREA)
+        x, y = inner[0] - box[0], inner[1] - box[1]
+        part = layer[y : y + size[1], x : x + size[0]]
+        under = cv2.multiply(part, cv2.merge([255 - coverage] * 4), scale=1.0 / 255.0)
+        ink = np.clip(np.rint(shade), 0, 255).astype(np.uint8)
+        cv2.add(under, cv2.merge([ink, ink, ink, coverage]), dst=part)
+
+    def _add_board_edge(self, layer: Image8, box: Box, truth: Truth, front_px: Array) -> None:
+        """The board's thickness: the outline of its front and back together, in one grey."""
+        back = truth.camera_from_marker.move_points(_board_corners(-BOARD_THICK_MM))
+        both = np.concatenate([front_px, self._theatre.camera.px_from_camera(back)]) - [box[0], box[1]]
+        hull = cv2.convexHull(np.rint(both * 16).astype(np.int32).reshape(-1, 1, 2))
+        grey = round(255 * BOARD_EDGE_GREY)
+        cv2.fillConvexPoly(layer, hull, (grey, grey, grey, 255), cv2.LINE_AA, 4)
+
+    def _cast_shadow(self, image: Image8, truth: Truth) -> None:
+        """The drill's soft shadow on the still scenery."""
+        vertebra_from_tool = truth.camera_from_vertebra.inverse @ truth.camera_from_tool
+        tip, back = vertebra_from_tool.translation_mm, -vertebra_from_tool.rotation[:, 2]
+        stations = tip + np.linspace(0.0, 168.0, 12)[:, None] * back
+        above = (stations[:, 1] - SHADOW_GROUND_MM) / TO_LAMP[1]
+        stations = stations[above < SHADOW_REACH_MM]
+        above = np.maximum(above[above < SHADOW_REACH_MM], 0.0)
+        ground = truth.camera_from_vertebra.move_points(stations - above[:, None] * TO_LAMP)
+        ground = ground[ground[:, 2] > 50.0]
+        box = self._box_around(self._theatre.camera.px_from_camera(ground), 48) if len(ground) else None
+        if box is None:
+            return
+        x, y, width, height = box
+        blocks = np.s_[y // NODE_PX : (y + height) // NODE_PX, x // NODE_PX : (x + width) // NODE_PX]
+        points = self._points_mm[blocks]
+        taken = rod_shadow(points.reshape(-1, 3), tip, back, SHADOW_PROFILE_MM, SHADOW_RADIUS_MM)
+        left = np.rint((1.0 - taken.reshape(points.shape[:2])) * 255.0).astype(np.uint8)
+        wide = cv2.resize(left, (width, height), interpolation=cv2.INTER_LINEAR)
+        part = image[y : y + height, x : x + width]
+        wide = wide[: part.shape[0], : part.shape[1]]
+        cv2.multiply(part, cv2.merge([wide] * 3), dst=part, scale=1.0 / 255.0)
+
+
+def _board_corners(z_mm: float) -> Array:
+    return np.array([[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]) * BOARD_HALF_MM + [0.0, 0.0, z_mm]
+
+
+def _along_across_depth(rays: Image32, camera_from_tool: Rigid[Camera, Tool]) -> Image32:
+    """For each ray, where it passes the drill's axis: mm from the tip backwards, mm beside it, depth mm."""
+    tip, back = camera_from_tool.translation_mm, -camera_from_tool.rotation[:, 2]
+    functions = np.stack([back, tip, np.cross(back, tip)], axis=1)
+    values = rays.astype(np.float64) @ functions
+    square = np.einsum("...i,...i->...", rays, rays).astype(np.float64)
+    lean = np.maximum(square - values[..., 0] ** 2, 1e-9)
+    depth = (values[..., 1] - values[..., 0] * float(back @ tip)) / lean
+    along = depth * values[..., 0] - float(back @ tip)
+    across = values[..., 2] / np.sqrt(lean)
+    return np.dstack([along, across, depth]).astype(np.float32)
