@@ -62,7 +62,7 @@ def create_app(parts: AppParts) -> FastAPI:
         finally:
             await app.state.scene.stop()
             counting.cancel()
-            await asyncio.gather(counting, return_exceptions=True)
+            await asyncio.wait([counting])
 
     app = FastAPI(
         title=PRODUCT,
@@ -76,7 +76,7 @@ def create_app(parts: AppParts) -> FastAPI:
     install_errors(app)
     app.add_middleware(HostGuard, hosts=KnownHosts.of(config.server.host))
     app.add_middleware(SecurityHeaders)
-    app.include_router(streams_router(camera=config.camera.name, video=video, hub=hub, viewers=viewers))
+    app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
     app.include_router(live_router(hub))
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))

@@ -55,7 +55,7 @@ def documentation_page(document: Mapping[str, Any], *, openapi_path: str) -> str
     ]
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,">'
         f"<style>{STYLE}</style></head><body>{''.join(parts)}</body></html>"
     )
 
@@ -104,9 +104,8 @@ def _schema(name: str, schema: Schema) -> str:
         )
         for key, value in schema.get("properties", {}).items()
     ]
-    rows += [_row("one of", ", ".join(f"<code>{escape(str(v))}</code>" for v in schema["enum"]))] * (
-        "enum" in schema
-    )
+    if "enum" in schema:
+        rows.append(_row("one of", ", ".join(f"<code>{escape(str(v))}</code>" for v in schema["enum"])))
     words = "".join(_paragraphs(schema.get("description", "")))
     return f'<h3 id="{escape(name)}"><code>{escape(name)}</code></h3>{words}<table>{"".join(rows)}</table>'
 

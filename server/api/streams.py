@@ -26,12 +26,12 @@ is closed with code 1008 or 1009 and the reason in words.
 """
 
 
-def streams_router(*, camera: str, video: Video, hub: LiveHub, viewers: Viewers) -> APIRouter:
+def streams_router(*, camera_name: str, video: Video, hub: LiveHub, viewers: Viewers) -> APIRouter:
     """`GET /video/{camera}.mjpg`, `WS /ws/live` and `WS /ws/view`."""
     router = APIRouter(tags=["streams"])
 
     @router.get(
-        "/video/{name}.mjpg",
+        "/video/{camera}.mjpg",
         response_class=Response,
         responses={
             200: {
@@ -41,15 +41,15 @@ def streams_router(*, camera: str, video: Video, hub: LiveHub, viewers: Viewers)
             **refusals(404, 422),
         },
     )
-    async def video_of(name: str) -> Response:
+    async def video_of(camera: str) -> Response:
         """The camera's picture with the overlay burned in, as MJPEG.
 
         Always the newest image; a slow viewer gets fewer. When there is none, or it is too old, a picture
         that says NO VIDEO with the reason and the time, once a second. Each JPEG has a comment with
         `image_number` (null for that picture) and `age_ms` (at sending) as JSON.
         """
-        if name != camera:
-            raise CameraUnknown(name, [camera])
+        if camera != camera_name:
+            raise CameraUnknown(camera, [camera_name])
         return video.response()
 
     @router.websocket("/ws/live")
@@ -58,10 +58,10 @@ def streams_router(*, camera: str, video: Video, hub: LiveHub, viewers: Viewers)
 
     @router.websocket("/ws/view")
     async def view(websocket: WebSocket) -> None:
-        asked = websocket.query_params.get("camera", camera)
-        if asked != camera:
+        asked = websocket.query_params.get("camera", camera_name)
+        if asked != camera_name:
             await websocket.accept()
-            await websocket.close(UNKNOWN_CAMERA, CameraUnknown(asked, [camera]).message[:120])
+            await websocket.close(UNKNOWN_CAMERA, CameraUnknown(asked, [camera_name]).message[:120])
             return
         await watch_view(websocket, hub=hub, viewers=viewers)
 

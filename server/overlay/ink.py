@@ -36,7 +36,8 @@ def stroke(image: Image, runs: Sequence[Array], colour: Colour, *, width_px: flo
     fixed = [_fixed_point(run) for run in runs if len(run) > 1 and np.isfinite(run).all()]
     if not fixed:
         return
-    width = max(1, round(width_px))
+    # A line of one pixel is lost in its own halo.
+    width = max(2, round(width_px))
     for ink, thickness in ((HALO, width + 2 * max(1, round(width_px * 0.5))), (colour, width)):
         cv2.polylines(image, fixed, False, ink, thickness, cv2.LINE_AA, SUBPIXEL_BITS)
 

@@ -73,7 +73,7 @@ def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float
     setup = snapshot.setup
     size = SMALL_PX * scale
     base = (MARGIN_PX + SMALL_PX) * scale
-    if not isinstance(setup.channel, Absent):
+    if setup.camera_calibrated and not isinstance(setup.channel, Absent):
         plan = setup.channel.name
         if not isinstance(setup.camera_from_vertebra, Absent):
             plan += f" · registered by {setup.registered_by}"

@@ -23,32 +23,29 @@ PAGE_POLICY = {
     "base-uri": "'none'",
     "form-action": "'self'",
 }
-# The 3-D scene is one page with its scripts, workers and WebAssembly written into it.
-SCENE_POLICY = PAGE_POLICY | {
-    "script-src": "'self' 'unsafe-inline' 'wasm-unsafe-eval' blob: data:",
-    "worker-src": "'self' blob: data:",
-}
 ALWAYS = {
+    "Cache-Control": "no-store",
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
     "Permissions-Policy": "camera=(), microphone=(), geolocation=()",
 }
 
 
-def policy_for(*, path: str, host: str) -> str:
-    """The Content-Security-Policy of an answer."""
-    is_scene = path == "/scene" or path.startswith("/scene/")
+def page_policy(host: str) -> str:
+    """The Content-Security-Policy of an answer that was asked for at this `Host`."""
     # Older Safaris do not count a WebSocket of the same host as 'self'.
     sockets = f" ws://{host} wss://{host}" if HOST_SHAPE.fullmatch(host) else ""
-    connect = f"'self'{sockets} blob: data:" if is_scene else f"'self'{sockets}"
-    policy = (SCENE_POLICY if is_scene else PAGE_POLICY) | {"connect-src": connect}
+    policy = PAGE_POLICY | {"connect-src": f"'self'{sockets}"}
     return "; ".join(f"{name} {value}" for name, value in policy.items())
 
 
 class SecurityHeaders:
-    """ASGI middleware: adds them to every answer; what an answer has set itself stays."""
+    """ASGI middleware: adds them to every answer.
+
+    What an answer has set itself stays: the 3-D scene has scripts written into its page, and a policy of its
+    own; the page's files have their own lifetimes.
+    """
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
@@ -63,7 +60,7 @@ class SecurityHeaders:
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                headers.setdefault("Content-Security-Policy", policy_for(path=scope["path"], host=host))
+                headers.setdefault("Content-Security-Policy", page_policy(host))
                 for name, value in ALWAYS.items():
                     headers.setdefault(name, value)
             await send(message)

@@ -18,6 +18,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 STATE_KEY = "coaxial_line"
 # What may lie unsent in the kernel: with more, a slow viewer sees images that are seconds old.
 UNSENT_BYTES = 16_384
+DRAIN_STEP_S = 0.004
 # The largest message that anybody may send up: a camera message of the 3-D scene.
 LARGEST_UPWARD_BYTES = 65_536
 
@@ -32,6 +33,14 @@ class Line:
 
     transport: asyncio.Transport
     is_endless: bool = False
+
+    async def drained(self) -> None:
+        """Wait until everything was handed to the kernel: the next message is chosen only then.
+
+        A server's own sending returns as soon as a message lies in its buffer, where it would grow old.
+        """
+        while self.transport.get_write_buffer_size() > 0 and not self.transport.is_closing():
+            await asyncio.sleep(DRAIN_STEP_S)
 
     def cut(self) -> None:
         """End it now; what was not sent is thrown away."""

@@ -5,6 +5,7 @@ import time
 from starlette.websockets import WebSocket
 
 from server.live import LiveHub
+from server.stream.connection import line_of
 from server.stream.messages import live_message
 from server.stream.socket import REFUSED, Misbehaviour, converse
 from server.stream.viewers import ViewerKind, Viewers
@@ -18,6 +19,7 @@ async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) ->
     The client sends nothing; one that does is closed with 1008.
     """
     await websocket.accept()
+    line = line_of(websocket.scope)
     with viewers.watching(ViewerKind.LIVE) as viewer:
 
         async def speak() -> None:
@@ -25,7 +27,7 @@ async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) ->
                 instant = await hub.next_after(viewer.sequence)
                 viewer.took(instant.sequence)
                 message = live_message(instant, now_s=time.monotonic())
-                await viewers.send(websocket.send_text(message.model_dump_json()))
+                await viewers.send(websocket.send_text(message.model_dump_json()), line)
 
         await converse(websocket, viewers, speak=speak, hear=_hear_nothing)
 

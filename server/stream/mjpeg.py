@@ -11,8 +11,9 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from server.live import Instant, LiveHub
-from server.stream.connection import line_of
+from server.stream.connection import Line, line_of
 from server.stream.no_video import NoVideoCard
+from server.stream.race import until_one_ends
 from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 BOUNDARY = "coaxial"
@@ -110,28 +111,19 @@ class MjpegResponse(Response):
         line = line_of(scope)
         if line is not None:
             line.is_endless = True
-        feed = asyncio.create_task(self._feed(send))
-        gone = asyncio.create_task(_until_gone(receive))
         try:
-            await asyncio.wait({feed, gone}, return_when=asyncio.FIRST_COMPLETED)
-            if feed.done():
-                feed.result()
+            await until_one_ends(self._feed(send, line), _until_gone(receive))
         finally:
-            for task in (feed, gone):
-                task.cancel()
-            await asyncio.gather(feed, gone, return_exceptions=True)
             if line is not None:
                 line.cut()
 
-    async def _feed(self, send: Send) -> None:
+    async def _feed(self, send: Send, line: Line | None) -> None:
         with self._viewers.watching(ViewerKind.MJPEG) as viewer:
             start = {"type": "http.response.start", "status": 200, "headers": self.raw_headers}
-            await self._viewers.send(send(start))
-            await self._viewers.send(send(_body(PART_HEAD)))
+            await self._viewers.send(send(start), line)
+            await self._viewers.send(send(_body(PART_HEAD)), line)
             async for picture in self._video.pictures(viewer):
-                await self._viewers.send(send(_body(picture + PART_END)))
-                # Waits until the line has taken the picture, so that the next one is chosen only then.
-                await self._viewers.send(send(_body(b"")))
+                await self._viewers.send(send(_body(picture + PART_END)), line)
 
 
 def _body(content: bytes) -> dict[str, object]:

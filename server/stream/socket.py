@@ -2,11 +2,12 @@
 
 import asyncio
 import contextlib
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable, Coroutine
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from server.stream.connection import line_of
+from server.stream.race import until_one_ends
 from server.stream.viewers import Stalled, Viewers
 
 LARGEST_MESSAGE_BYTES = 1024
@@ -28,7 +29,7 @@ async def converse(
     websocket: WebSocket,
     viewers: Viewers,
     *,
-    speak: Callable[[], Awaitable[None]],
+    speak: Callable[[], Coroutine[None, None, None]],
     hear: Callable[[str], None],
 ) -> None:
     """Run both directions of an accepted socket until the client goes, misbehaves or stalls.
@@ -39,17 +40,13 @@ async def converse(
         speak: sends for ever; Stalled ends the line.
         hear: takes one text message of at most 1 kB.
     """
-    tasks = [asyncio.create_task(_run(speak)), asyncio.create_task(_listen(websocket, hear))]
     try:
-        await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        for task in tasks:
-            if task.done():
-                task.result()
+        await until_one_ends(speak(), _listen(websocket, hear))
     except WebSocketDisconnect:
         return
     except Misbehaviour as told:
         with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
-            await viewers.send(websocket.close(told.code, told.reason))
+            await viewers.send(websocket.close(told.code, told.reason), None)
     except Stalled:
         line = line_of(websocket.scope)
         if line is not None:
@@ -57,16 +54,8 @@ async def converse(
             line.cut()
         else:
             with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
-                await viewers.send(websocket.close(TRY_LATER, "too slow"))
+                await viewers.send(websocket.close(TRY_LATER, "too slow"), None)
         raise
-    finally:
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
-
-
-async def _run(speak: Callable[[], Awaitable[None]]) -> None:
-    await speak()
 
 
 async def _listen(websocket: WebSocket, hear: Callable[[str], None]) -> None:

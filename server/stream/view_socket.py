@@ -18,6 +18,7 @@ import time
 from starlette.websockets import WebSocket
 
 from server.live import Instant, LiveHub
+from server.stream.connection import line_of
 from server.stream.messages import live_message
 from server.stream.socket import REFUSED, Misbehaviour, converse
 from server.stream.viewers import ViewerKind, Viewers
@@ -38,6 +39,7 @@ async def watch_view(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) ->
     One that grants but takes nothing for 2 s is cut off; one that sends anything else is closed with 1008.
     """
     await websocket.accept()
+    line = line_of(websocket.scope)
     granted = asyncio.Event()
     with viewers.watching(ViewerKind.VIEW) as viewer:
 
@@ -48,7 +50,7 @@ async def watch_view(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) ->
                 granted.clear()
                 viewer.took(instant.sequence)
                 content = view_message(instant, now_s=time.monotonic())
-                await viewers.send(websocket.send_bytes(content))
+                await viewers.send(websocket.send_bytes(content), line)
 
         def hear(text: str) -> None:
             if not _is_grant(text):

@@ -8,6 +8,8 @@ from enum import StrEnum
 
 import structlog
 
+from server.stream.connection import Line
+
 _log = structlog.get_logger(__name__)
 
 
@@ -67,8 +69,8 @@ class Viewers:
             self._watching.remove(viewer)
             self._dropped_by_gone[kind] += viewer.dropped
 
-    async def send(self, sending: Awaitable[None]) -> None:
-        """Send something, for as long as one sending may take.
+    async def send(self, sending: Awaitable[None], line: Line | None) -> None:
+        """Send something, and wait until the line has taken it, for as long as one sending may take.
 
         Raises:
             Stalled: it took longer.
@@ -76,6 +78,8 @@ class Viewers:
         try:
             async with asyncio.timeout(self.send_timeout_s):
                 await sending
+                if line is not None:
+                    await line.drained()
         except TimeoutError as error:
             raise Stalled from error
 
