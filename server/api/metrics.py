@@ -108,6 +108,11 @@ def _instant_metrics(instant: Instant, *, now_s: float) -> Iterable[Metric]:
         "Images never looked at, because a newer one was there.",
         value=source.skipped_images,
     )
+    yield CounterMetricFamily(
+        "coaxial_images_dropped",
+        "Tracked images that the server was too slow to show.",
+        value=process.dropped_images,
+    )
     yield GaugeMetricFamily(
         "coaxial_image_rate_hertz", "Images a second, over the last second or so.", value=source.rate_hz
     )

@@ -46,7 +46,8 @@ def streams_router(*, camera_name: str, video: Video, hub: LiveHub, viewers: Vie
 
         Always the newest image; a slow viewer gets fewer. When there is none, or it is too old, a picture
         that says NO VIDEO with the reason and the time, once a second. Each JPEG has a comment with
-        `image_number` (null for that picture) and `age_ms` (at sending) as JSON.
+        `image_number` (null for that picture), `captured_at_s` (monotonic clock of the server) and `age_ms`
+        (at sending) as JSON.
         """
         if camera != camera_name:
             raise CameraUnknown(camera, [camera_name])

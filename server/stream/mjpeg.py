@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import json
 import time
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Mapping
 from datetime import datetime
 
 from starlette.responses import Response
@@ -28,9 +28,9 @@ START_OF_JFIF = b"\xff\xd8\xff\xe0"
 COMMENT = b"\xff\xfe"
 
 
-def with_comment(jpeg: bytes, facts: dict[str, object]) -> bytes:
+def with_comment(jpeg: bytes, facts: Mapping[str, object]) -> bytes:
     """The JPEG with a comment that holds these facts as JSON; the picture itself is not touched."""
-    words = json.dumps(facts, separators=(",", ":")).encode()
+    words = json.dumps(dict(facts), separators=(",", ":")).encode()
     segment = COMMENT + (len(words) + 2).to_bytes(2, "big") + words
     # JFIF wants its own segment first.
     at = 4 + int.from_bytes(jpeg[4:6], "big") if jpeg.startswith(START_OF_JFIF) else 2
@@ -87,7 +87,8 @@ def _with_facts(instant: Instant, *, now_s: float) -> bytes:
         return instant.jpeg
     number, captured_at_s = instant.snapshot.image_number, instant.snapshot.captured_at_s
     age_ms = round((now_s - captured_at_s) * 1000.0, 1)
-    return with_comment(instant.jpeg, {"image_number": number, "age_ms": age_ms})
+    facts = {"image_number": number, "captured_at_s": round(captured_at_s, 6), "age_ms": age_ms}
+    return with_comment(instant.jpeg, facts)
 
 
 class MjpegResponse(Response):

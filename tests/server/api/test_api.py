@@ -154,6 +154,7 @@ def test_health_before_the_first_instant_is_degraded(client: TestClient) -> None
         pytest.param(ProcessState.RUNNING, SourceState.RUNNING, 40.0, "ok", id="all-well"),
         pytest.param(ProcessState.RUNNING, SourceState.RUNNING, 501.0, "degraded", id="old-image"),
         pytest.param(ProcessState.RUNNING, SourceState.RUNNING, None, "degraded", id="no-image"),
+        pytest.param(ProcessState.RUNNING, SourceState.RECONNECTING, 40.0, "degraded", id="camera-gone"),
         pytest.param(ProcessState.RUNNING, SourceState.ENDED, 40.0, "degraded", id="file-at-its-end"),
         pytest.param(ProcessState.RESTARTING, SourceState.RUNNING, None, "degraded", id="restarting"),
         pytest.param(ProcessState.GIVEN_UP, SourceState.RUNNING, None, "failed", id="given-up"),

@@ -53,10 +53,11 @@ def test_what_the_source_and_the_process_count_is_passed_on(
     source = SourceStatus(
         name="0", state=SourceState.RECONNECTING, images=120, skipped_images=7, rate_hz=29.5
     )
-    process = ProcessStatus(state=ProcessState.RESTARTING, restarts=3)
+    process = ProcessStatus(state=ProcessState.RESTARTING, restarts=3, dropped_images=2)
     hub.publish(instant_of(5, source=source, process=process))
     assert value(metrics, "coaxial_images_total") == 120.0
     assert value(metrics, "coaxial_images_skipped_total") == 7.0
+    assert value(metrics, "coaxial_images_dropped_total") == 2.0
     assert value(metrics, "coaxial_image_rate_hertz") == 29.5
     assert value(metrics, "coaxial_tracking_restarts_total") == 3.0
     assert value(metrics, "coaxial_source_state", state="reconnecting") == 1.0

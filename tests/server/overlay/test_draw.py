@@ -44,7 +44,7 @@ def inked_near(ink: npt.NDArray[np.bool_], px: npt.NDArray[np.float64]) -> npt.N
 def inside_video(px: npt.NDArray[np.float64], picture: Picture) -> npt.NDArray[np.float64]:
     height, width = picture.shape[:2]
     kept = (px > 60).all(axis=1) & (px[:, 0] < width - 5) & (px[:, 1] < PANEL_TOP_RATIO * height - 30)
-    return px[kept]
+    return np.asarray(px[kept], dtype=np.float64)
 
 
 def test_the_image_handed_in_is_not_written(snapshot_of: SnapshotOf) -> None:
