@@ -7,7 +7,7 @@ import numpy.typing as npt
 from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.ink import Image
-from server.overlay.panel import COLUMN_PX, MARGIN_PX, draw_panel, draw_small_print
+from server.overlay.panel import draw_panel, draw_small_print
 from server.overlay.view import View
 from server.overlay.words import panel_of
 from tracker.errors import InvalidInput
@@ -15,7 +15,8 @@ from tracker.navigation import Absent, Deviation, NavigationSnapshot
 from tracker.pose import Seen
 
 BASE_HEIGHT_PX = 720.0
-PANEL_WIDTH_PX = 4 * COLUMN_PX + 2 * MARGIN_PX
+# What the words at the top and in the panel need beside each other.
+LEAST_WIDTH_PX = 880.0
 AHEAD_MM = 50.0
 PAST_TARGET_MM = 10.0
 FARTHEST_AHEAD_MM = 150.0
@@ -43,7 +44,7 @@ def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> 
         )
     drawn = np.repeat(image[..., None], 3, axis=2) if image.ndim == 2 else image.copy(order="C")
     # A portrait image is as legible as its width allows.
-    scale = min(drawn.shape[0] / BASE_HEIGHT_PX, drawn.shape[1] / PANEL_WIDTH_PX)
+    scale = min(drawn.shape[0] / BASE_HEIGHT_PX, drawn.shape[1] / LEAST_WIDTH_PX)
     if snapshot.setup.camera_calibrated:
         _draw_theatre(drawn, snapshot, scale)
     for name, sighting in snapshot.sightings.items():

@@ -81,6 +81,6 @@ def draw_marker(image: Image, name: str, seen: Seen, *, scale: float) -> None:
     left = float(np.clip(corners[:, 0].min(), 4 * scale, max(4 * scale, width_px - width - 12 * scale)))
     above = corners[:, 1].min() - 10 * scale
     top_room = 56 * scale
-    base = float(np.clip(above, top_room, max(top_room, height_px - 140 * scale)))
+    base = float(np.clip(above, top_room, max(top_room, height_px - 24 * scale)))
     ground(image, left - 4 * scale, base - size, left + width + 6 * scale, base + 6 * scale)
     text(image, words, (left + 1, base), WHITE, size_px=size, weight=REGULAR)

@@ -16,56 +16,54 @@ from tracker.navigation import Absent, NavigationSnapshot
 
 # For an image 720 px high; all of it grows with the image.
 MARGIN_PX = 16.0
-HEIGHT_PX = 96.0
-COLUMN_PX = 214.0
+WIDTH_PX = 214.0
+ROW_PX = 82.0
 NUMBER_PX = 56.0
 UNIT_PX = 26.0
 LABEL_PX = 19.0
 STATE_PX = 40.0
 DETAIL_PX = 24.0
 SMALL_PX = 17.0
+PADDING_PX = 14.0
 
 
 def draw_panel(image: Image, panel: Panel, *, scale: float) -> None:
-    """Draw the panel at the bottom left: readings in columns, or the state in words."""
-    top = image.shape[0] - (MARGIN_PX + HEIGHT_PX) * scale
-    left = MARGIN_PX * scale
+    """Draw the panel: readings one above the other, or the state in words, in the lower left corner.
+
+    There it hides least: the camera is turned to the wound, which is in the middle.
+    """
+    left, bottom = MARGIN_PX * scale, image.shape[0] - MARGIN_PX * scale
     if panel.readings:
-        width = COLUMN_PX * len(panel.readings) * scale
-        ground(image, left, top, left + width, top + HEIGHT_PX * scale)
+        top = bottom - (ROW_PX * len(panel.readings) + 6.0) * scale
+        ground(image, left, top, left + WIDTH_PX * scale, bottom)
         for index, reading in enumerate(panel.readings):
-            _draw_reading(image, reading, left + (COLUMN_PX * index + 14.0) * scale, top, scale)
+            _draw_reading(image, reading, left + PADDING_PX * scale, top + ROW_PX * index * scale, scale)
         return
-    width = max(
-        text_width_px(panel.state, size_px=STATE_PX * scale, weight=SEMIBOLD),
-        text_width_px(panel.detail, size_px=DETAIL_PX * scale, weight=REGULAR) if panel.detail else 0.0,
-    )
-    ground(image, left, top, left + width + 32.0 * scale, top + HEIGHT_PX * scale)
-    state_base = top + (46.0 if panel.detail else 62.0) * scale
-    at = left + 14.0 * scale
-    text(image, panel.state, (at, state_base), DRILL_ORANGE, size_px=STATE_PX * scale, weight=SEMIBOLD)
-    if panel.detail:
-        base = (at, top + 80.0 * scale)
-        text(image, panel.detail, base, WHITE, size_px=DETAIL_PX * scale, weight=REGULAR)
+    rows = [(panel.state, STATE_PX * scale, SEMIBOLD, DRILL_ORANGE)]
+    rows += [(detail, DETAIL_PX * scale, REGULAR, WHITE) for detail in panel.details]
+    width = max(text_width_px(words, size_px=size, weight=weight) for words, size, weight, _ in rows)
+    top = bottom - (62.0 + 34.0 * len(panel.details)) * scale
+    ground(image, left, top, left + width + 2.0 * PADDING_PX * scale, bottom)
+    base = top + 46.0 * scale
+    for words, size, weight, colour in rows:
+        text(image, words, (left + PADDING_PX * scale, base), colour, size_px=size, weight=weight)
+        base += 36.0 * scale
 
 
 def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale: float) -> None:
-    room = (COLUMN_PX - 20.0) * scale
     label_size = LABEL_PX * scale
-    text(image, reading.label, (left, top + 24.0 * scale), QUIET, size_px=label_size, weight=SEMIBOLD)
-    if reading.unit == "°":
-        # Where a degree sign belongs: high, and close to its number.
-        text_unit, unit_size, gap = "°", NUMBER_PX * scale, 1.0 * scale
-    else:
-        text_unit, unit_size, gap = reading.unit, UNIT_PX * scale, 6.0 * scale
-    unit_room = text_width_px(text_unit, size_px=unit_size, weight=REGULAR) + gap + 2.0 * scale
+    text(image, reading.label, (left, top + 25.0 * scale), QUIET, size_px=label_size, weight=SEMIBOLD)
+    # A degree sign belongs high, and close to its number.
+    is_degree = reading.unit == "°"
+    unit_size, gap = (NUMBER_PX * scale, scale) if is_degree else (UNIT_PX * scale, 6.0 * scale)
+    unit_width = text_width_px(reading.unit, size_px=unit_size, weight=REGULAR) + gap
     width = text_width_px(reading.value, size_px=NUMBER_PX * scale, weight=SEMIBOLD)
-    # A number too long for its column is written smaller, never cut.
-    shrink = min(1.0, (room - unit_room) / max(width, 1.0))
-    base = top + 80.0 * scale
-    number_size = NUMBER_PX * scale * shrink
+    # A number too long for its place is written smaller, never cut.
+    room = (WIDTH_PX - 1.5 * PADDING_PX) * scale - unit_width
+    number_size = NUMBER_PX * scale * min(1.0, room / max(width, 1.0))
+    base = top + 76.0 * scale
     end = text(image, reading.value, (left, base), WHITE, size_px=number_size, weight=SEMIBOLD)
-    text(image, text_unit, (end + gap, base), QUIET, size_px=unit_size, weight=REGULAR)
+    text(image, reading.unit, (end + gap, base), QUIET, size_px=unit_size, weight=REGULAR)
 
 
 def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float) -> None:

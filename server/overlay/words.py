@@ -9,13 +9,14 @@ from tracker.pose import Seen, Unseen, UnseenReason
 RESEARCH_SOFTWARE = "research software, not a medical device"
 
 STATE_WORDS = {
-    AbsentReason.MARKER_UNSEEN: "NO TRACKING – marker not seen",
+    AbsentReason.MARKER_UNSEEN: "NO TRACKING",
     AbsentReason.CAMERA_NOT_CALIBRATED: "CAMERA NOT CALIBRATED",
     AbsentReason.TOOL_NOT_DEFINED: "TOOL NOT DEFINED",
     AbsentReason.NOT_REGISTERED: "NOT REGISTERED",
     AbsentReason.NO_PLAN: "NO PLAN",
 }
 STATE_DETAILS = {
+    AbsentReason.MARKER_UNSEEN: "marker not seen",
     AbsentReason.CAMERA_NOT_CALIBRATED: "no millimetres without a camera file",
     AbsentReason.TOOL_NOT_DEFINED: "where is the tip behind this marker?",
     AbsentReason.NOT_REGISTERED: "plan and patient do not know each other",
@@ -41,11 +42,11 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Panel:
-    """What the panel says: readings, or in their place a state and its detail; never both."""
+    """What the panel says: readings, or in their place a state and its details; never both."""
 
     readings: tuple[Reading, ...] = ()
     state: str = ""
-    detail: str = ""
+    details: tuple[str, ...] = ()
 
 
 def panel_of(snapshot: NavigationSnapshot) -> Panel:
@@ -57,7 +58,7 @@ def panel_of(snapshot: NavigationSnapshot) -> Panel:
         if isinstance(deviation, Deviation):
             return Panel(readings=_readings(deviation, tool=name if len(snapshot.tools) > 1 else ""))
     reason, marker = _reason(snapshot)
-    return Panel(state=STATE_WORDS[reason], detail=_detail(snapshot, reason, marker))
+    return Panel(state=STATE_WORDS[reason], details=_details(snapshot, reason, marker))
 
 
 def _readings(deviation: Deviation, *, tool: str) -> tuple[Reading, ...]:
@@ -83,8 +84,9 @@ def _reason(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:
     return AbsentReason.TOOL_NOT_DEFINED, ""
 
 
-def _detail(snapshot: NavigationSnapshot, reason: AbsentReason, marker: str) -> str:
+def _details(snapshot: NavigationSnapshot, reason: AbsentReason, marker: str) -> tuple[str, ...]:
+    general = (STATE_DETAILS[reason],) if reason in STATE_DETAILS else ()
     sighting = snapshot.sightings.get(marker)
     if reason is AbsentReason.MARKER_UNSEEN and isinstance(sighting, Unseen):
-        return f"{marker}: {UNSEEN_WORDS[sighting.reason]}"
-    return STATE_DETAILS.get(reason, "")
+        return (*general, f"{marker}: {UNSEEN_WORDS[sighting.reason]}")
+    return general

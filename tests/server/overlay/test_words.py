@@ -16,7 +16,7 @@ SnapshotOf = Callable[..., NavigationSnapshot]
 @pytest.mark.parametrize(
     ("theatre", "state"),
     [
-        pytest.param({"seen": False}, "NO TRACKING – marker not seen", id="marker-unseen"),
+        pytest.param({"seen": False}, "NO TRACKING", id="marker-unseen"),
         pytest.param({"calibrated": False}, "CAMERA NOT CALIBRATED", id="no-camera-file"),
         pytest.param({"registered": False}, "NOT REGISTERED", id="not-registered"),
         pytest.param({"planned": False}, "NO PLAN", id="no-plan"),
@@ -24,9 +24,7 @@ SnapshotOf = Callable[..., NavigationSnapshot]
         pytest.param(
             {"with_tool": False, "calibrated": False}, "CAMERA NOT CALIBRATED", id="camera-comes-first"
         ),
-        pytest.param(
-            {"with_tool": False, "seen": False}, "NO TRACKING – marker not seen", id="nothing-at-all"
-        ),
+        pytest.param({"with_tool": False, "seen": False}, "NO TRACKING", id="nothing-at-all"),
     ],
 )
 def test_what_is_absent_is_said_in_words(
@@ -38,7 +36,10 @@ def test_what_is_absent_is_said_in_words(
 
 
 def test_an_unseen_marker_is_told_with_its_reason(snapshot_of: SnapshotOf) -> None:
-    assert panel_of(snapshot_of(seen=False)).detail == "drill: too few of its edges"
+    assert panel_of(snapshot_of(seen=False)).details == (
+        "marker not seen",
+        "drill: too few of its edges",
+    )
 
 
 def test_the_burned_in_numbers_are_the_numbers_of_the_message(
