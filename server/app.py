@@ -9,7 +9,7 @@ from fastapi import FastAPI
 
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import documentation_router
-from server.api.errors import install_errors
+from server.api.errors import install_errors, refusals
 from server.api.health import health_router
 from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
@@ -72,6 +72,7 @@ def create_app(parts: AppParts) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
+        responses=refusals(421, 500),
     )
     install_errors(app)
     app.add_middleware(HostGuard, hosts=KnownHosts.of(config.server.host))

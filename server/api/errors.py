@@ -51,7 +51,13 @@ STATUS_OF[NothingYet] = 503
 
 def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """What OpenAPI says of a route's refusals."""
-    words = {404: "There is no such thing.", 422: "What was asked cannot be used.", 503: "Not now."}
+    words = {
+        404: "There is no such thing.",
+        421: "This server does not answer to the name in `Host`.",
+        422: "What was asked cannot be used.",
+        500: "The server made a mistake.",
+        503: "Not now.",
+    }
     return {status: {"model": TroubleMessage, "description": words[status]} for status in statuses}
 
 

@@ -51,7 +51,9 @@ def draw_panel(image: Image, panel: Panel, *, scale: float) -> None:
 
 
 def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale: float) -> None:
-    label_size = LABEL_PX * scale
+    label_room = (WIDTH_PX - 1.5 * PADDING_PX) * scale
+    label_width = text_width_px(reading.label, size_px=LABEL_PX * scale, weight=SEMIBOLD)
+    label_size = LABEL_PX * scale * min(1.0, label_room / max(label_width, 1.0))
     text(image, reading.label, (left, top + 25.0 * scale), QUIET, size_px=label_size, weight=SEMIBOLD)
     # A degree sign belongs high, and close to its number.
     is_degree = reading.unit == "°"
