@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from server.live import Instant, ProcessState, SourceState, Trouble
+from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
 from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot, ToolInView
 from tracker.pose import FoundBy, Seen, Sighting, UnseenReason
 
@@ -166,23 +166,29 @@ def live_message(instant: Instant, *, now_s: float) -> LiveMessage:
     return LiveMessage(
         sequence=instant.sequence,
         sent_at_s=now_s,
-        source=SourceMessage(
-            name=instant.source.name,
-            state=instant.source.state,
-            trouble=_trouble(instant.source.trouble),
-            images=instant.source.images,
-            skipped_images=instant.source.skipped_images,
-            rate_hz=instant.source.rate_hz,
-        ),
-        process=ProcessMessage(
-            state=instant.process.state,
-            restarts=instant.process.restarts,
-            trouble=_trouble(instant.process.trouble),
-        ),
+        source=source_message(instant.source),
+        process=process_message(instant.process),
         snapshot=None
         if instant.snapshot is None
         else _snapshot(instant.snapshot, instant.server_ms, now_s=now_s),
     )
+
+
+def source_message(source: SourceStatus) -> SourceMessage:
+    """The message of the source of images."""
+    return SourceMessage(
+        name=source.name,
+        state=source.state,
+        trouble=_trouble(source.trouble),
+        images=source.images,
+        skipped_images=source.skipped_images,
+        rate_hz=source.rate_hz,
+    )
+
+
+def process_message(process: ProcessStatus) -> ProcessMessage:
+    """The message of the tracking process."""
+    return ProcessMessage(state=process.state, restarts=process.restarts, trouble=_trouble(process.trouble))
 
 
 def _trouble(trouble: Trouble | None) -> TroubleMessage | None:

@@ -1,5 +1,6 @@
 """Frames, rigid motions, angles, and covariance carried through them."""
 
+from tracker.geometry.cylinder import cylinder_ring_mm, cylinder_silhouette_mm
 from tracker.geometry.frames import Camera, Marker, Reference, Tool, Vertebra
 from tracker.geometry.rigid import Rigid, point_covariance_mm2
 from tracker.geometry.rotations import (
@@ -20,6 +21,8 @@ __all__ = [
     "Tool",
     "Vertebra",
     "angle_between_deg",
+    "cylinder_ring_mm",
+    "cylinder_silhouette_mm",
     "point_covariance_mm2",
     "rotation_between",
     "rotation_from_vector",

@@ -1,0 +1,1 @@
+"""REST: what can be asked, and the one shape in which it is refused."""

@@ -1,0 +1,100 @@
+"""What the page has to know when it is loaded."""
+
+from importlib.metadata import PackageNotFoundError, version
+
+from fastapi import APIRouter
+
+from server.config import Config
+from server.overlay.words import RESEARCH_SOFTWARE
+from server.stream.messages import Message
+
+PRODUCT = "Coaxial"
+
+
+class CameraMessage(Message):
+    """One camera and where its pictures are."""
+
+    name: str
+    video_path: str
+    """MJPEG with the overlay burned in."""
+    view_path: str
+    """WebSocket with image and pose of one instant in one message."""
+
+
+class LimitsMessage(Message):
+    """From which age on something is old, and must say so."""
+
+    pose_stale_after_ms: float
+    video_stale_after_ms: float
+    scene_stale_after_ms: float
+
+
+class PathsMessage(Message):
+    """Where everything else is."""
+
+    live: str
+    """WebSocket with one `LiveMessage` for each instant."""
+    scene: str
+    documentation: str
+    health: str
+    metrics: str
+
+
+class DashboardMessage(Message):
+    """What the page has to know when it is loaded; nothing in it changes while the server runs."""
+
+    product: str
+    version: str
+    notice: str
+    """To be shown on every page."""
+    cameras: list[CameraMessage]
+    limits: LimitsMessage
+    scene_available: bool
+    paths: PathsMessage
+
+
+def product_version() -> str:
+    """The version of what is installed; "unknown" for a bare copy of the code."""
+    try:
+        return version("coaxial")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def dashboard_message(config: Config, *, scene_available: bool) -> DashboardMessage:
+    """The message for this configuration."""
+    name = config.camera.name
+    limits = config.limits
+    return DashboardMessage(
+        product=PRODUCT,
+        version=product_version(),
+        notice=RESEARCH_SOFTWARE,
+        cameras=[
+            CameraMessage(name=name, video_path=f"/video/{name}.mjpg", view_path=f"/ws/view?camera={name}")
+        ],
+        limits=LimitsMessage(
+            pose_stale_after_ms=limits.pose_stale_after_ms,
+            video_stale_after_ms=limits.video_stale_after_ms,
+            scene_stale_after_ms=limits.scene_stale_after_ms,
+        ),
+        scene_available=scene_available,
+        paths=PathsMessage(
+            live="/ws/live",
+            scene="/scene/",
+            documentation="/api/docs",
+            health="/health",
+            metrics="/metrics",
+        ),
+    )
+
+
+def dashboard_router(message: DashboardMessage) -> APIRouter:
+    """`GET /api/dashboard`."""
+    router = APIRouter(prefix="/api", tags=["page"])
+
+    @router.get("/dashboard")
+    async def dashboard() -> DashboardMessage:
+        """What the page has to know when it is loaded: names, limits, addresses."""
+        return message
+
+    return router

@@ -1,0 +1,151 @@
+"""Every refusal has one shape: code, message, remedy, context."""
+
+from typing import Any
+
+import structlog
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from server.errors import CaptureError, SetupOrderError
+from server.stream.errors import CameraUnknown
+from server.stream.messages import TroubleMessage
+from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
+
+_log = structlog.get_logger(__name__)
+
+STATUS_OF: dict[type[NavigationError], int] = {
+    CameraUnknown: 404,
+    SetupOrderError: 409,
+    CaptureError: 503,
+    InvalidInput: 422,
+    CalibrationError: 409,
+    PlanError: 409,
+    RegistrationError: 409,
+}
+
+TOLD = {
+    404: ("NOT_FOUND", "there is nothing at {path}", "Look at /api/docs for what can be asked."),
+    405: (
+        "METHOD_NOT_ALLOWED",
+        "{method} is not possible at {path}",
+        "Look at /api/docs for what can be asked.",
+    ),
+}
+INTERNAL = TroubleMessage(
+    code="INTERNAL",
+    message="the server made a mistake while answering",
+    remedy="Try again; if it comes back, send the server's log to the maintainer.",
+    context={},
+)
+
+
+class NothingYet(NavigationError):
+    """What was asked for is not there yet, and will be."""
+
+
+STATUS_OF[NothingYet] = 503
+
+
+def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """What OpenAPI says of a route's refusals."""
+    words = {
+        404: "There is no such thing.",
+        421: "This server does not answer to the name in `Host`.",
+        422: "What was asked cannot be used.",
+        500: "The server made a mistake.",
+        503: "Not now.",
+    }
+    return {status: {"model": TroubleMessage, "description": words[status]} for status in statuses}
+
+
+def status_of(error: NavigationError) -> int:
+    """The HTTP status of an error: of its class, or of the nearest class above it."""
+    return next((STATUS_OF[kind] for kind in type(error).__mro__ if kind in STATUS_OF), 500)
+
+
+def install_errors(app: FastAPI) -> None:
+    """Give every error of the application the one shape."""
+    app.add_exception_handler(NavigationError, _navigation)
+    app.add_exception_handler(HTTPException, _http)
+    app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_middleware(InternalErrors)
+
+
+def _answer(status: int, trouble: TroubleMessage, headers: dict[str, str] | None = None) -> JSONResponse:
+    kept = {"Cache-Control": "no-store", **(headers or {})}
+    return JSONResponse(trouble.model_dump(mode="json"), status_code=status, headers=kept)
+
+
+async def _navigation(_request: Request, error: Exception) -> JSONResponse:
+    if not isinstance(error, NavigationError):
+        raise error
+    told = TroubleMessage(code=error.code, message=error.message, remedy=error.remedy, context=error.context)
+    return _answer(status_of(error), told)
+
+
+async def _http(request: Request, error: Exception) -> JSONResponse:
+    if not isinstance(error, HTTPException):
+        raise error
+    path = request.url.path[:200]
+    code, message, remedy = TOLD.get(
+        error.status_code,
+        (f"HTTP_{error.status_code}", str(error.detail), "Look at /api/docs for what can be asked."),
+    )
+    told = TroubleMessage(
+        code=code,
+        message=message.format(path=path, method=request.method) if error.status_code in TOLD else message,
+        remedy=remedy,
+        context={"path": path},
+    )
+    return _answer(error.status_code, told, dict(error.headers or {}))
+
+
+async def _invalid(request: Request, error: Exception) -> JSONResponse:
+    if not isinstance(error, RequestValidationError):
+        raise error
+    found = error.errors()
+    first = found[0]
+    where = ".".join(str(part) for part in first["loc"])
+    told = TroubleMessage(
+        code="REQUEST_INVALID",
+        message=f"{where}: {first['msg']}" + (f" (and {len(found) - 1} more)" if len(found) > 1 else ""),
+        remedy="Look at /api/docs for what this request takes.",
+        context={
+            "path": request.url.path[:200],
+            "problems": [
+                {"where": ".".join(str(part) for part in one["loc"]), "what": one["msg"]} for one in found
+            ],
+        },
+    )
+    return _answer(422, told)
+
+
+class InternalErrors:
+    """ASGI middleware: logs what nobody expected, once, and answers without telling a stranger what."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass on; answer 500 for an answer that did not begin."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        started = False
+
+        async def note(message: Message) -> None:
+            nonlocal started
+            started = started or message["type"] == "http.response.start"
+            await send(message)
+
+        try:
+            await self._app(scope, receive, note)
+        except Exception:
+            if started:
+                # The answer is broken in the middle; only the server below can end it, and it logs.
+                raise
+            _log.exception("request_failed", method=scope["method"], path=scope["path"])
+            await _answer(500, INTERNAL)(scope, receive, send)

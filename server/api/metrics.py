@@ -1,0 +1,163 @@
+"""Numbers for Prometheus, from following the newest instant."""
+
+import time
+from collections.abc import Iterable
+
+from fastapi import APIRouter, Response
+from prometheus_client import CollectorRegistry, Counter, Histogram, generate_latest
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
+from prometheus_client.exposition import CONTENT_TYPE_PLAIN_0_0_4
+from prometheus_client.registry import Collector
+
+from server.live import Instant, LiveHub, ProcessState, SourceState
+from server.stream.viewers import ViewerKind, Viewers
+from tracker.pose import Seen
+
+STAGE_BUCKETS_S = (0.0005, 0.001, 0.002, 0.004, 0.006, 0.01, 0.015, 0.025, 0.05, 0.1, 0.25, 1.0)
+
+
+class Metrics:
+    """The counters of one application, in a registry of its own.
+
+    What the source and the process count themselves is passed on as they say it, so that a skipped instant
+    loses nothing. Stages and markers are counted once for each image that was followed.
+    """
+
+    def __init__(self, *, hub: LiveHub, viewers: Viewers) -> None:
+        self.registry = CollectorRegistry()
+        self._hub = hub
+        self._captured_at_s: float | None = None
+        self._stages = Histogram(
+            "coaxial_stage_seconds",
+            "Time of each stage for one image, by the name it has in the code.",
+            ["stage"],
+            buckets=STAGE_BUCKETS_S,
+            registry=self.registry,
+        )
+        self._seen = Counter(
+            "coaxial_marker_seen",
+            "Images in which the marker was found.",
+            ["marker"],
+            registry=self.registry,
+        )
+        self._unseen = Counter(
+            "coaxial_marker_unseen",
+            "Images in which the marker was not found, by the reason.",
+            ["marker", "reason"],
+            registry=self.registry,
+        )
+        self.registry.register(_Now(hub, viewers))
+
+    async def follow(self) -> None:
+        """Count instants for ever."""
+        sequence = -1
+        while True:
+            instant = await self._hub.next_after(sequence)
+            sequence = instant.sequence
+            self.count(instant)
+
+    def count(self, instant: Instant) -> None:
+        """Count the image of this instant, unless it was counted already with an earlier instant."""
+        snapshot = instant.snapshot
+        if snapshot is None or snapshot.captured_at_s == self._captured_at_s:
+            return
+        self._captured_at_s = snapshot.captured_at_s
+        for stage, spent_ms in {**snapshot.stage_ms, **instant.server_ms}.items():
+            self._stages.labels(stage).observe(spent_ms / 1000.0)
+        for marker, sighting in snapshot.sightings.items():
+            if isinstance(sighting, Seen):
+                self._seen.labels(marker).inc()
+            else:
+                self._unseen.labels(marker, sighting.reason.value).inc()
+
+
+class _Now(Collector):
+    """What is read at the moment when it is asked for."""
+
+    def __init__(self, hub: LiveHub, viewers: Viewers) -> None:
+        self._hub = hub
+        self._viewers = viewers
+
+    def collect(self) -> Iterable[Metric]:
+        yield from _viewer_metrics(self._viewers)
+        instant = self._hub.newest
+        if instant is not None:
+            yield from _instant_metrics(instant, now_s=time.monotonic())
+
+
+def _viewer_metrics(viewers: Viewers) -> Iterable[Metric]:
+    watching = GaugeMetricFamily("coaxial_viewers", "Viewers connected now, by kind.", labels=["kind"])
+    dropped = CounterMetricFamily(
+        "coaxial_viewer_dropped", "Instants that viewers skipped because they were slower.", labels=["kind"]
+    )
+    let_go = CounterMetricFamily(
+        "coaxial_viewer_let_go", "Viewers cut off because nothing could be sent to them.", labels=["kind"]
+    )
+    for kind in ViewerKind:
+        watching.add_metric([kind.value], viewers.count(kind))
+        dropped.add_metric([kind.value], viewers.dropped(kind))
+        let_go.add_metric([kind.value], viewers.let_go(kind))
+    return watching, dropped, let_go
+
+
+def _instant_metrics(instant: Instant, *, now_s: float) -> Iterable[Metric]:
+    source, process = instant.source, instant.process
+    yield CounterMetricFamily("coaxial_images", "Images that the source gave.", value=source.images)
+    yield CounterMetricFamily(
+        "coaxial_images_skipped",
+        "Images never looked at, because a newer one was there.",
+        value=source.skipped_images,
+    )
+    yield CounterMetricFamily(
+        "coaxial_images_dropped",
+        "Tracked images that the server was too slow to show.",
+        value=process.dropped_images,
+    )
+    yield GaugeMetricFamily(
+        "coaxial_image_rate_hertz", "Images a second, over the last second or so.", value=source.rate_hz
+    )
+    if instant.snapshot is not None:
+        # Left out when there is no image: an age of 0 or of an old image would say that all is well.
+        age_s = now_s - instant.snapshot.captured_at_s
+        yield GaugeMetricFamily("coaxial_image_age_seconds", "Age of the newest image.", value=age_s)
+    yield CounterMetricFamily(
+        "coaxial_tracking_restarts", "Times the tracking process was started again.", value=process.restarts
+    )
+    yield _one_of(
+        "coaxial_tracking_process_state",
+        "1 for the state of the tracking process.",
+        ProcessState,
+        process.state,
+    )
+    yield _one_of(
+        "coaxial_source_state", "1 for the state of the source of images.", SourceState, source.state
+    )
+
+
+def _one_of(
+    name: str, sentence: str, states: Iterable[ProcessState | SourceState], now: ProcessState | SourceState
+) -> Metric:
+    family = GaugeMetricFamily(name, sentence, labels=["state"])
+    for state in states:
+        family.add_metric([state.value], float(state is now))
+    return family
+
+
+def metrics_router(metrics: Metrics) -> APIRouter:
+    """`GET /metrics`."""
+    router = APIRouter(tags=["health"])
+
+    @router.get(
+        "/metrics",
+        response_class=Response,
+        responses={200: {"content": {"text/plain": {}}, "description": "Prometheus' text format."}},
+    )
+    async def prometheus() -> Response:
+        """Rates, times of each stage, drops and viewers, in Prometheus' text format."""
+        return Response(
+            generate_latest(metrics.registry),
+            media_type=CONTENT_TYPE_PLAIN_0_0_4,
+            headers={"Cache-Control": "no-store"},
+        )
+
+    return router

@@ -1,0 +1,55 @@
+"""The web page's files: found where they are installed or built, sent with the right lifetime."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.responses import HTMLResponse
+from starlette.responses import Response
+from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
+
+SERVER_FOLDER = Path(__file__).resolve().parent.parent
+# Installed, the page lies in the package; in a checkout, where its build puts it.
+PAGE_FOLDERS = (SERVER_FOLDER / "page", SERVER_FOLDER.parent / "web" / "dist")
+# Vite writes the hash of the content into the names of these.
+FOREVER = "public, max-age=31536000, immutable"
+ASK_AGAIN = "no-cache"
+
+NOT_BUILT = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Coaxial</title></head>
+<body><h1>Coaxial is running, but its page is not built</h1>
+<p>Run <code>make run</code> in the checkout, or <code>npm ci</code> and then <code>npm run build</code> in
+its folder <code>web</code>, and load this page again.</p>
+<p>Meanwhile: <a href="/video/{camera}.mjpg">the video</a>, <a href="/scene/">the 3-D scene</a>,
+<a href="/api/docs">the interface for machines</a>.</p>
+<p>Research software, not a medical device.</p></body></html>
+"""
+
+
+class PageFiles(StaticFiles):
+    """The built page: hashed assets are kept for ever, everything else is asked for again."""
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        """The file with its lifetime."""
+        response = await super().get_response(path, scope)
+        hashed = path.startswith("assets/") and response.status_code < 400
+        response.headers["Cache-Control"] = FOREVER if hashed else ASK_AGAIN
+        return response
+
+
+def page_folder(folders: tuple[Path, ...] = PAGE_FOLDERS) -> Path | None:
+    """Where the built page is, None when it is not built."""
+    return next((folder for folder in folders if (folder / "index.html").is_file()), None)
+
+
+def mount_page(app: FastAPI, *, camera: str, folder: Path | None) -> None:
+    """Serve the page at `/`; the last of all routes, because it answers to every path."""
+    if folder is not None:
+        app.mount("/", PageFiles(directory=folder, html=True), name="page")
+        return
+    headers: Mapping[str, Any] = {"Cache-Control": "no-store"}
+
+    @app.get("/", response_class=HTMLResponse, include_in_schema=False)
+    async def not_built() -> HTMLResponse:
+        return HTMLResponse(NOT_BUILT.format(camera=camera), status_code=503, headers=dict(headers))

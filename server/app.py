@@ -1,0 +1,94 @@
+"""The web application: every door that the server has, in one object."""
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
+
+from fastapi import FastAPI
+
+from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
+from server.api.documentation import documentation_router
+from server.api.errors import install_errors, refusals
+from server.api.health import health_router
+from server.api.live import live_router
+from server.api.metrics import Metrics, metrics_router
+from server.api.page import mount_page, page_folder
+from server.api.streams import SOCKETS_IN_WORDS, streams_router
+from server.config import Config
+from server.live import LiveHub
+from server.overlay.words import RESEARCH_SOFTWARE
+from server.scene import mount_scene
+from server.security import HostGuard, KnownHosts, SecurityHeaders
+from server.stream.mjpeg import Video
+from server.stream.viewers import Viewers
+from tracker.navigation import Setup
+from tracker.plan import Surface
+
+OPENAPI_PATH = "/api/openapi.json"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AppParts:
+    """What the application is made of.
+
+    Attributes:
+        hub: where the newest instant is published.
+        config: the settings; its limits are the ones that every door uses.
+        setup: what stands before the first image, for the scene; None when it is known only later.
+        surface: the bone, for the scene.
+    """
+
+    hub: LiveHub
+    config: Config
+    setup: Setup | None = None
+    surface: Surface | None = None
+
+
+def create_app(parts: AppParts) -> FastAPI:
+    """The application, ready to be served."""
+    hub, config = parts.hub, parts.config
+    limits = config.limits
+    viewers = Viewers()
+    metrics = Metrics(hub=hub, viewers=viewers)
+    video = Video(hub=hub, viewers=viewers, stale_after_ms=limits.video_stale_after_ms)
+
+    @contextlib.asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        counting = asyncio.create_task(metrics.follow(), name="metrics")
+        await app.state.scene.start()
+        try:
+            yield
+        finally:
+            await app.state.scene.stop()
+            counting.cancel()
+            await asyncio.wait([counting])
+
+    app = FastAPI(
+        title=PRODUCT,
+        version=product_version(),
+        description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}",
+        openapi_url=OPENAPI_PATH,
+        docs_url=None,
+        redoc_url=None,
+        lifespan=lifespan,
+        responses=refusals(421, 500),
+    )
+    install_errors(app)
+    app.add_middleware(HostGuard, hosts=KnownHosts.of(config.server.host))
+    app.add_middleware(SecurityHeaders)
+    app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
+    app.include_router(live_router(hub))
+    app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
+    app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
+    app.include_router(metrics_router(metrics))
+    app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
+    mount_scene(
+        app,
+        hub=hub,
+        setup=parts.setup,
+        surface=parts.surface,
+        stale_after_ms=limits.scene_stale_after_ms,
+    )
+    mount_page(app, camera=config.camera.name, folder=page_folder())
+    return app

@@ -1,0 +1,15 @@
+"""The overlay: what is known, burned into a copy of the image, and encoded once for all who watch.
+
+words.py    which words and numbers the panel says        (pure: snapshot -> text)
+view.py     points of the camera's frame -> runs of pixels that may be drawn
+ink.py      lines with a dark halo, text on a dark ground
+channel.py, drill.py, panel.py   what is drawn
+draw.py     all of it in order
+card.py     the picture that says that there is no picture
+"""
+
+from server.overlay.card import draw_card
+from server.overlay.draw import draw_overlay, encode_jpeg
+from server.overlay.words import Panel, Reading, panel_of
+
+__all__ = ["Panel", "Reading", "draw_card", "draw_overlay", "encode_jpeg", "panel_of"]

@@ -1,0 +1,93 @@
+"""Image and snapshot in, a new image out: what the surgeon looks at."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from server.overlay.channel import draw_channel
+from server.overlay.drill import draw_drill, draw_marker
+from server.overlay.ink import Image
+from server.overlay.panel import draw_panel, draw_small_print
+from server.overlay.view import View
+from server.overlay.words import panel_of
+from tracker.errors import InvalidInput
+from tracker.navigation import Absent, Deviation, NavigationSnapshot
+from tracker.pose import Seen
+
+BASE_HEIGHT_PX = 720.0
+# What the words at the top and in the panel need beside each other.
+LEAST_WIDTH_PX = 880.0
+AHEAD_MM = 50.0
+PAST_TARGET_MM = 10.0
+FARTHEST_AHEAD_MM = 150.0
+
+
+def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> Image:
+    """The image with all that is known at its instant burned in; the image handed in is never written.
+
+    In a camera that is not calibrated only outlines, names and scores are drawn. What is absent is not drawn,
+    and the panel says why in words.
+
+    Args:
+        image: uint8, BGR (h, w, 3) or grey (h, w), the very image of this snapshot.
+        snapshot: what was concluded from it.
+
+    Raises:
+        InvalidInput: OVERLAY_SIZE, image and snapshot do not belong together.
+    """
+    if (image.shape[1], image.shape[0]) != tuple(snapshot.size_wh_px):
+        width, height = snapshot.size_wh_px
+        raise InvalidInput(
+            "OVERLAY_SIZE",
+            f"the image is {image.shape[1]}x{image.shape[0]} px, its snapshot {width}x{height} px",
+            "Draw each snapshot into the image that it was made from.",
+        )
+    drawn = np.repeat(image[..., None], 3, axis=2) if image.ndim == 2 else image.copy(order="C")
+    # A portrait image is as legible as its width allows.
+    scale = min(drawn.shape[0] / BASE_HEIGHT_PX, drawn.shape[1] / LEAST_WIDTH_PX)
+    if snapshot.setup.camera_calibrated:
+        _draw_theatre(drawn, snapshot, scale)
+    for name, sighting in snapshot.sightings.items():
+        if isinstance(sighting, Seen):
+            draw_marker(drawn, name, sighting, scale=scale)
+    draw_panel(drawn, panel_of(snapshot), scale=scale)
+    draw_small_print(drawn, snapshot, scale=scale)
+    return drawn
+
+
+def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> None:
+    """Draw the channel, and over it every drill that is seen."""
+    setup = snapshot.setup
+    view = View.of(setup.camera)
+    if not isinstance(setup.channel, Absent) and not isinstance(setup.camera_from_vertebra, Absent):
+        draw_channel(image, view, setup.camera_from_vertebra, setup.channel, scale)
+    for name, in_view in snapshot.tools.items():
+        if not isinstance(in_view, Absent):
+            ahead = _ahead_mm(snapshot.deviations[name])
+            draw_drill(image, view, setup.tools[name], in_view, ahead_mm=ahead, scale=scale)
+
+
+def _ahead_mm(deviation: Deviation | Absent) -> float:
+    """How far ahead of the tip the drill's line is prolonged: a little past the planned end."""
+    if isinstance(deviation, Absent):
+        return AHEAD_MM
+    return float(np.clip(deviation.remaining_mm + PAST_TARGET_MM, PAST_TARGET_MM, FARTHEST_AHEAD_MM))
+
+
+def encode_jpeg(image: npt.NDArray[np.uint8], quality: int) -> bytes:
+    """The image as JPEG of this quality (1 to 100).
+
+    Raises:
+        InvalidInput: IMAGE_NOT_ENCODED, it has no pixels or is too large for JPEG (65,500 px).
+    """
+    try:
+        done, encoded = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, int(quality)])
+    except cv2.error:
+        done = False
+    if not done:
+        raise InvalidInput(
+            "IMAGE_NOT_ENCODED",
+            f"an image of shape {image.shape} cannot be encoded as JPEG",
+            "Use images with 1 or 3 channels and at most 65,500 px on a side.",
+        )
+    return encoded.tobytes()

@@ -1,0 +1,90 @@
+"""The panel of numbers in its fixed place, and the small print."""
+
+from server.overlay.ink import (
+    DRILL_ORANGE,
+    QUIET,
+    REGULAR,
+    SEMIBOLD,
+    WHITE,
+    Image,
+    ground,
+    text,
+    text_width_px,
+)
+from server.overlay.words import RESEARCH_SOFTWARE, Panel, Reading
+from tracker.navigation import Absent, NavigationSnapshot
+
+# For an image 720 px high; all of it grows with the image.
+MARGIN_PX = 16.0
+WIDTH_PX = 214.0
+ROW_PX = 82.0
+NUMBER_PX = 56.0
+UNIT_PX = 26.0
+LABEL_PX = 19.0
+STATE_PX = 40.0
+DETAIL_PX = 24.0
+SMALL_PX = 17.0
+PADDING_PX = 14.0
+
+
+def draw_panel(image: Image, panel: Panel, *, scale: float) -> None:
+    """Draw the panel: readings one above the other, or the state in words, in the lower left corner.
+
+    There it hides least: the camera is turned to the wound, which is in the middle.
+    """
+    left, bottom = MARGIN_PX * scale, image.shape[0] - MARGIN_PX * scale
+    if panel.readings:
+        top = bottom - (ROW_PX * len(panel.readings) + 6.0) * scale
+        ground(image, left, top, left + WIDTH_PX * scale, bottom)
+        for index, reading in enumerate(panel.readings):
+            _draw_reading(image, reading, left + PADDING_PX * scale, top + ROW_PX * index * scale, scale)
+        return
+    rows = [(panel.state, STATE_PX * scale, SEMIBOLD, DRILL_ORANGE)]
+    rows += [(detail, DETAIL_PX * scale, REGULAR, WHITE) for detail in panel.details]
+    width = max(text_width_px(words, size_px=size, weight=weight) for words, size, weight, _ in rows)
+    top = bottom - (62.0 + 34.0 * len(panel.details)) * scale
+    ground(image, left, top, left + width + 2.0 * PADDING_PX * scale, bottom)
+    base = top + 46.0 * scale
+    for words, size, weight, colour in rows:
+        text(image, words, (left + PADDING_PX * scale, base), colour, size_px=size, weight=weight)
+        base += 36.0 * scale
+
+
+def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale: float) -> None:
+    label_room = (WIDTH_PX - 1.5 * PADDING_PX) * scale
+    label_width = text_width_px(reading.label, size_px=LABEL_PX * scale, weight=SEMIBOLD)
+    label_size = LABEL_PX * scale * min(1.0, label_room / max(label_width, 1.0))
+    text(image, reading.label, (left, top + 25.0 * scale), QUIET, size_px=label_size, weight=SEMIBOLD)
+    # A degree sign belongs high, and close to its number.
+    is_degree = reading.unit == "°"
+    unit_size, gap = (NUMBER_PX * scale, scale) if is_degree else (UNIT_PX * scale, 6.0 * scale)
+    unit_width = text_width_px(reading.unit, size_px=unit_size, weight=REGULAR) + gap
+    width = text_width_px(reading.value, size_px=NUMBER_PX * scale, weight=SEMIBOLD)
+    # A number too long for its place is written smaller, never cut.
+    room = (WIDTH_PX - 1.5 * PADDING_PX) * scale - unit_width
+    number_size = NUMBER_PX * scale * min(1.0, room / max(width, 1.0))
+    base = top + 76.0 * scale
+    end = text(image, reading.value, (left, base), WHITE, size_px=number_size, weight=SEMIBOLD)
+    text(image, reading.unit, (end + gap, base), QUIET, size_px=unit_size, weight=REGULAR)
+
+
+def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float) -> None:
+    """Draw what must be there and must not disturb: plan and registration left, image and notice right."""
+    setup = snapshot.setup
+    size = SMALL_PX * scale
+    base = (MARGIN_PX + SMALL_PX) * scale
+    if setup.camera_calibrated and not isinstance(setup.channel, Absent):
+        plan = setup.channel.name
+        if not isinstance(setup.camera_from_vertebra, Absent):
+            plan += f" · registered by {setup.registered_by}"
+        _small(image, plan, MARGIN_PX * scale, base, size, scale)
+    words = f"image {snapshot.image_number} · {RESEARCH_SOFTWARE}"
+    width = text_width_px(words, size_px=size, weight=REGULAR)
+    _small(image, words, image.shape[1] - width - (MARGIN_PX + 6.0) * scale, base, size, scale)
+
+
+def _small(image: Image, words: str, left: float, base: float, size: float, scale: float) -> None:
+    width = text_width_px(words, size_px=size, weight=REGULAR)
+    pad = 6.0 * scale
+    ground(image, left - pad, base - size - pad * 0.3, left + width + pad, base + pad)
+    text(image, words, (left, base), QUIET, size_px=size, weight=REGULAR)

@@ -1,0 +1,71 @@
+"""From points in front of the camera to runs of pixels that may be drawn."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.camera import CameraModel
+from tracker.geometry import Array
+
+NEAREST_MM = 1.0
+# A lens polynomial is only true inside the image; far outside it folds back and would draw lines that are
+# not there.
+BEYOND_CORNER = 1.1
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """The camera of one image, with how far from its axis its lens may be trusted (as x/z)."""
+
+    camera: CameraModel
+    reach: float
+
+    @classmethod
+    def of(cls, camera: CameraModel) -> "View":
+        """The view of this camera."""
+        w, h = (float(size - 1) for size in camera.size_wh_px)
+        border: list[list[float]] = [
+            [0, 0],
+            [w / 2, 0],
+            [w, 0],
+            [w, h / 2],
+            [w, h],
+            [w / 2, h],
+            [0, h],
+            [0, h / 2],
+        ]
+        reach = float(np.linalg.norm(camera.normalised_from_px(border), axis=1).max())
+        return cls(camera, reach * BEYOND_CORNER if np.isfinite(reach) else 1.0)
+
+    def project(self, points_mm: npt.ArrayLike) -> tuple[Array, npt.NDArray[np.bool_]]:
+        """Pixels (n, 2) of points (n, 3) of the camera's frame, and which of them (n,) may be drawn."""
+        points = np.asarray(points_mm, dtype=np.float64).reshape(-1, 3)
+        shown = np.isfinite(points).all(axis=1) & (points[:, 2] > NEAREST_MM)
+        safe = np.where(shown[:, None], points, [0.0, 0.0, 1.0])
+        shown &= np.hypot(safe[:, 0], safe[:, 1]) <= self.reach * safe[:, 2]
+        px = self.camera.px_from_camera(np.where(shown[:, None], safe, [0.0, 0.0, 1.0]))
+        shown &= np.isfinite(px).all(axis=1)
+        return px, shown
+
+    def runs(self, points_mm: npt.ArrayLike) -> list[Array]:
+        """The stretches (m, 2), m >= 2, of a polyline of points (n, 3) that may be drawn."""
+        px, shown = self.project(points_mm)
+        if shown.all():
+            return [px] if len(px) > 1 else []
+        breaks = np.flatnonzero(np.diff(shown.astype(np.int8))) + 1
+        return [px[part] for part in np.split(np.arange(len(px)), breaks) if shown[part[0]] and len(part) > 1]
+
+
+def straight(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, *, count: int = 33) -> Array:
+    """Points (count, 3) from start to end: many, because a lens bends straight lines."""
+    return np.linspace(np.asarray(start_mm, np.float64), np.asarray(end_mm, np.float64), count)
+
+
+def dashes(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, *, dash_mm: float, points_each: int = 4) -> Array:
+    """Dashes (k, points_each, 3) from start to end, with gaps as long as they are."""
+    start, end = np.asarray(start_mm, np.float64), np.asarray(end_mm, np.float64)
+    length = float(np.linalg.norm(end - start))
+    count = int(np.clip(round(length / (2.0 * dash_mm)), 1, 60))
+    at = (np.arange(count)[:, None] + np.linspace(0.0, 0.5, points_each)[None, :]) / count
+    return start + at[:, :, None] * (end - start)

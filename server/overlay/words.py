@@ -1,0 +1,92 @@
+"""The words and numbers of the panel: numbers when they are known, the reason when they are not."""
+
+from dataclasses import dataclass
+
+from server.shown import shown_number
+from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot
+from tracker.pose import Seen, Unseen, UnseenReason
+
+RESEARCH_SOFTWARE = "research software, not a medical device"
+
+STATE_WORDS = {
+    AbsentReason.MARKER_UNSEEN: "NO TRACKING",
+    AbsentReason.CAMERA_NOT_CALIBRATED: "CAMERA NOT CALIBRATED",
+    AbsentReason.TOOL_NOT_DEFINED: "TOOL NOT DEFINED",
+    AbsentReason.NOT_REGISTERED: "NOT REGISTERED",
+    AbsentReason.NO_PLAN: "NO PLAN",
+}
+STATE_DETAILS = {
+    AbsentReason.MARKER_UNSEEN: "marker not seen",
+    AbsentReason.CAMERA_NOT_CALIBRATED: "no millimetres without a camera file",
+    AbsentReason.TOOL_NOT_DEFINED: "where is the tip behind this marker?",
+    AbsentReason.NOT_REGISTERED: "plan and patient do not know each other",
+    AbsentReason.NO_PLAN: "there is no channel",
+}
+UNSEEN_WORDS = {
+    UnseenReason.NO_CANDIDATE: "nothing looks like it",
+    UnseenReason.SCORE_TOO_LOW: "too few of its edges",
+    UnseenReason.TARGET_SCORE_TOO_LOW: "edges that it has not",
+    UnseenReason.AMBIGUOUS_POSE: "two poses fit equally well",
+    UnseenReason.FIT_FAILED: "no pose fits its edges",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """One number of the panel, as shown."""
+
+    label: str
+    value: str
+    unit: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Panel:
+    """What the panel says: readings, or in their place a state and its details; never both."""
+
+    readings: tuple[Reading, ...] = ()
+    state: str = ""
+    details: tuple[str, ...] = ()
+
+
+def panel_of(snapshot: NavigationSnapshot) -> Panel:
+    """The panel of one instant.
+
+    With several tools: the first in the order of the setup whose numbers are known, named in the panel.
+    """
+    for name, deviation in snapshot.deviations.items():
+        if isinstance(deviation, Deviation):
+            return Panel(readings=_readings(deviation, tool=name if len(snapshot.tools) > 1 else ""))
+    reason, marker = _reason(snapshot)
+    return Panel(state=STATE_WORDS[reason], details=_details(snapshot, reason, marker))
+
+
+def _readings(deviation: Deviation, *, tool: str) -> tuple[Reading, ...]:
+    owner = f" · {tool}" if tool else ""
+    return (
+        Reading(label=f"ENTRY{owner}", value=shown_number(deviation.entry_offset_mm), unit="mm"),
+        Reading(label="ANGLE", value=shown_number(deviation.angle_deg), unit="°"),
+        Reading(label="DEPTH", value=shown_number(deviation.depth_mm), unit="mm"),
+        Reading(label="TO GO", value=shown_number(deviation.remaining_mm), unit="mm"),
+    )
+
+
+def _reason(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:
+    """Why there are no numbers, and the marker whose matter it is, if it is one's."""
+    for name, deviation in snapshot.deviations.items():
+        if isinstance(deviation, Absent):
+            return deviation.reason, snapshot.setup.tools[name].marker
+    # No tool stands behind any marker; say first what stands first in the way.
+    if not any(isinstance(sighting, Seen) for sighting in snapshot.sightings.values()):
+        return AbsentReason.MARKER_UNSEEN, next(iter(snapshot.sightings), "")
+    if not snapshot.setup.camera_calibrated:
+        return AbsentReason.CAMERA_NOT_CALIBRATED, ""
+    return AbsentReason.TOOL_NOT_DEFINED, ""
+
+
+def _details(snapshot: NavigationSnapshot, reason: AbsentReason, marker: str) -> tuple[str, ...]:
+    general = (STATE_DETAILS[reason],) if reason in STATE_DETAILS else ()
+    sighting = snapshot.sightings.get(marker)
+    if reason is AbsentReason.MARKER_UNSEEN and isinstance(sighting, Unseen):
+        return (*general, f"{marker}: {UNSEEN_WORDS[sighting.reason]}")
+    return general

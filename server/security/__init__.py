@@ -1,0 +1,9 @@
+"""Who may talk to this server: hosts it answers to, pages that may open its sockets, headers it sends along.
+
+People, roles and sessions will live here too.
+"""
+
+from server.security.headers import SecurityHeaders
+from server.security.hosts import HostGuard, KnownHosts
+
+__all__ = ["HostGuard", "KnownHosts", "SecurityHeaders"]

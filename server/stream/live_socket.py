@@ -1,0 +1,36 @@
+"""`WS /ws/live`: one JSON message for each instant, for machines and for whoever needs no picture."""
+
+import time
+
+from starlette.websockets import WebSocket
+
+from server.live import LiveHub
+from server.stream.connection import line_of
+from server.stream.messages import live_message
+from server.stream.socket import REFUSED, Misbehaviour, converse
+from server.stream.viewers import ViewerKind, Viewers
+
+
+async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) -> None:
+    """Send a `LiveMessage` as text for each instant, the newest at once, until the client goes.
+
+    Newest wins: a slow client skips instants, and sees how many by the gaps in `sequence`. One that takes
+    nothing for 2 s is cut off. Instants without a snapshot are sent too: they say why there is none.
+    The client sends nothing; one that does is closed with 1008.
+    """
+    await websocket.accept()
+    line = line_of(websocket.scope)
+    with viewers.watching(ViewerKind.LIVE) as viewer:
+
+        async def speak() -> None:
+            while True:
+                instant = await hub.next_after(viewer.sequence)
+                viewer.took(instant.sequence)
+                message = live_message(instant, now_s=time.monotonic())
+                await viewers.send(websocket.send_text(message.model_dump_json()), line)
+
+        await converse(websocket, viewers, speak=speak, hear=_hear_nothing)
+
+
+def _hear_nothing(_text: str) -> None:
+    raise Misbehaviour(REFUSED, "this socket only sends; open /ws/view to ask for images")

@@ -1,0 +1,97 @@
+"""Who watches, and what they missed."""
+
+import asyncio
+from collections.abc import Awaitable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import StrEnum
+
+import structlog
+
+from server.stream.connection import Line
+
+_log = structlog.get_logger(__name__)
+
+
+class ViewerKind(StrEnum):
+    """The ways to watch."""
+
+    MJPEG = "mjpeg"
+    LIVE = "live"
+    VIEW = "view"
+
+
+@dataclass(slots=True)
+class Viewer:
+    """One who watches.
+
+    Attributes:
+        kind: by which way.
+        sequence: of the last instant taken, -1 before the first.
+        dropped: how many instants it skipped, because it was slower than they came.
+    """
+
+    kind: ViewerKind
+    sequence: int = -1
+    dropped: int = 0
+
+    def took(self, sequence: int) -> None:
+        """Note that this instant goes to the viewer now."""
+        if self.sequence >= 0:
+            self.dropped += max(0, sequence - self.sequence - 1)
+        self.sequence = sequence
+
+
+class Stalled(Exception):
+    """Nothing could be sent to a viewer for too long."""
+
+
+class Viewers:
+    """All who watch now, and sums over those who went. Used in one event loop only."""
+
+    def __init__(self, *, send_timeout_s: float = 2.0) -> None:
+        self.send_timeout_s = send_timeout_s
+        self._watching: list[Viewer] = []
+        self._dropped_by_gone = dict.fromkeys(ViewerKind, 0)
+        self._let_go = dict.fromkeys(ViewerKind, 0)
+
+    @contextmanager
+    def watching(self, kind: ViewerKind) -> Iterator[Viewer]:
+        """One more watches, for the time of the block; a stall ends it quietly, and is counted."""
+        viewer = Viewer(kind)
+        self._watching.append(viewer)
+        try:
+            yield viewer
+        except Stalled:
+            self._let_go[kind] += 1
+            _log.info("viewer_let_go", kind=kind, blocked_s=self.send_timeout_s, dropped=viewer.dropped)
+        finally:
+            self._watching.remove(viewer)
+            self._dropped_by_gone[kind] += viewer.dropped
+
+    async def send(self, sending: Awaitable[None], line: Line | None) -> None:
+        """Send something, and wait until the line has taken it, for as long as one sending may take.
+
+        Raises:
+            Stalled: it took longer.
+        """
+        try:
+            async with asyncio.timeout(self.send_timeout_s):
+                await sending
+                if line is not None:
+                    await line.drained()
+        except TimeoutError as error:
+            raise Stalled from error
+
+    def count(self, kind: ViewerKind) -> int:
+        """How many watch by this way now."""
+        return sum(viewer.kind is kind for viewer in self._watching)
+
+    def dropped(self, kind: ViewerKind) -> int:
+        """How many instants viewers of this kind skipped since the start."""
+        now = sum(viewer.dropped for viewer in self._watching if viewer.kind is kind)
+        return self._dropped_by_gone[kind] + now
+
+    def let_go(self, kind: ViewerKind) -> int:
+        """How many viewers of this kind were let go because they were stalled."""
+        return self._let_go[kind]

@@ -1,0 +1,166 @@
+"""A small theatre with known truth, instants made from it, and a real server on a free port."""
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+
+import numpy as np
+import pytest
+import uvicorn
+from fastapi import FastAPI
+
+from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.stream.connection import uvicorn_config
+from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
+from tracker.geometry import Camera, Rigid, Tool, Vertebra
+from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, Setup, navigate
+from tracker.plan import Channel
+
+SIDE_MM = 25.0
+CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM
+
+
+def _seen(setup: Setup, vertebra_from_tool: Rigid[Vertebra, Tool]) -> Seen:
+    assert not isinstance(setup.camera_from_vertebra, Absent)
+    tool = setup.tools["drill"]
+    camera_from_marker = setup.camera_from_vertebra @ vertebra_from_tool @ tool.marker_from_tool.inverse
+    return Seen(
+        camera_from_marker=camera_from_marker,
+        pose_covariance=np.eye(6) * 1e-4,
+        corners_px=setup.camera.px_from_camera(camera_from_marker.move_points(CORNERS_MM)),
+        score_ratio=0.93,
+        target_score_ratio=0.9,
+        model_coverage_ratio=0.95,
+        target_coverage_ratio=0.9,
+        fit_error_px2=0.1,
+        found_by="track",
+    )
+
+
+def make_snapshot(
+    *,
+    size_wh_px: tuple[int, int] = (640, 360),
+    tip_in_vertebra_mm: tuple[float, float, float] = (1.5, -1.0, 12.0),
+    tilt_rad: float = 0.1,
+    seen: bool = True,
+    calibrated: bool = True,
+    registered: bool = True,
+    planned: bool = True,
+    with_tool: bool = True,
+    camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
+    image_number: int = 0,
+    captured_at_s: float = 0.0,
+) -> NavigationSnapshot:
+    """The drill near a channel 40 mm long, seen by a camera whose lens bends."""
+    width, height = size_wh_px
+    focal = 1.1 * width
+    camera = CameraModel(
+        matrix=np.array([[focal, 0, width / 2], [0, focal, height / 2], [0, 0, 1]]),
+        distortion=np.array([-0.25, 0.06, 0.001, 0.0, 0.0]),
+        size_wh_px=size_wh_px,
+    )
+    tool = ToolModel.from_tip_and_axis(
+        name="drill",
+        marker="drill",
+        tip_in_marker_mm=[0, -70, 0],
+        axis_in_marker=[0, -1, 0],
+        radius_mm=2.0,
+        length_mm=100.0,
+    )
+    channel = Channel(
+        name="L3 left",
+        entry_in_vertebra_mm=np.zeros(3),
+        target_in_vertebra_mm=np.array([0.0, 0.0, 40.0]),
+        radius_mm=4.0,
+    )
+    place = camera_from_vertebra or Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
+    setup = Setup(
+        camera=camera,
+        camera_calibrated=calibrated,
+        tools={"drill": tool} if with_tool else {},
+        channel=channel if planned else Absent(reason=AbsentReason.NO_PLAN),
+        camera_from_vertebra=place if registered else Absent(reason=AbsentReason.NOT_REGISTERED),
+        registered_by="rehearsal",
+    )
+    whole = Setup(
+        camera=camera,
+        camera_calibrated=True,
+        tools={"drill": tool},
+        channel=channel,
+        camera_from_vertebra=place,
+        registered_by="rehearsal",
+    )
+    truth = Rigid[Vertebra, Tool].from_vector([tilt_rad, 0.04, 0.0], list(tip_in_vertebra_mm))
+    unseen = Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=0.4)
+    return navigate(
+        setup=setup,
+        sightings={"drill": _seen(whole, truth) if seen else unseen},
+        image_number=image_number,
+        captured_at_s=captured_at_s,
+        size_wh_px=size_wh_px,
+        stage_ms={"edges": 3.0, "pose": 1.0},
+        skipped_images=0,
+    )
+
+
+def make_instant(
+    sequence: int,
+    *,
+    snapshot: NavigationSnapshot | None = None,
+    jpeg: bytes = b"",
+    source: SourceStatus | None = None,
+    process: ProcessStatus | None = None,
+) -> Instant:
+    """An instant of a source and a process that run, if nothing else is said."""
+    return Instant(
+        sequence=sequence,
+        source=source or SourceStatus(name="rehearsal", state=SourceState.RUNNING, images=sequence + 1),
+        process=process or ProcessStatus(state=ProcessState.RUNNING),
+        snapshot=snapshot,
+        jpeg=jpeg,
+        server_ms={} if snapshot is None else {"overlay": 2.0},
+    )
+
+
+@pytest.fixture(scope="session")
+def snapshot_of() -> Callable[..., NavigationSnapshot]:
+    return make_snapshot
+
+
+@pytest.fixture(scope="session")
+def instant_of() -> Callable[..., Instant]:
+    return make_instant
+
+
+class _Announced(uvicorn.Server):
+    """A server that says when it listens."""
+
+    def __init__(self, config: uvicorn.Config) -> None:
+        super().__init__(config)
+        self.listening = threading.Event()
+
+    async def startup(self, sockets: list[object] | None = None) -> None:  # type: ignore[override]  # unused
+        await super().startup(None)
+        assert sockets is None
+        self.listening.set()
+
+
+@contextmanager
+def _served(app: FastAPI) -> Iterator[int]:
+    server = _Announced(uvicorn_config(app, host="127.0.0.1", port=0))
+    thread = threading.Thread(target=server.run, name="web server", daemon=True)
+    thread.start()
+    try:
+        assert server.listening.wait(30.0)
+        yield int(server.servers[0].sockets[0].getsockname()[1])
+    finally:
+        server.should_exit = True
+        thread.join(30.0)
+        assert not thread.is_alive(), "the server does not end"
+
+
+@pytest.fixture
+def serve() -> Iterator[Callable[[FastAPI], int]]:
+    """Serve an application for real; answers the port."""
+    with ExitStack() as stack:
+        yield lambda app: stack.enter_context(_served(app))

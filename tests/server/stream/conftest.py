@@ -1,0 +1,58 @@
+"""The whole application for one who watches, and pictures to be watched."""
+
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from fastapi import FastAPI
+from fastapi.testclient import TestClient
+from starlette.testclient import WebSocketTestSession
+
+from server.app import AppParts, create_app
+from server.config import Config
+from server.live import Instant, LiveHub
+from server.overlay import encode_jpeg
+from tracker.navigation import NavigationSnapshot
+
+
+@pytest.fixture
+def hub() -> LiveHub:
+    return LiveHub()
+
+
+@pytest.fixture
+def app(hub: LiveHub) -> FastAPI:
+    return create_app(AppParts(hub=hub, config=Config()))
+
+
+@pytest.fixture
+def client(app: FastAPI) -> Iterator[TestClient]:
+    with TestClient(app, base_url="http://127.0.0.1:8000") as client:
+        yield client
+
+
+@pytest.fixture
+def open_socket(client: TestClient) -> Callable[..., WebSocketTestSession]:
+    """Open a WebSocket of the application, with more headers if wanted."""
+
+    def opened(path: str, headers: dict[str, str] | None = None) -> WebSocketTestSession:
+        return client.websocket_connect(f"ws://127.0.0.1:8000{path}", headers=headers or {})
+
+    return opened
+
+
+@pytest.fixture
+def live_instant(
+    snapshot_of: Callable[..., NavigationSnapshot], instant_of: Callable[..., Instant]
+) -> Callable[..., Instant]:
+    """An instant of now, with a picture that is as bright as its sequence number."""
+
+    def make(sequence: int, *, jpeg: bytes | None = None) -> Instant:
+        picture = np.full((90, 160, 3), sequence % 256, np.uint8)
+        snapshot = snapshot_of(
+            size_wh_px=(160, 90), image_number=1000 + sequence, captured_at_s=time.monotonic()
+        )
+        return instant_of(sequence, snapshot=snapshot, jpeg=jpeg or encode_jpeg(picture, 80))
+
+    return make

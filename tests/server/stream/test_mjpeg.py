@@ -1,0 +1,187 @@
+"""MJPEG from a real server: at once, never one late, never frozen, and a stalled viewer costs nothing."""
+
+import http.client
+import json
+import re
+import socket
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from fastapi import FastAPI
+
+from server.live import Instant, LiveHub, ProcessState, ProcessStatus
+from server.stream.mjpeg import with_comment
+
+LiveInstant = Callable[..., Instant]
+Serve = Callable[[FastAPI], int]
+PART_HEAD = b"--coaxial\r\nContent-Type: image/jpeg\r\n\r\n"
+DEADLINE_S = 60.0
+
+
+class Watching:
+    """A viewer of the MJPEG stream that looks at each byte."""
+
+    def __init__(self, port: int) -> None:
+        self._connection = http.client.HTTPConnection("127.0.0.1", port, timeout=DEADLINE_S)
+        self._connection.request("GET", "/video/main.mjpg")
+        self.response = self._connection.getresponse()
+        assert self.response.read(len(PART_HEAD)) == PART_HEAD
+
+    def picture(self) -> tuple[dict[str, Any], bytes]:
+        """The facts in the comment of the next JPEG, and the JPEG without them.
+
+        Reads up to the head of the next part and not a byte further: that head has to come directly.
+        """
+        data = b""
+        while not data.endswith(b"\r\n" + PART_HEAD):
+            data += self.response.read(1)
+        jpeg = data[: -len(b"\r\n" + PART_HEAD)]
+        found = re.search(rb"\xff\xfe(..)(\{.*?\})", jpeg, re.DOTALL)
+        assert found is not None
+        return json.loads(found[2]), jpeg[: found.start()] + jpeg[found.end() :]
+
+    def close(self) -> None:
+        self._connection.close()
+
+
+@pytest.fixture
+def port(app: FastAPI, serve: Serve) -> int:
+    return serve(app)
+
+
+@pytest.fixture
+def watch(port: int) -> Iterator[Callable[[], Watching]]:
+    watching: list[Watching] = []
+
+    def start() -> Watching:
+        watching.append(Watching(port))
+        return watching[-1]
+
+    yield start
+    for one in watching:
+        one.close()
+
+
+def metric(port: int, name: str) -> float:
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=DEADLINE_S)
+    connection.request("GET", "/metrics")
+    lines = connection.getresponse().read().decode().splitlines()
+    connection.close()
+    return next((float(line.split()[-1]) for line in lines if line.startswith(name)), 0.0)
+
+
+def received_until_cut(line: socket.socket) -> int:
+    """How many bytes still come before the line is at its end."""
+    total = 0
+    try:
+        while received := line.recv(1 << 20):
+            total += len(received)
+    except ConnectionResetError:
+        pass
+    return total
+
+
+def test_a_late_joiner_sees_the_newest_image_as_it_was_published(
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+) -> None:
+    instant = live_instant(3)
+    hub.publish(live_instant(2))
+    hub.publish(instant)
+    viewer = watch()
+    facts, jpeg = viewer.picture()
+    assert facts["image_number"] == 1003
+    assert facts["age_ms"] >= 0.0
+    assert jpeg == instant.jpeg
+    assert viewer.response.headers["Content-Type"] == "multipart/x-mixed-replace; boundary=coaxial"
+    assert "no-store" in viewer.response.headers["Cache-Control"]
+
+
+def test_each_viewer_gets_the_same_bytes(
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+) -> None:
+    hub.publish(live_instant(1))
+    one, other = watch(), watch()
+    assert one.picture()[1] == other.picture()[1]
+    instant = live_instant(2)
+    hub.publish(instant)
+    assert one.picture()[1] == other.picture()[1] == instant.jpeg
+
+
+def test_before_the_first_image_a_card_is_shown_and_then_the_image(
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+) -> None:
+    viewer = watch()
+    assert viewer.picture()[0] == {"image_number": None}
+    hub.publish(live_instant(0))
+    while (shown := viewer.picture()[0]["image_number"]) is None:
+        pass
+    assert shown == 1000
+
+
+def test_when_tracking_dies_a_card_replaces_the_last_image(
+    hub: LiveHub, live_instant: LiveInstant, instant_of: LiveInstant, watch: Callable[[], Watching]
+) -> None:
+    hub.publish(live_instant(0))
+    viewer = watch()
+    assert viewer.picture()[0]["image_number"] == 1000
+    hub.publish(instant_of(1, process=ProcessStatus(state=ProcessState.RESTARTING)))
+    assert viewer.picture()[0] == {"image_number": None}
+
+
+def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+) -> None:
+    hub.publish(live_instant(0))
+    viewer = watch()
+    assert viewer.picture()[0]["image_number"] == 1000
+    assert viewer.picture()[0] == {"image_number": None}
+
+
+def test_a_stalled_viewer_is_let_go_and_delays_nobody(
+    hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], Watching]
+) -> None:
+    noise = np.random.default_rng(1).integers(0, 255, 400_000, dtype=np.uint8).tobytes()
+    sequence = 0
+
+    def publish() -> None:
+        nonlocal sequence
+        sequence += 1
+        hub.publish(live_instant(sequence, jpeg=b"\xff\xd8" + noise.replace(b"\xff", b"\x00")))
+
+    publish()
+    with socket.socket() as stalled:
+        stalled.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        stalled.connect(("127.0.0.1", port))
+        stalled.sendall(b"GET /video/main.mjpg HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+        deadline = time.monotonic() + DEADLINE_S
+        while metric(port, 'coaxial_viewer_let_go_total{kind="mjpeg"}') == 0.0:
+            publish()
+            assert time.monotonic() < deadline
+        # Its line is cut for good: what was waiting for it is thrown away, not kept.
+        assert received_until_cut(stalled) < 2 * len(noise)
+        assert metric(port, 'coaxial_viewers{kind="mjpeg"}') == 0.0
+    publish()
+    assert watch().response.status == 200
+
+
+def test_a_viewer_that_goes_is_forgotten(
+    hub: LiveHub, live_instant: LiveInstant, port: int, watch: Callable[[], Watching]
+) -> None:
+    hub.publish(live_instant(0))
+    viewer = watch()
+    viewer.picture()
+    assert metric(port, 'coaxial_viewers{kind="mjpeg"}') == 1.0
+    viewer.response.close()
+    viewer.close()
+    deadline = time.monotonic() + DEADLINE_S
+    while metric(port, 'coaxial_viewers{kind="mjpeg"}') > 0.0:
+        assert time.monotonic() < deadline
+
+
+def test_a_comment_does_not_touch_the_picture() -> None:
+    jfif = b"\xff\xd8\xff\xe0\x00\x04ab" + b"rest"
+    assert with_comment(jfif, {"n": 1}) == b'\xff\xd8\xff\xe0\x00\x04ab\xff\xfe\x00\x09{"n":1}rest'
+    assert with_comment(b"\xff\xd8rest", {}) == b"\xff\xd8\xff\xfe\x00\x04{}rest"

@@ -1,0 +1,63 @@
+"""MJPEG in a real browser, which shows a part only when the next one has begun."""
+
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+
+from server.app import AppParts, create_app
+from server.config import Config, LimitsConfig
+from server.live import Instant, LiveHub
+from server.overlay import encode_jpeg
+from tracker.navigation import NavigationSnapshot
+
+pytestmark = pytest.mark.browser
+
+FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+# Whether the picture is as bright as asked for.
+IS_SHOWN = """bright => {
+    const img = document.querySelector('img')
+    if (!img || !img.naturalWidth) return false
+    const canvas = new OffscreenCanvas(1, 1).getContext('2d')
+    canvas.drawImage(img, 0, 0, 1, 1)
+    return Math.abs(canvas.getImageData(0, 0, 1, 1).data[0] - bright) < 8
+}"""
+
+
+@pytest.fixture
+def browser() -> Iterator[Browser]:
+    found = os.environ.get("COAXIAL_CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), None)
+    with sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=found, args=FLAGS)
+        yield opened
+        opened.close()
+
+
+def test_the_browser_shows_an_image_without_waiting_for_the_next(
+    browser: Browser,
+    serve: Callable[..., int],
+    snapshot_of: Callable[..., NavigationSnapshot],
+    instant_of: Callable[..., Instant],
+) -> None:
+    hub = LiveHub()
+    # No card within this test: it would be the next part, and hide that the browser waits for it.
+    patient = Config(limits=LimitsConfig(video_stale_after_ms=10_000.0))
+    port = serve(create_app(AppParts(hub=hub, config=patient)))
+
+    def publish(sequence: int, bright: int) -> None:
+        snapshot = snapshot_of(size_wh_px=(64, 36), captured_at_s=time.monotonic())
+        jpeg = encode_jpeg(np.full((36, 64, 3), bright, np.uint8), 90)
+        hub.publish(instant_of(sequence, snapshot=snapshot, jpeg=jpeg))
+
+    publish(0, 40)
+    page = browser.new_page()
+    page.goto(f"http://127.0.0.1:{port}/api/docs")
+    page.evaluate("document.body.innerHTML = '<img src=/video/main.mjpg>'")
+    page.wait_for_function(IS_SHOWN, arg=40, timeout=9_000)
+    publish(1, 220)
+    page.wait_for_function(IS_SHOWN, arg=220, timeout=9_000)

@@ -1,0 +1,58 @@
+"""A WebSocket client that takes nothing is cut off, however it watches."""
+
+import http.client
+import socket
+import time
+from collections.abc import Callable
+
+import pytest
+from fastapi import FastAPI
+
+from server.live import Instant, LiveHub, SourceState, SourceStatus, Trouble
+
+DEADLINE_S = 60.0
+# More than all buffers between the two sides hold.
+LARGE = 8_000_000
+HANDSHAKE = (
+    "GET /ws/{kind} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+    "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"
+)
+GRANT = b'{"next": true}'
+# A text message in one frame, masked with zeros, as a client has to mask it.
+GRANT_FRAME = bytes([0x81, 0x80 | len(GRANT), 0, 0, 0, 0]) + GRANT
+
+
+def let_go(port: int, kind: str) -> bool:
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=DEADLINE_S)
+    connection.request("GET", "/metrics")
+    told = connection.getresponse().read().decode()
+    connection.close()
+    return f'coaxial_viewer_let_go_total{{kind="{kind}"}} 1.0' in told
+
+
+@pytest.mark.parametrize("kind", ["live", "view"])
+def test_a_stalled_client_is_cut_off(
+    hub: LiveHub,
+    app: FastAPI,
+    serve: Callable[[FastAPI], int],
+    live_instant: Callable[..., Instant],
+    instant_of: Callable[..., Instant],
+    kind: str,
+) -> None:
+    port = serve(app)
+    if kind == "view":
+        hub.publish(live_instant(1, jpeg=b"\xff" * LARGE))
+    else:
+        trouble = Trouble(code="LONG", message="x" * LARGE, remedy="None.")
+        source = SourceStatus(name="0", state=SourceState.RECONNECTING, trouble=trouble)
+        hub.publish(instant_of(1, source=source))
+    with socket.socket() as stalled:
+        stalled.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        stalled.connect(("127.0.0.1", port))
+        stalled.sendall(HANDSHAKE.format(kind=kind).encode())
+        assert stalled.recv(12) == b"HTTP/1.1 101"
+        if kind == "view":
+            stalled.sendall(GRANT_FRAME)
+        deadline = time.monotonic() + DEADLINE_S
+        while not let_go(port, kind):
+            assert time.monotonic() < deadline

@@ -1,0 +1,107 @@
+"""`/ws/view`: image and pose of one instant in one message, and only when asked for."""
+
+import json
+import struct
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from starlette.testclient import WebSocketTestSession
+from starlette.websockets import WebSocketDisconnect
+
+from server.live import Instant, LiveHub
+
+LiveInstant = Callable[..., Instant]
+OpenSocket = Callable[..., WebSocketTestSession]
+
+
+def unpacked(message: bytes) -> tuple[dict[str, Any], bytes]:
+    (length,) = struct.unpack_from("<I", message)
+    return json.loads(message[4 : 4 + length]), message[4 + length :]
+
+
+def test_an_image_and_its_pose_come_in_one_message(
+    open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant
+) -> None:
+    instant = live_instant(5)
+    hub.publish(instant)
+    with open_socket("/ws/view?camera=main") as socket:
+        socket.send_text('{"next": true}')
+        header, jpeg = unpacked(socket.receive_bytes())
+    assert header["sequence"] == 5
+    assert header["snapshot"]["image_number"] == 1005
+    # The very bytes that were published: nothing is encoded again.
+    assert jpeg == instant.jpeg
+
+
+def test_each_image_is_asked_for_and_is_the_newest_then(
+    client: TestClient, open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant
+) -> None:
+    hub.publish(live_instant(0))
+    with open_socket("/ws/view") as socket:
+        socket.send_text('{"next": true}')
+        assert unpacked(socket.receive_bytes())[0]["sequence"] == 0
+        # Nobody asked for 1 and 2: they are never sent.
+        for sequence in (1, 2, 3):
+            hub.publish(live_instant(sequence))
+        socket.send_text('{"next":true}')
+        assert unpacked(socket.receive_bytes())[0]["sequence"] == 3
+        # Asked before there is a newer one: the answer comes with it.
+        socket.send_text('{"next": true}')
+        hub.publish(live_instant(4))
+        assert unpacked(socket.receive_bytes())[0]["sequence"] == 4
+    assert 'coaxial_viewer_dropped_total{kind="view"} 2.0' in client.get("/metrics").text
+
+
+def test_an_instant_without_image_comes_with_an_empty_jpeg(
+    open_socket: OpenSocket, hub: LiveHub, instant_of: LiveInstant
+) -> None:
+    hub.publish(instant_of(9))
+    with open_socket("/ws/view") as socket:
+        socket.send_text('{"next": true}')
+        header, jpeg = unpacked(socket.receive_bytes())
+    assert header["snapshot"] is None
+    assert jpeg == b""
+
+
+@pytest.mark.parametrize(
+    ("said", "code", "reason"),
+    [
+        pytest.param("next", 1008, "only {", id="no-json"),
+        pytest.param('{"next": false}', 1008, "only {", id="another-value"),
+        pytest.param('{"next": true, "camera": "x"}', 1008, "only {", id="more-than-asked"),
+        pytest.param("[" * 1000, 1008, "only {", id="deep"),
+        pytest.param("x" * 1025, 1009, "1024", id="too-long"),
+        pytest.param(b"\x00", 1008, "text", id="binary"),
+    ],
+)
+def test_anything_else_ends_with_a_reason(
+    open_socket: OpenSocket, said: str | bytes, code: int, reason: str
+) -> None:
+    with open_socket("/ws/view") as socket:
+        if isinstance(said, bytes):
+            socket.send_bytes(said)
+        else:
+            socket.send_text(said)
+        with pytest.raises(WebSocketDisconnect) as told:
+            socket.receive_bytes()
+    assert told.value.code == code
+    assert reason in told.value.reason
+
+
+def test_a_flood_of_questions_ends_with_a_reason(open_socket: OpenSocket) -> None:
+    with open_socket("/ws/view") as socket:
+        for _ in range(700):
+            socket.send_text('{"next": true}')
+        with pytest.raises(WebSocketDisconnect) as told:
+            socket.receive_bytes()
+    assert told.value.code == 1008
+    assert "a second" in told.value.reason
+
+
+def test_an_unknown_camera_is_refused_with_the_known_ones(open_socket: OpenSocket) -> None:
+    with open_socket("/ws/view?camera=side") as socket, pytest.raises(WebSocketDisconnect) as told:
+        socket.receive_bytes()
+    assert told.value.code == 1008
+    assert told.value.reason == "there is no camera 'side', only main"
