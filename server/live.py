@@ -9,6 +9,7 @@ import threading
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
 
 
@@ -29,6 +30,11 @@ class Trouble:
     message: str
     remedy: str
     context: dict[str, object] = field(default_factory=dict)
+
+    @classmethod
+    def from_error(cls, error: NavigationError) -> "Trouble":
+        """An error, from the moment on when it is a state rather than an event."""
+        return cls(code=error.code, message=error.message, remedy=error.remedy, context=dict(error.context))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,11 +69,19 @@ class ProcessState(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ProcessStatus:
-    """The process that captures and tracks."""
+    """The process that captures and tracks.
+
+    Attributes:
+        state: what it is doing.
+        restarts: how often it was started again since the server started.
+        trouble: why it is not running; or, while it runs, why it cannot track.
+        dropped_images: tracked images that the server was too slow to show, since it started.
+    """
 
     state: ProcessState
     restarts: int = 0
     trouble: Trouble | None = None
+    dropped_images: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

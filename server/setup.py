@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from server.camera_file import load_camera_file
 from server.capture.address import SourceKind, source_from_text
 from server.config import Config, ToolConfig
@@ -17,7 +19,8 @@ from tracker.plan import Channel
 from tracker.pose import ToolModel
 
 if TYPE_CHECKING:
-    from tracker.rehearsal import Surface, Theatre
+    from tracker.plan import Surface
+    from tracker.rehearsal import Theatre
 
 # An ordinary lens: about 45 degrees across. It only helps to find the marker, no millimetre comes from it.
 NOMINAL_FOCAL_BY_WIDTH = 1.2
@@ -127,8 +130,8 @@ def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
     width, height = size_wh_px
     focal = NOMINAL_FOCAL_BY_WIDTH * width
     return CameraModel(
-        matrix=[[focal, 0.0, (width - 1) / 2], [0.0, focal, (height - 1) / 2], [0.0, 0.0, 1.0]],
-        distortion=[0.0] * 5,
+        matrix=np.array([[focal, 0.0, (width - 1) / 2], [0.0, focal, (height - 1) / 2], [0.0, 0.0, 1.0]]),
+        distortion=np.zeros(5),
         size_wh_px=(width, height),
     )
 

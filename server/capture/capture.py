@@ -18,11 +18,6 @@ RATE_WINDOW_S = 1.0
 log = structlog.get_logger(__name__)
 
 
-def trouble_from_error(error: CaptureError) -> Trouble:
-    """An error in the shape that goes into the status."""
-    return Trouble(code=error.code, message=error.message, remedy=error.remedy, context=dict(error.context))
-
-
 class Capture:
     """The newest image of a source, which is opened again by itself whenever it fails.
 
@@ -144,7 +139,7 @@ class Capture:
             self._alive_at_s = shot.captured_at_s
             self._times.append(shot.captured_at_s)
             self._state = SourceState.RUNNING
-            self._trouble = None if defect is None else trouble_from_error(defect)
+            self._trouble = None if defect is None else Trouble.from_error(defect)
             self._change.notify_all()
         if started:
             self._tell_running(shot)
@@ -162,7 +157,7 @@ class Capture:
         with self._change:
             self._state = SourceState.ENDED
             self._is_open = False
-            self._trouble = None if self._source.defect is None else trouble_from_error(self._source.defect)
+            self._trouble = None if self._source.defect is None else Trouble.from_error(self._source.defect)
             self._status_changed = True
             self._change.notify_all()
         log.info("source ended", source=self._source.name, images=self._images)
@@ -172,7 +167,7 @@ class Capture:
         with self._change:
             self._is_open = False
             self._state = SourceState.RECONNECTING
-            self._trouble = trouble_from_error(error)
+            self._trouble = Trouble.from_error(error)
             self._times.clear()
             self._status_changed = True
             if self._failed_at_s is None:

@@ -42,7 +42,10 @@ class Source(Protocol):
     name: str
     waits_for_taker: bool
     stalls: bool
-    defect: CaptureError | None
+
+    @property
+    def defect(self) -> CaptureError | None:
+        """What is wrong with it although it gives images."""
 
     def open(self) -> None:
         """Make ready to read. May block for some seconds.
