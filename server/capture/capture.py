@@ -169,6 +169,8 @@ class Capture:
             self._state = SourceState.RECONNECTING
             self._trouble = Trouble.from_error(error)
             self._times.clear()
+            # An image from before the failure must not be looked at as if it were live.
+            self._newest = None
             self._status_changed = True
             if self._failed_at_s is None:
                 self._failed_at_s = time.monotonic()

@@ -62,7 +62,7 @@ def _markers(given: Given) -> list[tuple[str, Path, float]]:
             f"--marker is there {count} times, --side-mm {len(given.sides_mm)} times, "
             f"--name {len(given.names)} times"
             + (" (two markers have the same name)" if len(set(names)) != len(names) else ""),
-            "Give each --marker its --side-mm (or one for all), and no --name or one for each, all different.",
+            "Give each --marker its --side-mm (or one for all), and one --name each or none, all different.",
             {"markers": count, "sides": len(given.sides_mm), "names": len(given.names)},
         )
     return list(zip(names, given.markers, sides, strict=True))

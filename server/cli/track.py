@@ -20,6 +20,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from server.capture.address import SourceKind, source_from_text
 from server.capture.choose import source_from_config
+from server.capture.codecs import open_file
 from server.capture.shot import Shot, Source
 from server.cli.options import Given, config_from_options
 from server.config import Config
@@ -56,7 +57,7 @@ def track_video(
         raise InvalidInput(
             "NO_MARKER",
             "there is no marker to look for",
-            "Give its picture with --marker PNG and its side with --side-mm, or name it in the settings file.",
+            "Give its picture with --marker PNG and its side with --side-mm, or put it into the settings.",
         )
     theatre = preparation.theatre
     if theatre is not None:
@@ -209,7 +210,7 @@ def _count(config: Config, images: int | None) -> int | None:
     path = Path(str(config.camera.source))
     if images is not None or not path.is_file():
         return images
-    video = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG)
+    video = open_file(str(path))
     count = int(video.get(cv2.CAP_PROP_FRAME_COUNT))
     video.release()
     return count if count > 0 else None

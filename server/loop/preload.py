@@ -17,7 +17,8 @@ import contextlib  # noqa: E402  the lines above come before everything that tak
 import cv2  # noqa: E402
 import numpy as np  # noqa: E402
 
-import server.loop.worker  # noqa: E402
+import server.loop.worker  # noqa: E402, F401  loaded here so that no child has to
+import tracker.rehearsal  # noqa: E402, F401
 from tracker.camera import CameraModel  # noqa: E402
 from tracker.errors import NavigationError  # noqa: E402
 from tracker.marker import MarkerModel  # noqa: E402
@@ -54,4 +55,3 @@ def warm_up() -> None:
 # A fault of the tracker is told by the first tracking process, with its traceback, not by this silent one.
 with contextlib.suppress(Exception):
     warm_up()
-server.loop.worker.log.debug("tracker is loaded")
