@@ -9,9 +9,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from server.cli.stopping import Stopping
-
-# Streams never end by themselves; they get this long to notice that the server stops.
-GRACE_S = 1
+from server.stream.connection import uvicorn_config
 
 
 class WebServer(uvicorn.Server):
@@ -46,14 +44,7 @@ def serve_until(
     app: FastAPI, listener: socket.socket, stopping: Stopping, *, on_ready: Callable[[], None]
 ) -> None:
     """Serve until asked to stop."""
-    config = uvicorn.Config(
-        app,
-        log_config=None,
-        access_log=False,
-        timeout_graceful_shutdown=GRACE_S,
-        server_header=False,
-        lifespan="on",
-    )
-    server = WebServer(config, on_ready=on_ready)
+    host, port = listener.getsockname()[:2]
+    server = WebServer(uvicorn_config(app, host=host, port=port), on_ready=on_ready)
     stopping.call_when_asked(server.ask_to_stop)
     server.run(sockets=[listener])
