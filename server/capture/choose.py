@@ -66,11 +66,12 @@ class PathSource:
         self._stop = stop
         self._number = first_number
         self._source: VideoFileSource | FolderSource | None = None
+        self._defect: CaptureError | None = None
 
     @property
     def defect(self) -> CaptureError | None:
         """What is wrong with it although it gives images."""
-        return None if self._source is None else self._source.defect
+        return self._defect if self._source is None else self._source.defect
 
     def open(self) -> None:
         """Open it as what it is now."""
@@ -97,5 +98,6 @@ class PathSource:
     def close(self) -> None:
         """Close what is open."""
         if self._source is not None:
+            self._defect = self._source.defect
             self._source.close()
             self._source = None

@@ -180,7 +180,6 @@ def main() -> None:
 
         if not isinstance(error, NavigationError):
             raise
-        message = error.message[:1].upper() + error.message[1:]
-        end = "" if message.endswith((".", "?", "!")) else "."
-        typer.echo(f"Error: {message}{end}\n{error.remedy}", err=True)
+        end = "" if error.message.endswith((".", "?", "!")) else "."
+        typer.echo(f"Error: {error.message}{end}\n{error.remedy}", err=True)
         sys.exit(BAD_INPUT)

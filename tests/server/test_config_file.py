@@ -32,16 +32,20 @@ def test_the_file_in_the_repository_says_what_is_built_in() -> None:
     assert load_config(REPOSITORY / "config.yaml", environment={}) == Config()
 
 
-def test_without_a_file_the_built_in_settings_hold(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_file_the_built_in_settings_hold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     assert load_config(environment={}) == Config()
     (tmp_path / "config.yaml").write_text("server: {port: 8123}\ncamera:\n")
     assert load_config(environment={}).server.port == 8123
 
 
-TOOL = {"marker": "a", "tip_in_marker_mm": [0, 0, 0], "axis_in_marker": [0, 0, 0], "radius_mm": 1, "length_mm": 9}
+TOOL = {
+    "marker": "a",
+    "tip_in_marker_mm": [0, 0, 0],
+    "axis_in_marker": [0, 0, 0],
+    "radius_mm": 1,
+    "length_mm": 9,
+}
 
 
 @pytest.mark.parametrize(
@@ -51,7 +55,9 @@ TOOL = {"marker": "a", "tip_in_marker_mm": [0, 0, 0], "axis_in_marker": [0, 0, 0
             {"server": {"prot": 1}}, ["'server.prot'", "'server.port'", "host, port"], id="key-nearly-right"
         ),
         pytest.param({"sever": {}}, ["'sever'", "'server'", "limits"], id="section-nearly-right"),
-        pytest.param({"server": {"port": 70000}}, ["'server.port' is 70000", "0 to 65535"], id="out-of-range"),
+        pytest.param(
+            {"server": {"port": 70000}}, ["'server.port' is 70000", "0 to 65535"], id="out-of-range"
+        ),
         pytest.param({"server": {"port": "8000"}}, ["'8000'", "whole number"], id="text-for-a-number"),
         pytest.param({"rehearsal": {"seed": True}}, ["True", "whole number"], id="flag-for-a-number"),
         pytest.param({"rehearsal": {"noise": float("nan")}}, ["nan", "0 to 10"], id="not-a-number"),
@@ -71,7 +77,9 @@ TOOL = {"marker": "a", "tip_in_marker_mm": [0, 0, 0], "axis_in_marker": [0, 0, 0
             {"camera": {"calibration": "c.yaml"}}, ["camera.calibration", "c.yaml"], id="no-camera-file"
         ),
         pytest.param(
-            {"markers": {"m": {"image": "m.png", "side_mm": 4}}}, ["markers.m.image", "m.png"], id="no-picture"
+            {"markers": {"m": {"image": "m.png", "side_mm": 4}}},
+            ["markers.m.image", "m.png"],
+            id="no-picture",
         ),
         pytest.param(
             {"markers": {"drill": {"image": "m.png", "side_mm": 4}}}, ["rehearsal's own"], id="drill-is-taken"
@@ -107,7 +115,9 @@ def test_paths_belong_to_the_folder_of_the_file_and_typed_ones_to_the_working_fo
     picture = np.zeros((20, 20), np.uint8)
     picture[5:9, 5:9] = 255
     cv2.imwrite(str(folder / "m.png"), picture)
-    file = settings(folder, {"camera": {"source": "v.mov"}, "markers": {"m": {"image": "m.png", "side_mm": 4}}})
+    file = settings(
+        folder, {"camera": {"source": "v.mov"}, "markers": {"m": {"image": "m.png", "side_mm": 4}}}
+    )
     monkeypatch.chdir(tmp_path)
     config = load_config(file, environment={})
     assert config.camera.source == str(folder / "v.mov")
@@ -121,8 +131,8 @@ def test_typed_beats_environment_beats_file_and_each_is_named_when_it_is_wrong(t
     assert load_config(file, environment={"COAXIAL_PORT": "2"}).server.port == 2
     typed = {("server", "port"): Override(value=3, origin="--port")}
     assert load_config(file, overrides=typed, environment={"COAXIAL_PORT": "2"}).server.port == 3
-    with pytest.raises(ConfigError, match="^COAXIAL_PORT: 'server.port' is 'x'"):
+    with pytest.raises(ConfigError, match=r"^COAXIAL_PORT: 'server\.port' is 'x'"):
         load_config(file, environment={"COAXIAL_PORT": "x"})
     typed = {("server", "port"): Override(value=-3, origin="--port")}
-    with pytest.raises(ConfigError, match="^--port: 'server.port' is -3"):
+    with pytest.raises(ConfigError, match=r"^--port: 'server\.port' is -3"):
         load_config(file, overrides=typed, environment={})

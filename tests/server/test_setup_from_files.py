@@ -14,7 +14,11 @@ from server.setup import build_setup
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.navigation import Absent, AbsentReason
 
-CAMERA = {"matrix": [[500, 0, 32], [0, 500, 24], [0, 0, 1]], "distortion": [0, 0, 0, 0], "size_wh_px": [64, 48]}
+CAMERA = {
+    "matrix": [[500, 0, 32], [0, 500, 24], [0, 0, 1]],
+    "distortion": [0, 0, 0, 0],
+    "size_wh_px": [64, 48],
+}
 
 
 def picture(path: Path, *, width: int = 40, height: int = 40, contrast: int = 255) -> Path:

@@ -50,7 +50,7 @@ def gone(reason: str = "cable out") -> CaptureError:
     return CaptureError("CAMERA_STOPPED", reason, "Plug it in.")
 
 
-def until(capture: Capture, true: Callable[[], bool]) -> None:
+def until(true: Callable[[], bool]) -> None:
     deadline_s = time.monotonic() + 30.0
     while not true():
         assert time.monotonic() < deadline_s
@@ -63,7 +63,7 @@ def test_the_newest_image_wins_and_the_skipped_are_counted() -> None:
     for number in range(5):
         source.told.put(shot(number))
     capture.start()
-    until(capture, lambda: capture.status().images == 5)
+    until(lambda: capture.status().images == 5)
     taken = capture.take(1.0)
     assert taken is not None
     assert taken.number == 4
@@ -98,15 +98,19 @@ def test_a_fault_is_told_once_however_often_it_is_tried_and_it_comes_back() -> N
         for _ in range(3):
             source.told.put(gone())
         capture.start()
-        until(capture, lambda: source.opened == 4)
+        until(lambda: source.opened == 4)
         assert capture.status().state is SourceState.RECONNECTING
         trouble = capture.status().trouble
         assert trouble is not None
-        assert (trouble.code, trouble.message, trouble.remedy) == ("CAMERA_STOPPED", "cable out", "Plug it in.")
+        assert (trouble.code, trouble.message, trouble.remedy) == (
+            "CAMERA_STOPPED",
+            "cable out",
+            "Plug it in.",
+        )
         source.told.put(shot(1))
-        until(capture, lambda: capture.status().state is SourceState.RUNNING)
+        until(lambda: capture.status().state is SourceState.RUNNING)
         assert capture.status().trouble is None
-        until(capture, lambda: any(line["event"] == "source is back" for line in logs))
+        until(lambda: any(line["event"] == "source is back" for line in logs))
     stop.set()
     source.told.put(None)
     capture.close()
@@ -139,7 +143,7 @@ def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.
     capture = Capture(source, stop=stop)
     source.told.put(shot(0))
     capture.start()
-    until(capture, lambda: capture.status().state is SourceState.RUNNING)
+    until(lambda: capture.status().state is SourceState.RUNNING)
     later_s = time.monotonic() + 2.5
     monkeypatch.setattr("server.capture.capture.time.monotonic", lambda: later_s)
     status = capture.status()

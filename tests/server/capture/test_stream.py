@@ -34,10 +34,10 @@ class MjpegServer(ThreadingHTTPServer):
 
 
 class _Handler(BaseHTTPRequestHandler):
-    def log_message(self, format: str, *args: object) -> None:
-        del format, args
+    def log_message(self, *args: object) -> None:  # type: ignore[override]  # the words are not wanted
+        del args
 
-    def do_GET(self) -> None:  # noqa: N802  the name that http.server calls
+    def do_GET(self) -> None:
         server = self.server
         assert isinstance(server, MjpegServer)
         content = cv2.imencode(".jpg", grey_image(100))[1].tobytes()

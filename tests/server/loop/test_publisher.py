@@ -28,7 +28,8 @@ class Stage:
         self.publisher = Publisher(
             board=self.board,
             hub=self.hub,
-            picture=picture or Picture(draw=lambda image, _: image + 1, encode=lambda image: image.tobytes()[:2]),
+            picture=picture
+            or Picture(draw=lambda image, _: image + 1, encode=lambda image: image.tobytes()[:2]),
         )
         self.board.post(RUNNING, self.ring)
 
@@ -90,7 +91,7 @@ def test_a_process_that_dies_while_its_picture_is_drawn_is_not_shown_any_more() 
         stage.board.post(DEAD, None)
         return image
 
-    stage = Stage(Picture(draw=draw, encode=lambda image: b"jpeg"))
+    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"))
     stage.report_image(0)
     stage.publisher.publish_newest()
     assert [instant.snapshot for instant in stage.hub.instants] == [None]
@@ -127,9 +128,9 @@ def test_sequences_grow_by_one_over_images_deaths_and_signs_of_life() -> None:
 
 def test_a_failing_overlay_is_told_and_shows_nothing() -> None:
     def draw(image: Image, snapshot: NavigationSnapshot) -> Image:
-        raise ZeroDivisionError("a bug")
+        raise ZeroDivisionError(f"a bug in image {snapshot.image_number} of {image.shape}")
 
-    stage = Stage(Picture(draw=draw, encode=lambda image: b"jpeg"))
+    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"))
     stage.report_image(0)
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]

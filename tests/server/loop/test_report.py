@@ -13,7 +13,8 @@ def test_a_report_comes_out_as_it_went_in() -> None:
 def test_the_setup_is_one_object_as_long_as_it_does_not_change() -> None:
     packer, unpacker, setup = ReportPacker(), ReportUnpacker(), made_setup()
     packed = [
-        packer.pack(Report(source=made_source(), snapshot=made_snapshot(number, setup))) for number in range(3)
+        packer.pack(Report(source=made_source(), snapshot=made_snapshot(number, setup)))
+        for number in range(3)
     ]
     got = [unpacker.unpack(content).snapshot for content in (packed[0], packed[2])]
     other = packer.pack(Report(source=made_source(), snapshot=made_snapshot(9, made_setup())))

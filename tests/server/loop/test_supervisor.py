@@ -24,7 +24,7 @@ class Stage:
         board = Board("made")
         order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
         self.supervisor = Supervisor(order=order, board=board, watch=watch, target=target)
-        picture = Picture(draw=lambda image, _: image, encode=lambda image: b"jpeg")
+        picture = Picture(draw=lambda image, _: image, encode=lambda _: b"jpeg")
         self.publisher = Publisher(board=board, hub=self.hub, picture=picture)
         self.supervisor.start()
         self.publisher.start()
