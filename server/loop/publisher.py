@@ -76,6 +76,7 @@ class Publisher:
             except Exception:
                 # A thread that ends here would leave a server that looks alive and shows nothing.
                 log.exception("an instant could not be published")
+                self._stop.wait(HEARTBEAT_S)
             self._board.wait(self._last_at_s + HEARTBEAT_S - time.monotonic())
 
     def publish_newest(self) -> None:

@@ -122,14 +122,16 @@ def test_paths_belong_to_the_folder_of_the_file_and_typed_ones_to_the_working_fo
     config = load_config(file, environment={})
     assert config.camera.source == str(folder / "v.mov")
     assert config.markers["m"].image == folder / "m.png"
-    typed = {("camera", "source"): Override(value="w.mov", origin="--source")}
+    typed: dict[tuple[str, ...], Override] = {
+        ("camera", "source"): Override(value="w.mov", origin="--source")
+    }
     assert load_config(file, overrides=typed, environment={}).camera.source == str(tmp_path / "w.mov")
 
 
 def test_typed_beats_environment_beats_file_and_each_is_named_when_it_is_wrong(tmp_path: Path) -> None:
     file = settings(tmp_path, {"server": {"port": 1}})
     assert load_config(file, environment={"COAXIAL_PORT": "2"}).server.port == 2
-    typed = {("server", "port"): Override(value=3, origin="--port")}
+    typed: dict[tuple[str, ...], Override] = {("server", "port"): Override(value=3, origin="--port")}
     assert load_config(file, overrides=typed, environment={"COAXIAL_PORT": "2"}).server.port == 3
     with pytest.raises(ConfigError, match=r"^COAXIAL_PORT: 'server\.port' is 'x'"):
         load_config(file, environment={"COAXIAL_PORT": "x"})

@@ -20,7 +20,7 @@ def level(shot: Shot) -> int:
 
 def read_all(source: Source, most: int = 100) -> list[Shot]:
     source.open()
-    shots = []
+    shots: list[Shot] = []
     while len(shots) < most and (shot := source.read()) is not None:
         shots.append(shot)
     source.close()

@@ -34,7 +34,7 @@ class MjpegServer(ThreadingHTTPServer):
 
 
 class _Handler(BaseHTTPRequestHandler):
-    def log_message(self, *args: object) -> None:  # type: ignore[override]  # the words are not wanted
+    def log_message(self, *args: object) -> None:
         del args
 
     def do_GET(self) -> None:

@@ -76,7 +76,7 @@ def test_a_slot_written_over_while_it_is_read_is_not_given(
 ) -> None:
     ring.write(b"1", image(1))
     copied = ring._copied
-    calls = []
+    calls: list[int] = []
 
     def copied_too_slowly(slot: int, sequence: int) -> object:
         entry = copied(slot, sequence)
