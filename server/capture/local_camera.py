@@ -40,7 +40,7 @@ class LocalCameraSource:
             camera.release()
             raise CaptureError(
                 "CAMERA_NOT_OPENED",
-                f"the local camera {self.name} cannot be opened",
+                f"{self.name} cannot be opened",
                 "Check its cable, that no other program holds it, and the right to read it (group 'video'); "
                 "it is tried again by itself.",
                 {"camera": self.name},
@@ -62,7 +62,7 @@ class LocalCameraSource:
         if image is None:
             raise CaptureError(
                 "CAMERA_STOPPED",
-                f"the local camera {self.name} gave no image",
+                f"{self.name} gave no image",
                 "Check its cable and power; it is tried again by itself.",
                 {"camera": self.name},
             )

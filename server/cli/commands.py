@@ -174,7 +174,7 @@ def coaxial_version() -> str:
 def main() -> None:
     """The command `coaxial`: tells a mistake in one sentence with its remedy, and exits with status 2."""
     try:
-        app()
+        app(prog_name="coaxial")
     except Exception as error:
         from tracker.errors import NavigationError  # noqa: PLC0415  loaded when needed, see above
 
