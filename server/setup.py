@@ -15,6 +15,7 @@ from tracker.errors import CalibrationError
 from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.marker import MarkerModel
 from tracker.navigation import Absent, AbsentReason, Setup
+from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.pose import ToolModel
 
@@ -80,6 +81,10 @@ class Preparation:
     def uncalibrated_setup_for(self, size_wh_px: tuple[int, int]) -> Setup:
         """A setup that finds and labels markers, and claims no millimetre."""
         return self._setup(nominal_camera(size_wh_px), calibrated=False)
+
+    def tracker_for(self, setup: Setup) -> Tracker:
+        """A new tracker of these markers, which knows nothing of images before."""
+        return Tracker(camera=setup.camera, models=self.models)
 
     def _setup(self, camera: CameraModel, *, calibrated: bool) -> Setup:
         return Setup(

@@ -70,5 +70,5 @@ class Tracking:
             log.warning(error.message, code=error.code, remedy=error.remedy)
             self.trouble = Trouble.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
-        self._tracker = Tracker(camera=setup.camera, models=self._preparation.models)
+        self._tracker = self._preparation.tracker_for(setup)
         self._setup = setup
