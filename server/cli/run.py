@@ -41,6 +41,12 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
     tracked.start()
     try:
         preparation = build_setup(config)
+        if not preparation.models:
+            log.warning(
+                "no marker is named, so nothing is tracked",
+                code="NO_MARKER",
+                remedy="Give its picture with --marker and its side with --side-mm, or put it into the settings.",
+            )
         from server.app import AppParts, create_app  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415

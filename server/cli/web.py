@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import uvicorn
-from fastapi import FastAPI
+from starlette.types import ASGIApp
 
 from server.cli.stopping import Stopping
 from server.stream.connection import uvicorn_config
@@ -41,7 +41,7 @@ class WebServer(uvicorn.Server):
 
 
 def serve_until(
-    app: FastAPI, listener: socket.socket, stopping: Stopping, *, on_ready: Callable[[], None]
+    app: ASGIApp, listener: socket.socket, stopping: Stopping, *, on_ready: Callable[[], None]
 ) -> None:
     """Serve until asked to stop."""
     host, port = listener.getsockname()[:2]
