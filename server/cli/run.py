@@ -45,7 +45,7 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
             log.warning(
                 "no marker is named, so nothing is tracked",
                 code="NO_MARKER",
-                remedy="Give its picture with --marker and its side with --side-mm, or put it into the settings.",
+                remedy="Give its picture with --marker and its side with --side-mm, or in the settings.",
             )
         from server.app import AppParts, create_app  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
