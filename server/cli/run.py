@@ -24,12 +24,11 @@ def run_dashboard(given: Given, *, log_json: bool, debug: bool) -> None:
     Raises:
         NavigationError: a setting cannot be used, or the port is taken.
     """
-    config = config_from_options(given)
-    settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
-    configure_logging(settings)
-    listener = _listener(config)
     with Stopping().caught() as stopping:
-        _serve(config, settings, listener, stopping)
+        config = config_from_options(given)
+        settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
+        configure_logging(settings)
+        _serve(config, settings, _listener(config), stopping)
 
 
 def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopping: Stopping) -> None:
