@@ -94,11 +94,7 @@ class ImageRing:
     def newest(self, after: int = 0) -> Entry | None:
         """The newest entry with a sequence above `after`, None if there is none or the writer is faster."""
         for _ in range(READ_ATTEMPTS):
-            found = [
-                (int(head[SEQUENCE]), slot, int(head[LOCK]))
-                for slot, head in enumerate(self._heads)
-                if head[LOCK] % 2 == 0 and head[SEQUENCE] > after
-            ]
+            found = [whole for whole in map(self._whole, range(self._slots)) if whole and whole[0] > after]
             if not found:
                 return None
             sequence, slot, lock = max(found)
@@ -126,6 +122,13 @@ class ImageRing:
     def __del__(self) -> None:
         with contextlib.suppress(AttributeError, OSError):
             self.close()
+
+    def _whole(self, slot: int) -> tuple[int, int, int] | None:
+        """Sequence, slot and lock of a slot that is not being written."""
+        head = self._heads[slot]
+        # Read once, and first: read twice, it may have turned odd between the test and the use.
+        lock = int(head[LOCK])
+        return None if lock % 2 else (int(head[SEQUENCE]), slot, lock)
 
     def _copied(self, slot: int, sequence: int) -> Entry | None:
         """A copy of a slot, None where its head cannot be right because it is being written."""

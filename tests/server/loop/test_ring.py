@@ -117,7 +117,7 @@ def test_images_of_another_process_are_never_torn(ring: ImageRing) -> None:
     process = context.Process(target=write_many, args=(ring, child_end), daemon=True)
     process.start()
     after, read = 0, 0
-    while read < 150:
+    while read < 300:
         entry = ring.newest(after=after)
         if entry is None:
             assert process.is_alive()
@@ -137,3 +137,19 @@ def test_the_memory_has_no_name_that_could_be_left_behind(ring: ImageRing) -> No
     assert os.fstat(ring._fd).st_nlink == 0
     ring.close()
     ring.close()
+
+
+def test_a_write_that_begins_between_two_looks_at_the_head_is_noticed(
+    ring: ImageRing, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ring.write(b"1", image(1))
+    whole = ring._whole
+
+    def looked_at_then_written(slot: int) -> tuple[int, int, int] | None:
+        found = whole(slot)
+        if found is not None and found[0] == 1:
+            ring._heads[slot][LOCK] += 1  # the writer begins, and is not done yet
+        return found
+
+    monkeypatch.setattr(ring, "_whole", looked_at_then_written)
+    assert ring.newest() is None
