@@ -1,9 +1,12 @@
 """OpenCV's video door: quiet, and with time limits."""
 
+import contextlib
 import os
+from collections.abc import Iterator
 
 import cv2
 
+OPTIONS_VARIABLE = "OPENCV_FFMPEG_CAPTURE_OPTIONS"
 OPEN_TIMEOUT_MS = 3000
 READ_TIMEOUT_MS = 2000
 # TCP, because a lost UDP packet smears half an image; no buffer and little probing, because an old image is
@@ -27,7 +30,6 @@ def open_file(path: str) -> cv2.VideoCapture:
 def open_stream(address: str) -> cv2.VideoCapture:
     """A network stream, given up after 3 s; a read from it is given up after 2 s. Ask `isOpened`."""
     silence_codecs()
-    os.environ.setdefault("OPENCV_FFMPEG_CAPTURE_OPTIONS", STREAM_OPTIONS)
     limits = [
         cv2.CAP_PROP_OPEN_TIMEOUT_MSEC,
         OPEN_TIMEOUT_MS,
@@ -36,7 +38,20 @@ def open_stream(address: str) -> cv2.VideoCapture:
         cv2.CAP_PROP_N_THREADS,
         1,
     ]
-    return cv2.VideoCapture(address, cv2.CAP_FFMPEG, limits)
+    with _stream_options():
+        return cv2.VideoCapture(address, cv2.CAP_FFMPEG, limits)
+
+
+@contextlib.contextmanager
+def _stream_options() -> Iterator[None]:
+    """OpenCV takes these from the environment only; taken back, because they cost a file its first image."""
+    given = os.environ.get(OPTIONS_VARIABLE)
+    os.environ[OPTIONS_VARIABLE] = given or STREAM_OPTIONS
+    try:
+        yield
+    finally:
+        if given is None:
+            del os.environ[OPTIONS_VARIABLE]
 
 
 def open_device(device: str) -> cv2.VideoCapture:

@@ -4,14 +4,16 @@ import socket
 import threading
 from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
 
 import cv2
 import pytest
-from filmed import grey_image
+from filmed import grey_image, write_video
 
 from server.capture.address import source_from_text
 from server.capture.capture import Capture
 from server.capture.stream import StreamSource
+from server.capture.video_file import VideoFileSource
 from server.errors import CaptureError
 from server.live import SourceState
 
@@ -120,3 +122,15 @@ def test_an_address_that_cannot_be_is_told(stop: threading.Event) -> None:
     with pytest.raises(CaptureError) as caught:
         source.open()
     assert caught.value.code == "STREAM_ADDRESS_INVALID"
+
+
+def test_a_file_keeps_its_first_image_after_a_stream_was_open(
+    server: MjpegServer, stop: threading.Event, tmp_path: Path
+) -> None:
+    stream = stream_of(server.server_address[1], stop)
+    stream.open()
+    stream.close()
+    video = VideoFileSource(write_video(tmp_path / "v.avi", images=3), loop=False, fast=True, stop=stop)
+    video.open()
+    times_s = [shot.source_time_s for shot in iter(video.read, None) if shot]
+    assert times_s == pytest.approx([0.0, 0.04, 0.08])
