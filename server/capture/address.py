@@ -1,0 +1,64 @@
+"""What kind of source a text names, without opening it."""
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+from urllib.parse import urlsplit
+
+STREAM_SCHEMES = ("rtsp", "rtsps", "rtmp", "http", "https", "udp", "tcp")
+
+
+class SourceKind(StrEnum):
+    """The kinds of sources that can be told apart by their text alone."""
+
+    REHEARSAL = "rehearsal"
+    LOCAL_CAMERA = "local camera"
+    STREAM = "stream"
+    PATH = "path"  # a video file or a folder: known when it is opened, it may not be there yet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SourceAddress:
+    """A source of images as it was asked for.
+
+    Attributes:
+        kind: what it is.
+        text: the text itself, with any password; never shown.
+        name: what may be shown: the same with passwords masked.
+    """
+
+    kind: SourceKind
+    text: str
+    name: str
+
+
+def source_from_text(text: str | int) -> SourceAddress:
+    """Tell what a source is: rehearsal, camera number or device, stream's address, or a path."""
+    plain = str(text).strip()
+    if plain.lower() == "rehearsal":
+        return SourceAddress(kind=SourceKind.REHEARSAL, text="rehearsal", name="rehearsal")
+    if plain.isascii() and plain.isdecimal():
+        return SourceAddress(kind=SourceKind.LOCAL_CAMERA, text=plain, name=f"camera {int(plain)}")
+    if re.match(r"^/dev/", plain):
+        return SourceAddress(kind=SourceKind.LOCAL_CAMERA, text=plain, name=plain)
+    scheme = plain.partition("://")[0].lower()
+    if "://" in plain and scheme in STREAM_SCHEMES:
+        return SourceAddress(kind=SourceKind.STREAM, text=plain, name=masked(plain))
+    return SourceAddress(kind=SourceKind.PATH, text=plain, name=plain)
+
+
+def masked(address: str) -> str:
+    """An address with its password, and whatever in its query may be one, replaced by ***."""
+    try:
+        parts = urlsplit(address)
+    except ValueError:
+        return f"{address.partition('://')[0]}://***"
+    place = parts.netloc
+    if "@" in place:
+        login, _, host = place.rpartition("@")
+        user, colon, _ = login.partition(":")
+        place = f"{user}{':***' if colon else ''}@{host}"
+    query = re.sub(
+        r"(?i)\b([^=&]*(?:pass|pwd|token|key|secret|auth|sig)[^=&]*)=[^&]*", r"\1=***", parts.query
+    )
+    return parts._replace(netloc=place, query=query).geturl()

@@ -1,0 +1,202 @@
+"""Keeps a source running in a thread of its own, and holds its newest image."""
+
+import threading
+import time
+from collections import deque
+
+import structlog
+
+from server.capture.shot import Shot, Source
+from server.errors import CaptureError
+from server.live import SourceState, SourceStatus, Trouble
+
+# Half a second to knock and this to wait: a source that is back is found within a second.
+RETRY_AFTER_S = 0.3
+STALLED_AFTER_S = 2.0
+RATE_WINDOW_S = 1.0
+
+log = structlog.get_logger(__name__)
+
+
+class Capture:
+    """The newest image of a source, which is opened again by itself whenever it fails.
+
+    Nothing is queued: an image that was not taken before the next one came is skipped, and counted.
+    """
+
+    def __init__(self, source: Source, *, stop: threading.Event, taken_before: int = 0) -> None:
+        self._source = source
+        self._stop = stop
+        self._change = threading.Condition()
+        self._newest: Shot | None = None
+        self._state = SourceState.OPENING
+        self._trouble: Trouble | None = None
+        self._told: tuple[str, str] | None = None
+        self._failed_at_s: float | None = None
+        self._is_open = False
+        self._images = 0
+        self._taken = taken_before
+        self._alive_at_s = time.monotonic()
+        self._times: deque[float] = deque(maxlen=240)
+        self._status_changed = False
+        self._crash: BaseException | None = None
+        self._thread = threading.Thread(target=self._run, name="capture", daemon=True)
+
+    def start(self) -> None:
+        """Begin to capture."""
+        self._thread.start()
+
+    def close(self, timeout_s: float = 1.0) -> None:
+        """Wait for the thread to end; `stop` must be set before."""
+        with self._change:
+            self._change.notify_all()
+        self._thread.join(timeout_s)
+
+    def take(self, timeout_s: float) -> Shot | None:
+        """The newest image that was not taken yet; None when the status changed or the time is up.
+
+        Raises:
+            BaseException: what ended the capturing thread, if it was no CaptureError.
+        """
+        deadline_s = time.monotonic() + timeout_s
+        with self._change:
+            while self._newest is None and not self._status_changed and self._crash is None:
+                left_s = deadline_s - time.monotonic()
+                if left_s <= 0.0 or self._stop.is_set():
+                    return None
+                self._change.wait(left_s)
+            if self._crash is not None:
+                raise self._crash
+            self._status_changed = False
+            shot, self._newest = self._newest, None
+            if shot is not None:
+                self._taken += 1
+                self._change.notify_all()
+            return shot
+
+    def status(self) -> SourceStatus:
+        """What the source is doing."""
+        now_s = time.monotonic()
+        with self._change:
+            state, trouble = self._state, self._trouble
+            silent_s = now_s - self._alive_at_s
+            if self._source.stalls and self._is_open and silent_s > STALLED_AFTER_S:
+                state, trouble = SourceState.RECONNECTING, self._stalled()
+            recent = [t for t in self._times if now_s - t <= RATE_WINDOW_S]
+            pending = 0 if self._newest is None else 1
+            return SourceStatus(
+                name=self._source.name,
+                state=state,
+                trouble=trouble,
+                images=self._images,
+                skipped_images=max(0, self._images - self._taken - pending),
+                rate_hz=_rate_hz(recent) if state is SourceState.RUNNING else 0.0,
+            )
+
+    def _stalled(self) -> Trouble:
+        return Trouble(
+            code="SOURCE_STALLED",
+            message=f"the source {self._source.name} is open, but gave no image for {STALLED_AFTER_S:g} s",
+            remedy="Check the camera, its power and its cable; it is tried again by itself.",
+            context={"source": self._source.name, "limit_s": STALLED_AFTER_S},
+        )
+
+    def _run(self) -> None:
+        try:
+            while not self._stop.is_set():
+                try:
+                    self._read_until_it_ends()
+                except CaptureError as error:
+                    self._fail(error)
+                else:
+                    return
+                self._stop.wait(RETRY_AFTER_S)
+        except BaseException as crash:  # noqa: BLE001  raised again in the thread that takes the images
+            with self._change:
+                self._crash = crash
+                self._change.notify_all()
+        finally:
+            self._source.close()
+
+    def _read_until_it_ends(self) -> None:
+        self._source.open()
+        with self._change:
+            self._is_open = True
+            self._alive_at_s = time.monotonic()
+        while not self._stop.is_set():
+            shot = self._source.read()
+            if shot is None:
+                self._end()
+                return
+            self._hand_over(shot)
+
+    def _hand_over(self, shot: Shot) -> None:
+        defect = self._source.defect
+        with self._change:
+            started = self._state is not SourceState.RUNNING
+            self._newest = shot
+            self._images = shot.number + 1
+            self._alive_at_s = shot.captured_at_s
+            self._times.append(shot.captured_at_s)
+            self._state = SourceState.RUNNING
+            self._trouble = None if defect is None else Trouble.from_error(defect)
+            self._change.notify_all()
+        if started:
+            self._tell_running(shot)
+        if defect is not None:
+            self._tell_trouble(defect)
+        elif started:
+            self._told = None
+        if self._source.waits_for_taker:
+            with self._change:
+                self._change.wait_for(lambda: self._newest is not shot or self._stop.is_set())
+
+    def _end(self) -> None:
+        if self._source.defect is not None:
+            self._tell_trouble(self._source.defect)
+        with self._change:
+            self._state = SourceState.ENDED
+            self._is_open = False
+            self._trouble = None if self._source.defect is None else Trouble.from_error(self._source.defect)
+            self._status_changed = True
+            self._change.notify_all()
+        log.info("source ended", source=self._source.name, images=self._images)
+
+    def _fail(self, error: CaptureError) -> None:
+        self._source.close()
+        with self._change:
+            self._is_open = False
+            self._state = SourceState.RECONNECTING
+            self._trouble = Trouble.from_error(error)
+            self._times.clear()
+            # An image from before the failure must not be looked at as if it were live.
+            self._newest = None
+            self._status_changed = True
+            if self._failed_at_s is None:
+                self._failed_at_s = time.monotonic()
+            self._change.notify_all()
+        self._tell_trouble(error)
+
+    def _tell_running(self, shot: Shot) -> None:
+        height, width = shot.image.shape[:2]
+        size = f"{width}x{height}"
+        if self._failed_at_s is None:
+            log.info("source runs", source=self._source.name, size_px=size)
+        else:
+            away_s = round(time.monotonic() - self._failed_at_s, 1)
+            log.info("source is back", source=self._source.name, size_px=size, away_s=away_s)
+        self._failed_at_s = None
+
+    def _tell_trouble(self, error: CaptureError) -> None:
+        """Log it once, not at every attempt."""
+        sentence = (error.code, error.message)
+        if sentence != self._told:
+            self._told = sentence
+            log.warning(error.message, code=error.code, remedy=error.remedy)
+
+
+def _rate_hz(times: list[float]) -> float:
+    """Images a second between the first and the last of these times."""
+    if len(times) < 2 or times[-1] <= times[0]:
+        return 0.0
+    return (len(times) - 1) / (times[-1] - times[0])

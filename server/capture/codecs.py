@@ -1,0 +1,62 @@
+"""OpenCV's video door: quiet, and with time limits."""
+
+import contextlib
+import os
+from collections.abc import Iterator
+
+import cv2
+
+OPTIONS_VARIABLE = "OPENCV_FFMPEG_CAPTURE_OPTIONS"
+OPEN_TIMEOUT_MS = 3000
+READ_TIMEOUT_MS = 2000
+# TCP, because a lost UDP packet smears half an image; no buffer and little probing, because an old image is
+# worse than none; one decoding thread, because each further one holds an image back.
+STREAM_OPTIONS = "rtsp_transport;tcp|fflags;nobuffer|flags;low_delay|analyzeduration;200000|fpsprobesize;0"
+
+
+def silence_codecs() -> None:
+    """Keep OpenCV, FFmpeg and V4L from writing to the terminal; what matters becomes a CaptureError."""
+    os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
+    os.environ.setdefault("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2")
+    cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+
+
+def open_file(path: str) -> cv2.VideoCapture:
+    """A video file; ask `isOpened`."""
+    silence_codecs()
+    return cv2.VideoCapture(path, cv2.CAP_FFMPEG)
+
+
+def open_stream(address: str) -> cv2.VideoCapture:
+    """A network stream, given up after 3 s; a read from it is given up after 2 s. Ask `isOpened`."""
+    silence_codecs()
+    limits = [
+        cv2.CAP_PROP_OPEN_TIMEOUT_MSEC,
+        OPEN_TIMEOUT_MS,
+        cv2.CAP_PROP_READ_TIMEOUT_MSEC,
+        READ_TIMEOUT_MS,
+        cv2.CAP_PROP_N_THREADS,
+        1,
+    ]
+    with _stream_options():
+        return cv2.VideoCapture(address, cv2.CAP_FFMPEG, limits)
+
+
+@contextlib.contextmanager
+def _stream_options() -> Iterator[None]:
+    """OpenCV takes these from the environment only; taken back, because they cost a file its first image."""
+    given = os.environ.get(OPTIONS_VARIABLE)
+    os.environ[OPTIONS_VARIABLE] = given or STREAM_OPTIONS
+    try:
+        yield
+    finally:
+        if given is None:
+            del os.environ[OPTIONS_VARIABLE]
+
+
+def open_device(device: str) -> cv2.VideoCapture:
+    """A local camera by number or path, holding back as few images as the driver allows; ask `isOpened`."""
+    silence_codecs()
+    camera = cv2.VideoCapture(int(device) if device.isdecimal() else device, cv2.CAP_ANY)
+    camera.set(cv2.CAP_PROP_BUFFERSIZE, 1)
+    return camera

@@ -1,0 +1,34 @@
+"""Gives images at the rate that they were taken at."""
+
+import threading
+import time
+
+
+class Pace:
+    """Waits until an image is due, by the source's own clock.
+
+    A source that falls behind by more than `slack_s` is not chased: its clock is set anew, so that a pause of
+    the machine does not end in a burst.
+    """
+
+    def __init__(self, *, stop: threading.Event, slack_s: float = 0.5) -> None:
+        self._stop = stop
+        self._slack_s = slack_s
+        self._epoch_s: float | None = None
+
+    def restart(self) -> None:
+        """The next image is due at once, and the clock runs from it."""
+        self._epoch_s = None
+
+    def wait_until_due(self, source_time_s: float) -> float:
+        """Return when this image is due; gives how late it is in seconds (0 when it had to wait)."""
+        now_s = time.monotonic()
+        if self._epoch_s is None:
+            self._epoch_s = now_s - source_time_s
+        wait_s = self._epoch_s + source_time_s - now_s
+        if wait_s > 0.0:
+            self._stop.wait(wait_s)
+            return 0.0
+        if -wait_s > self._slack_s:
+            self._epoch_s = now_s - source_time_s
+        return -wait_s

@@ -1,0 +1,120 @@
+"""A network stream (RTSP, HTTP) as a source."""
+
+import math
+import socket
+import threading
+import time
+from urllib.parse import urlsplit
+
+import cv2
+import numpy as np
+
+from server.capture.address import SourceAddress
+from server.capture.codecs import OPEN_TIMEOUT_MS, READ_TIMEOUT_MS, open_stream
+from server.capture.pace import Pace
+from server.capture.shot import Shot
+from server.errors import CaptureError
+
+DEFAULT_PORTS = {"rtsp": 554, "rtsps": 322, "rtmp": 1935, "http": 80, "https": 443}
+# Short, so that a host that comes back is noticed within a second: the decoder's own attempt takes 3 s.
+KNOCK_TIMEOUT_S = 0.5
+
+
+class StreamSource:
+    """Images of a network stream, the moment they arrive; a file behind http:// comes at its own rate."""
+
+    def __init__(self, address: SourceAddress, *, stop: threading.Event, first_number: int = 0) -> None:
+        self.name = address.name
+        self.waits_for_taker = False
+        self.stalls = True
+        self.defect: CaptureError | None = None
+        self._address = address.text
+        self._number = first_number
+        self._pace = Pace(stop=stop)
+        self._is_file = False
+        self._stream: cv2.VideoCapture | None = None
+        self._given = 0
+
+    def open(self) -> None:
+        """Connect; takes at most about 4 s, and half a second when nobody answers."""
+        self.close()
+        self._knock()
+        stream = open_stream(self._address)
+        if not stream.isOpened():
+            stream.release()
+            raise CaptureError(
+                "STREAM_WITHOUT_VIDEO",
+                f"the stream {self.name} answers, but gives no video within {OPEN_TIMEOUT_MS / 1000:g} s",
+                "Check path, user and password of the stream; it is tried again by itself.",
+                {"stream": self.name, "timeout_ms": OPEN_TIMEOUT_MS},
+            )
+        images = float(stream.get(cv2.CAP_PROP_FRAME_COUNT))
+        self._is_file = math.isfinite(images) and images > 0
+        self._pace.restart()
+        self._stream = stream
+        self._given = 0
+
+    def read(self) -> Shot | None:
+        """The next image."""
+        if self._stream is None:
+            raise self._stopped()
+        good = self._stream.grab()
+        captured_at_s = time.monotonic()
+        image = self._stream.retrieve()[1] if good else None
+        if image is None:
+            raise self._stopped()
+        source_time_s = captured_at_s
+        if self._is_file:
+            source_time_s = float(self._stream.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0
+            self._pace.wait_until_due(source_time_s)
+            captured_at_s = time.monotonic()
+        shot = Shot(
+            image=np.asarray(image, dtype=np.uint8),
+            number=self._number,
+            captured_at_s=captured_at_s,
+            source_time_s=source_time_s,
+        )
+        self._number += 1
+        self._given += 1
+        return shot
+
+    def close(self) -> None:
+        """Hang up."""
+        if self._stream is not None:
+            self._stream.release()
+            self._stream = None
+
+    def _stopped(self) -> CaptureError:
+        return CaptureError(
+            "STREAM_STOPPED",
+            f"the stream {self.name} stopped: no image within {READ_TIMEOUT_MS / 1000:g} s, or it was closed",
+            "Check the camera, its power and the network; it is tried again by itself.",
+            {"stream": self.name, "timeout_ms": READ_TIMEOUT_MS},
+        )
+
+    def _knock(self) -> None:
+        """See whether anybody answers at all, and say why not."""
+        try:
+            parts = urlsplit(self._address)
+            port = parts.port or DEFAULT_PORTS.get(parts.scheme.lower())
+        except ValueError as error:
+            raise CaptureError(
+                "STREAM_ADDRESS_INVALID",
+                f"the stream's address {self.name} cannot be understood: {error}",
+                "Give an address like rtsp://user:password@camera:554/path.",
+                {"stream": self.name},
+            ) from error
+        if parts.hostname is None or port is None:
+            return
+        try:
+            socket.create_connection((parts.hostname, port), timeout=KNOCK_TIMEOUT_S).close()
+        except OSError as error:
+            reason = f"no answer within {KNOCK_TIMEOUT_S:g} s"
+            if not isinstance(error, TimeoutError):
+                reason = (error.strerror or str(error)).lower()
+            raise CaptureError(
+                "STREAM_UNREACHABLE",
+                f"the stream {self.name} cannot be reached at {parts.hostname}:{port}: {reason}",
+                "Check address, cable and power of the camera; it is tried again by itself.",
+                {"stream": self.name, "host": parts.hostname, "port": port},
+            ) from error

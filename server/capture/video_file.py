@@ -1,0 +1,161 @@
+"""A video file as a source: at its own rate or as fast as its images are taken, once or again and again."""
+
+import threading
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from server.capture.codecs import open_file
+from server.capture.pace import Pace
+from server.capture.shot import Shot
+from server.errors import CaptureError
+
+FALLBACK_RATE_HZ = 30.0
+# The number of images that a container claims may be an estimate; from here on the file was cut.
+CUT_RATIO = 0.05
+CUT_IMAGES = 2
+
+
+class VideoFileSource:
+    """Images of a video file, at the times that are written in it."""
+
+    def __init__(
+        self,
+        path: Path,
+        *,
+        loop: bool,
+        fast: bool,
+        stop: threading.Event,
+        rate_hz: float | None = None,
+        first_number: int = 0,
+    ) -> None:
+        self.name = str(path)
+        self.waits_for_taker = fast
+        self.stalls = False
+        self.defect: CaptureError | None = None
+        self._path = path
+        self._loop = loop
+        self._rate_hz = rate_hz
+        self._number = first_number
+        self._pace = None if fast else Pace(stop=stop)
+        self._video: cv2.VideoCapture | None = None
+        self._claimed = 0
+        self._read_in_pass = 0
+        self._offset_s = 0.0
+        self._last_s = 0.0
+
+    def open(self) -> None:
+        """Open the file at its first image."""
+        self._start_pass()
+        self._offset_s = 0.0
+        if self._pace is not None:
+            self._pace.restart()
+
+    def read(self) -> Shot | None:
+        """The next image when it is due."""
+        image, time_s = self._decode()
+        if image is None:
+            if self._read_in_pass == 0:
+                raise self._no_video("it has no image that can be decoded")
+            self._note_if_cut()
+            if not self._loop:
+                return None
+            self._offset_s += self._last_s + self._period_s()
+            self._start_pass()
+            image, time_s = self._decode()
+            if image is None:
+                raise self._no_video("it has no image that can be decoded")
+        if self._pace is not None:
+            self._pace.wait_until_due(self._offset_s + time_s)
+        shot = Shot(
+            image=image,
+            number=self._number,
+            captured_at_s=time.monotonic(),
+            source_time_s=self._offset_s + time_s,
+        )
+        self._number += 1
+        return shot
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._video is not None:
+            self._video.release()
+            self._video = None
+
+    def _decode(self) -> tuple[np.ndarray | None, float]:
+        if self._video is None:
+            raise self._no_video("it is not open")
+        good, image = self._video.read()
+        if not good or image is None:
+            return None, 0.0
+        time_s = float(self._video.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0
+        # Some files carry no timestamps, or ones that stand still: then the rate has to do.
+        if self._read_in_pass > 0 and not time_s > self._last_s:
+            time_s = self._last_s + self._period_s()
+        self._read_in_pass += 1
+        self._last_s = time_s
+        return np.asarray(image, dtype=np.uint8), time_s
+
+    def _start_pass(self) -> None:
+        # Opened anew at each repeat, because seeking to the first image is not exact in every container,
+        # and because the file may have been replaced meanwhile.
+        self.close()
+        _check_readable(self._path)
+        video = open_file(str(self._path))
+        if not video.isOpened():
+            video.release()
+            raise self._no_video("it cannot be decoded as video")
+        self._video = video
+        self._claimed = max(0, int(video.get(cv2.CAP_PROP_FRAME_COUNT)))
+        self._read_in_pass = 0
+        self._last_s = 0.0
+
+    def _period_s(self) -> float:
+        rate_hz = float(self._video.get(cv2.CAP_PROP_FPS)) if self._video is not None else 0.0
+        if not 0.1 <= rate_hz <= 1000.0:
+            rate_hz = self._rate_hz or FALLBACK_RATE_HZ
+        return 1.0 / rate_hz
+
+    def _note_if_cut(self) -> None:
+        missing = self._claimed - self._read_in_pass
+        self.defect = None
+        if missing > max(CUT_IMAGES, CUT_RATIO * self._claimed):
+            self.defect = CaptureError(
+                "VIDEO_FILE_CUT",
+                f"the video file {self.name} ends after {self._read_in_pass} of {self._claimed} images",
+                "Copy or export the file again; what is there is played.",
+                {"file": self.name, "images": self._read_in_pass, "claimed_images": self._claimed},
+            )
+
+    def _no_video(self, reason: str) -> CaptureError:
+        size = self._path.stat().st_size if self._path.is_file() else 0
+        return CaptureError(
+            "VIDEO_FILE_UNREADABLE",
+            f"{self.name} ({size} bytes) is no usable video file: {reason}",
+            "Give a whole video file (MP4, MOV, AVI or MKV); one that was cut while being written has to be "
+            "copied or exported again.",
+            {"file": self.name, "bytes": size},
+        )
+
+
+def _check_readable(path: Path) -> None:
+    """Tell the plain reasons before the decoder fails without one."""
+    reason = ""
+    if not path.exists():
+        reason = "it does not exist"
+    else:
+        try:
+            with path.open("rb") as file:
+                if not file.read(1):
+                    reason = "it is empty (0 bytes)"
+        except OSError as error:
+            reason = (error.strerror or "it cannot be read").lower()
+    if reason:
+        raise CaptureError(
+            "SOURCE_NOT_FOUND" if "exist" in reason else "VIDEO_FILE_UNREADABLE",
+            f"the source {path} cannot be opened: {reason}",
+            "Check the path in camera.source or --source; it is tried again by itself.",
+            {"file": str(path)},
+        )

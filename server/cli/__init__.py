@@ -1,0 +1,8 @@
+"""The command line: `coaxial run`, `coaxial track`.
+
+Nothing heavy is imported until a command needs it, so that `coaxial --help` answers at once.
+"""
+
+from server.cli.commands import app, main
+
+__all__ = ["app", "main"]

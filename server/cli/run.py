@@ -1,0 +1,94 @@
+"""`coaxial run`: the server from start to stop."""
+
+import socket
+import sys
+from functools import partial
+
+import structlog
+import typer
+
+from server.cli.commands import coaxial_version
+from server.cli.options import Given, config_from_options
+from server.cli.stopping import Stopping
+from server.config import Config
+from server.errors import ConfigError
+from server.logs import LogSettings, configure_logging
+
+BACKLOG = 128
+log = structlog.get_logger(__name__)
+
+
+def run_dashboard(given: Given, *, log_json: bool, debug: bool) -> None:
+    """Start everything, serve until Ctrl+C or SIGTERM, and stop everything.
+
+    Raises:
+        NavigationError: a setting cannot be used, or the port is taken.
+    """
+    with Stopping().caught() as stopping:
+        config = config_from_options(given)
+        settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
+        configure_logging(settings)
+        _serve(config, settings, _listener(config), stopping)
+
+
+def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopping: Stopping) -> None:
+    # The tracking process loads while the web server does: its supervisor is started between the imports.
+    from server.loop.tracked import Tracked  # noqa: PLC0415
+    from server.setup import build_setup  # noqa: PLC0415
+
+    tracked = Tracked(config, log=settings)
+    tracked.start()
+    try:
+        preparation = build_setup(config)
+        if not preparation.models:
+            log.warning(
+                "no marker is named, so nothing is tracked",
+                code="NO_MARKER",
+                remedy="Give its picture with --marker and its side with --side-mm, or in the settings.",
+            )
+        from server.app import AppParts, create_app  # noqa: PLC0415
+        from server.cli.web import serve_until  # noqa: PLC0415
+        from server.loop.publisher import Picture  # noqa: PLC0415
+        from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
+
+        app = create_app(
+            AppParts(hub=tracked.hub, config=config, setup=preparation.setup, surface=preparation.surface)
+        )
+        tracked.publish(
+            Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))
+        )
+        serve_until(app, listener, stopping, on_ready=lambda: _greet(listener))
+    finally:
+        tracked.stop()
+
+
+def _greet(listener: socket.socket) -> None:
+    host, port = listener.getsockname()[:2]
+    shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)  # noqa: S104
+    typer.echo(f"Coaxial {coaxial_version()} · research software, not a medical device")
+    typer.echo(f"Open http://{shown}:{port}/")
+    typer.echo("Ctrl+C stops it")
+    sys.stdout.flush()
+
+
+def _listener(config: Config) -> socket.socket:
+    """The socket that is served, taken before anything is started, so that a taken port costs nothing."""
+    host, port = config.server.host, config.server.port
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        listener = socket.socket(family, kind)
+        try:
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            listener.bind(address)
+            listener.listen(BACKLOG)
+        except OSError:
+            listener.close()
+            raise
+    except OSError as error:
+        raise ConfigError(
+            "PORT_NOT_AVAILABLE",
+            f"the server cannot listen on {host}:{port}: {(error.strerror or str(error)).lower()}",
+            "Stop the program that uses this port, or choose another one with --port or COAXIAL_PORT.",
+            {"host": host, "port": port},
+        ) from error
+    return listener

@@ -1,0 +1,229 @@
+"""`coaxial track`: every image of a video through the tracker, and what it says as JSON lines."""
+
+import contextlib
+import json
+import os
+import statistics
+import sys
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO, Any
+
+import cv2
+import structlog
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from server.capture.address import SourceKind, source_from_text
+from server.capture.choose import source_from_config
+from server.capture.codecs import open_file
+from server.capture.shot import Shot, Source
+from server.cli.options import Given, config_from_options
+from server.config import Config
+from server.logs import LogSettings, configure_logging
+from server.setup import Preparation, build_setup
+from tracker.errors import InvalidInput
+from tracker.navigation import Setup
+from tracker.pipeline import Tracker
+from tracker.pose import Seen, Sighting
+
+BAD_INPUT = 2
+log = structlog.get_logger(__name__)
+
+
+def track_video(
+    given: Given, *, json_file: str | None, images: int | None, log_json: bool, debug: bool
+) -> int:
+    """Track every image, and give the exit status: 0, or 2 when the video was not whole.
+
+    Raises:
+        NavigationError: an option, the video, a marker or the camera file cannot be used.
+    """
+    configure_logging(LogSettings.for_terminal(as_json=True if log_json else None, debug=debug))
+    config = config_from_options(given)
+    address = source_from_text(config.camera.source)
+    if address.kind not in (SourceKind.PATH, SourceKind.REHEARSAL):
+        raise InvalidInput(
+            "TRACK_NEEDS_A_FILE",
+            f"'{address.name}' is a {address.kind.value}, which has no end",
+            "Give a video file, a folder of images or 'rehearsal'; for a live source use 'coaxial run'.",
+        )
+    preparation = build_setup(config)
+    if not preparation.models:
+        raise InvalidInput(
+            "NO_MARKER",
+            "there is no marker to look for",
+            "Give its picture with --marker PNG and its side with --side-mm, or put it into the settings.",
+        )
+    theatre = preparation.theatre
+    if theatre is not None:
+        cycle = round(theatre.cycle_s * config.rehearsal.rate_hz)
+        images = cycle if images is None else images
+    renderer = None if theatre is None else theatre.renderer()
+    source = source_from_config(config, stop=threading.Event(), renderer=renderer)
+    summary = _Summary()
+    source.open()
+    try:
+        with _lines(json_file) as lines, _progress(_count(config, images)) as advance:
+            for shot, read_ms in _shots(source, images):
+                for line in summary.lines_of(shot, read_ms, preparation):
+                    if lines is not None:
+                        lines.write(json.dumps(line, allow_nan=False) + "\n")
+                advance()
+    finally:
+        source.close()
+    typer.echo(summary.sentence(), err=True)
+    if source.defect is not None:
+        typer.echo(f"Error: {source.defect.message}.\n{source.defect.remedy}", err=True)
+        return BAD_INPUT
+    return 0
+
+
+def _shots(source: Source, images: int | None) -> Iterator[tuple[Shot, float]]:
+    """Each image of the source, with the time it took to read."""
+    count = 0
+    while images is None or count < images:
+        started_s = time.monotonic()
+        shot = source.read()
+        if shot is None:
+            return
+        count += 1
+        yield shot, (time.monotonic() - started_s) * 1000.0
+
+
+class _Summary:
+    """Tracks, and remembers what the last line of the output says."""
+
+    def __init__(self) -> None:
+        self._images = 0
+        self._seen: dict[str, int] = {}
+        self._times: dict[str, list[float]] = defaultdict(list)
+        self._setup: Setup | None = None
+        self._tracker: Tracker | None = None
+
+    def lines_of(self, shot: Shot, read_ms: float, preparation: Preparation) -> list[dict[str, Any]]:
+        """What is written of one image: a line a marker."""
+        height, width = shot.image.shape[:2]
+        if self._tracker is None or self._setup is None or self._setup.camera.size_wh_px != (width, height):
+            self._setup = preparation.setup_for((width, height))
+            self._tracker = preparation.tracker_for(self._setup)
+        sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s)
+        stage_ms = {"reading": read_ms, **self._tracker.stage_ms}
+        self._images += 1
+        for stage, took_ms in stage_ms.items():
+            self._times[stage].append(took_ms)
+        for name, sighting in sightings.items():
+            self._seen[name] = self._seen.get(name, 0) + isinstance(sighting, Seen)
+        calibrated = self._setup.camera_calibrated
+        return [
+            {
+                "image_number": shot.number,
+                "time_s": round(shot.source_time_s, 6),
+                "name": name,
+                **_sighting(sighting, calibrated=calibrated),
+                "stage_ms": {stage: round(took_ms, 3) for stage, took_ms in stage_ms.items()},
+            }
+            for name, sighting in sightings.items()
+        ]
+
+    def sentence(self) -> str:
+        """Images, how many of them show each marker, and the median time of each stage."""
+        seen = ", ".join(f"{name} seen in {count}" for name, count in self._seen.items())
+        times = ", ".join(f"{stage} {statistics.median(ms):.1f}" for stage, ms in self._times.items())
+        return f"{self._images} images: {seen or 'nothing'}; median ms: {times or '-'}"
+
+
+def _sighting(sighting: Sighting, *, calibrated: bool) -> dict[str, Any]:
+    """One marker in one image; millimetres only from a calibrated camera."""
+    if not isinstance(sighting, Seen):
+        return {
+            "seen": False,
+            "reason": sighting.reason.value,
+            "best_score_ratio": sighting.best_score_ratio,
+            **dict.fromkeys(SEEN_KEYS),
+        }
+    pose = sighting.camera_from_marker
+    rigid = {"rotation": pose.rotation.tolist(), "translation_mm": pose.translation_mm.tolist()}
+    return {
+        "seen": True,
+        "reason": None,
+        "best_score_ratio": sighting.score_ratio,
+        "camera_from_marker": rigid if calibrated else None,
+        "pose_covariance": sighting.pose_covariance.tolist() if calibrated else None,
+        "corners_px": sighting.corners_px.tolist(),
+        "score_ratio": sighting.score_ratio,
+        "target_score_ratio": sighting.target_score_ratio,
+        "model_coverage_ratio": sighting.model_coverage_ratio,
+        "target_coverage_ratio": sighting.target_coverage_ratio,
+        "fit_error_px2": sighting.fit_error_px2,
+        "found_by": sighting.found_by,
+    }
+
+
+SEEN_KEYS = (
+    "camera_from_marker",
+    "pose_covariance",
+    "corners_px",
+    "score_ratio",
+    "target_score_ratio",
+    "model_coverage_ratio",
+    "target_coverage_ratio",
+    "fit_error_px2",
+    "found_by",
+)
+
+
+@contextlib.contextmanager
+def _lines(json_file: str | None) -> Iterator[IO[str] | None]:
+    """Where lines go; a file has its name only once it is complete, until then it ends in .part."""
+    if json_file is None:
+        yield None
+        return
+    if json_file == "-":
+        yield sys.stdout
+        sys.stdout.flush()
+        return
+    path = Path(json_file)
+    part = path.with_name(path.name + ".part")
+    try:
+        file = part.open("w", encoding="utf-8", buffering=1)
+    except OSError as error:
+        raise InvalidInput(
+            "OUTPUT_NOT_WRITABLE",
+            f"{part} cannot be written: {(error.strerror or '').lower()}",
+            "Give a file in a folder that exists and may be written, or - for standard output.",
+            {"file": str(part)},
+        ) from error
+    with file:
+        yield file
+        file.flush()
+        os.fsync(file.fileno())
+    part.replace(path)
+
+
+def _count(config: Config, images: int | None) -> int | None:
+    """How many images there will be, if that can be told."""
+    path = Path(str(config.camera.source))
+    if images is not None or not path.is_file():
+        return images
+    video = open_file(str(path))
+    count = int(video.get(cv2.CAP_PROP_FRAME_COUNT))
+    video.release()
+    return count if count > 0 else None
+
+
+@contextlib.contextmanager
+def _progress(total: int | None) -> Iterator[Any]:
+    """A progress bar on standard error if that is a terminal; gives the function that moves it on."""
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda: None
+        return
+    columns = (TextColumn("images"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        task = progress.add_task("images", total=total)
+        yield lambda: progress.advance(task)

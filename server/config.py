@@ -1,0 +1,117 @@
+"""The settings: what config.yaml may say, with the ranges that are allowed.
+
+Every limit has its one home here; screen, overlay and alarm read the same field. How a file becomes these
+records, and how a mistake in it is told, is in `server.config_file`.
+"""
+
+from pathlib import Path
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+Ratio: TypeAlias = Annotated[float, Field(ge=0.0, le=1.0)]
+Strength: TypeAlias = Annotated[float, Field(ge=0.0, le=10.0)]
+Millimetres: TypeAlias = Annotated[float, Field(ge=-10_000.0, le=10_000.0)]
+Point: TypeAlias = Annotated[list[Millimetres], Field(min_length=3, max_length=3)]
+Name: TypeAlias = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$")]
+FilePath: TypeAlias = Annotated[Path, Field(strict=False)]
+
+
+class Section(BaseModel):
+    """Common to all parts of the settings: no unknown key, no silent conversion, never changed."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
+    )
+
+
+class ServerConfig(Section):
+    """Where the server listens."""
+
+    host: Annotated[str, StringConstraints(min_length=1)] = "127.0.0.1"
+    """Address to listen on; 127.0.0.1 is reached from this machine only."""
+    port: Annotated[int, Field(ge=0, le=65535)] = 8000
+    """0 takes any free one."""
+
+
+class CameraConfig(Section):
+    """Where images come from."""
+
+    name: Name = "main"
+    source: Annotated[int, Field(ge=0, le=99)] | Annotated[str, StringConstraints(min_length=1)] = "rehearsal"
+    """rehearsal, a number or path of a local camera, a video file, a stream's address, a folder of images."""
+    calibration: FilePath | None = None
+    """A camera file (YAML or JSON) with matrix, distortion, size_wh_px."""
+    loop: bool = True
+    """A video file or folder starts again at its end."""
+    rate: Literal["own", "fast"] = "own"
+    """own: a file at its own rate; fast: as fast as the tracker takes its images, none skipped."""
+    width: Annotated[int, Field(ge=16, le=7680)] | None = None
+    height: Annotated[int, Field(ge=16, le=4320)] | None = None
+    rate_hz: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
+    """Asked of a local camera; the rate of a folder, and of a file that has none (30 if left out)."""
+
+
+class RehearsalConfig(Section):
+    """The theatre that exists only in software."""
+
+    seed: Annotated[int, Field(ge=0, le=2**31 - 1)] = 1
+    width: Annotated[int, Field(ge=160, le=3840)] = 1280
+    height: Annotated[int, Field(ge=120, le=2160)] = 720
+    rate_hz: Annotated[float, Field(gt=0.0, le=120.0)] = 30.0
+    noise: Strength = 1.0
+    blur: Strength = 1.0
+    clutter: Strength = 1.0
+    light: Annotated[float, Field(gt=0.0, le=10.0)] = 1.0
+
+
+class MarkerConfig(Section):
+    """A printed marker: its picture, which the black square fills edge to edge, and its side."""
+
+    image: FilePath
+    side_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
+
+
+class ToolConfig(Section):
+    """A drill or awl behind its marker."""
+
+    marker: Name
+    tip_in_marker_mm: Point
+    axis_in_marker: Point
+    radius_mm: Annotated[float, Field(gt=0.0, le=50.0)]
+    length_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
+
+
+class TrackerConfig(Section):
+    """When a marker counts as found."""
+
+    accept_score_ratio: Ratio = 0.75
+    accept_target_score_ratio: Ratio = 0.6
+    fit_error_weight: Ratio = 0.25
+
+
+class LimitsConfig(Section):
+    """From which age on something is old, and says so."""
+
+    pose_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 150
+    video_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 500
+    scene_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 500
+
+
+class VideoConfig(Section):
+    """The picture that goes out."""
+
+    jpeg_quality: Annotated[int, Field(ge=1, le=100)] = 80
+
+
+class Config(Section):
+    """All settings. Paths in it are absolute, or relative to the working directory."""
+
+    server: ServerConfig = ServerConfig()
+    camera: CameraConfig = CameraConfig()
+    rehearsal: RehearsalConfig = RehearsalConfig()
+    markers: dict[Name, MarkerConfig] = {}
+    tools: dict[Name, ToolConfig] = {}
+    tracker: TrackerConfig = TrackerConfig()
+    limits: LimitsConfig = LimitsConfig()
+    video: VideoConfig = VideoConfig()

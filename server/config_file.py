@@ -1,0 +1,279 @@
+"""From config.yaml, the environment and the command line to `Config`, with every mistake told at once."""
+
+import difflib
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import yaml
+from pydantic import ValidationError
+
+from server.allowed import allowed_keys, allowed_text, key_text
+from server.camera_file import load_camera_file
+from server.capture.address import SourceKind, source_from_text
+from server.config import Config
+from server.errors import ConfigError
+from server.marker_file import load_marker_image
+from tracker.errors import NavigationError
+
+DEFAULT_FILE = Path("config.yaml")
+Key: TypeAlias = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Override:
+    """A setting that did not come from the file: its value, and what a person calls where it came from."""
+
+    value: object
+    origin: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mistake:
+    """One setting that cannot be used."""
+
+    where: str
+    key: str
+    sentence: str
+    context: dict[str, object] = field(default_factory=dict)
+
+
+def load_config(
+    path: Path | None = None,
+    *,
+    overrides: Mapping[tuple[str, ...], Override] | None = None,
+    environment: Mapping[str, str] | None = None,
+) -> Config:
+    """The settings from `path`, else ./config.yaml if there is one, else what is built in.
+
+    Over the file stands the environment (COAXIAL_PORT), over both `overrides` (the command line). Relative
+    paths in the file are relative to the file; those in overrides to the working directory.
+
+    Raises:
+        ConfigError: CONFIG_INVALID, with all mistakes, each with file, key, value and what is allowed;
+            CONFIG_FILE_UNREADABLE.
+    """
+    environment = os.environ if environment is None else environment
+    file = path if path is not None else (DEFAULT_FILE if DEFAULT_FILE.is_file() else None)
+    raw = {} if file is None else _mapping_from_file(file)
+    changes = dict(_from_environment(environment))
+    changes.update(overrides or {})
+    mistakes: list[Mistake] = []
+    origins: dict[Key, str] = {}
+    for key, change in changes.items():
+        _set(raw, key, change.value)
+        origins[key] = change.origin
+    where = _Where(file=file, origins=origins)
+    try:
+        config = Config.model_validate(raw)
+    except ValidationError as error:
+        mistakes.extend(_mistakes_from_validation(error, where))
+        raise _config_error(mistakes, file) from None
+    config = _with_absolute_paths(config, folder=Path() if file is None else file.parent, origins=origins)
+    mistakes.extend(_mistakes_between_keys(config, where))
+    mistakes.extend(_mistakes_in_files(config, where))
+    if mistakes:
+        raise _config_error(mistakes, file)
+    return config
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Where:
+    """Says where a key's value came from."""
+
+    file: Path | None
+    origins: Mapping[Key, str]
+
+    def of(self, key: Key) -> str:
+        for length in range(len(key), 0, -1):
+            if key[:length] in self.origins:
+                return self.origins[key[:length]]
+        return "the built-in settings" if self.file is None else str(self.file)
+
+
+class _StrictLoader(yaml.SafeLoader):
+    """YAML without the silent loss of a key that is written twice."""
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:  # noqa: ANN401  PyYAML's node types
+        keys: list[object] = []
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            if key in keys:
+                line = key_node.start_mark.line + 1
+                raise yaml.YAMLError(f"line {line}: the key '{key}' is there twice")
+            keys.append(key)
+        mapping: dict[Any, Any] = super().construct_mapping(node, deep)
+        return mapping
+
+
+def _mapping_from_file(file: Path) -> dict[str, Any]:
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is no UTF-8 text"
+        raise ConfigError(
+            "CONFIG_FILE_UNREADABLE",
+            f"the settings file {file} cannot be read: {reason}",
+            "Give an existing YAML file with --config, or leave --config out.",
+            {"file": str(file)},
+        ) from error
+    try:
+        raw = yaml.load(text, Loader=_StrictLoader)  # noqa: S506  a SafeLoader
+    except yaml.YAMLError as error:
+        raise _yaml_error(file, error) from None
+    if raw is None:
+        return {}
+    if not isinstance(raw, dict):
+        raise _yaml_error(file, yaml.YAMLError(f"it is a {type(raw).__name__}, needed keys with values"))
+    # A section whose lines are all commented out is an empty one.
+    return {key: value for key, value in raw.items() if value is not None}
+
+
+def _yaml_error(file: Path, error: yaml.YAMLError) -> ConfigError:
+    mark = getattr(error, "problem_mark", None)
+    reason = getattr(error, "problem", None) or str(error)
+    place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark is not None else ""
+    return ConfigError(
+        "CONFIG_INVALID",
+        f"{file} is not valid YAML: {place}{reason}",
+        "Mend the line; keys are written as 'key: value', indented by two spaces under their section.",
+        {"file": str(file)},
+    )
+
+
+def _from_environment(environment: Mapping[str, str]) -> dict[tuple[str, ...], Override]:
+    port = environment.get("COAXIAL_PORT", "").strip()
+    if not port:
+        return {}
+    value: object = int(port) if port.isdecimal() and port.isascii() else port
+    return {("server", "port"): Override(value=value, origin="COAXIAL_PORT")}
+
+
+def _set(raw: dict[str, Any], key: tuple[str, ...], value: object) -> None:
+    """Put a value into nested mappings; what is no mapping on the way is left for the validation to tell."""
+    inner: Any = raw
+    for part in key[:-1]:
+        if inner.get(part) is None:
+            inner[part] = {}
+        inner = inner[part]
+        if not isinstance(inner, dict):
+            return
+    inner[key[-1]] = value
+
+
+def _mistakes_from_validation(error: ValidationError, where: _Where) -> list[Mistake]:
+    mistakes: dict[str, Mistake] = {}
+    for detail in error.errors(include_url=False):
+        location = detail["loc"]
+        # A union reports each of its members; one sentence with all that is allowed is enough.
+        key = tuple(part for part in location if not str(part).startswith(("constrained-", "[key]")))
+        text = key_text(key)
+        if text not in mistakes:
+            mistakes[text] = _mistake(detail["type"], key, location, detail["input"], where)
+    return list(mistakes.values())
+
+
+def _mistake(kind: str, key: Key, location: Key, given: object, where: _Where) -> Mistake:
+    text = key_text(key)
+    if kind in {"extra_forbidden", "invalid_key"} or location[-1] == "[key]":
+        keys = allowed_keys(key[:-1])
+        near = difflib.get_close_matches(str(key[-1]), keys, n=1, cutoff=0.5)
+        meant = f", did you mean '{key_text((*key[:-1], near[0]))}'?" if near else ""
+        allowed = ", ".join(keys) if keys else "letters, digits, - and _, at most 40, a letter or digit first"
+        sentence = f"'{text}' is no key here{f'{meant} Allowed' if meant else ', allowed'}: {allowed}"
+        if location[-1] == "[key]":
+            sentence = f"'{text}' has a name that cannot be used, allowed: {allowed}"
+    elif kind == "missing":
+        sentence = f"'{text}' is missing, needed: {allowed_text(key)}"
+    else:
+        sentence = f"'{text}' is {given!r}, allowed: {allowed_text(key)}"
+    return Mistake(where=where.of(key), key=text, sentence=sentence, context={"given": repr(given)})
+
+
+def _with_absolute_paths(config: Config, *, folder: Path, origins: Mapping[Key, str]) -> Config:
+    """The same settings, with paths from the file taken from the file's folder."""
+
+    def resolved(path: Path, key: Key) -> Path:
+        base = Path.cwd() if any(key[:n] in origins for n in range(1, len(key) + 1)) else folder
+        return (base / path.expanduser()).resolve()
+
+    camera = config.camera
+    changes: dict[str, object] = {}
+    if camera.calibration is not None:
+        changes["calibration"] = resolved(camera.calibration, ("camera", "calibration"))
+    source = source_from_text(camera.source)
+    if source.kind is SourceKind.PATH:
+        changes["source"] = str(resolved(Path(source.text), ("camera", "source")))
+    markers = {
+        name: marker.model_copy(update={"image": resolved(marker.image, ("markers", name, "image"))})
+        for name, marker in config.markers.items()
+    }
+    return config.model_copy(update={"camera": camera.model_copy(update=changes), "markers": markers})
+
+
+def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
+    mistakes = []
+    camera = config.camera
+    if (camera.width is None) != (camera.height is None):
+        lone, other = ("width", "height") if camera.height is None else ("height", "width")
+        given = getattr(camera, lone)
+        sentence = f"'camera.{lone}' is {given}, but 'camera.{other}' is missing, allowed: both or none"
+        mistakes.append(Mistake(where=where.of(("camera", lone)), key=f"camera.{other}", sentence=sentence))
+    known = set(config.markers)
+    if source_from_text(camera.source).kind is SourceKind.REHEARSAL:
+        known.add("drill")
+        for section in ("markers", "tools"):
+            if "drill" in getattr(config, section):
+                sentence = f"'{section}.drill' is taken by the rehearsal's own drill, allowed: another name"
+                mistakes.append(
+                    Mistake(where=where.of((section, "drill")), key=f"{section}.drill", sentence=sentence)
+                )
+    for name, tool in config.tools.items():
+        key = f"tools.{name}.marker"
+        if tool.marker not in known:
+            allowed = ", ".join(sorted(known)) or "none, since there is no marker under 'markers'"
+            sentence = f"'{key}' is '{tool.marker}', allowed: {allowed}"
+            mistakes.append(Mistake(where=where.of(("tools", name, "marker")), key=key, sentence=sentence))
+        if max(abs(x) for x in tool.axis_in_marker) < 1e-9:
+            key = f"tools.{name}.axis_in_marker"
+            sentence = f"'{key}' is {tool.axis_in_marker}, allowed: a direction, not all three numbers 0"
+            mistakes.append(Mistake(where=where.of(("tools", name)), key=key, sentence=sentence))
+    return mistakes
+
+
+def _mistakes_in_files(config: Config, where: _Where) -> list[Mistake]:
+    """Files that are named in the settings and cannot be used."""
+    mistakes = []
+    if config.camera.calibration is not None:
+        try:
+            load_camera_file(config.camera.calibration)
+        except NavigationError as error:
+            mistakes.append(_mistake_in_file(("camera", "calibration"), error, where))
+    for name, marker in config.markers.items():
+        try:
+            load_marker_image(marker.image)
+        except NavigationError as error:
+            mistakes.append(_mistake_in_file(("markers", name, "image"), error, where))
+    return mistakes
+
+
+def _mistake_in_file(key: Key, error: NavigationError, where: _Where) -> Mistake:
+    text = key_text(key)
+    sentence = f"'{text}': {error.message}. {error.remedy}"
+    return Mistake(where=where.of(key), key=text, sentence=sentence, context=error.context)
+
+
+def _config_error(mistakes: list[Mistake], file: Path | None) -> ConfigError:
+    lines = [f"{mistake.where}: {mistake.sentence}" for mistake in mistakes]
+    message = lines[0] if len(lines) == 1 else "\n  ".join([f"{len(lines)} settings cannot be used:", *lines])
+    return ConfigError(
+        "CONFIG_INVALID",
+        message.rstrip("."),
+        "Mend it and start again; config.yaml in the project shows every key with its default.",
+        {
+            "file": str(file) if file else "",
+            "mistakes": [{"where": m.where, "key": m.key, "message": m.sentence} for m in mistakes],
+        },
+    )

@@ -1,0 +1,69 @@
+"""Logging: human lines on a terminal, JSON lines elsewhere, always to standard error."""
+
+import logging
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import structlog
+
+# Per-request and per-frame lines of these would bury what matters.
+QUIET_LOGGERS = ("uvicorn.access", "websockets", "asyncio", "numba", "multipart", "PIL")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LogSettings:
+    """How to log; handed to the tracking process too.
+
+    Attributes:
+        as_json: JSON lines instead of human ones.
+        debug: per-image detail too.
+    """
+
+    as_json: bool
+    debug: bool = False
+
+    @classmethod
+    def for_terminal(cls, *, as_json: bool | None = None, debug: bool = False) -> "LogSettings":
+        """Human lines when standard error is a terminal, unless asked otherwise."""
+        return cls(as_json=not sys.stderr.isatty() if as_json is None else as_json, debug=debug)
+
+
+def configure_logging(settings: LogSettings, *, process: str = "server") -> None:
+    """Send structlog and the standard library's logging the same way, once for this process."""
+    level = logging.DEBUG if settings.debug else logging.INFO
+    shared: list[Any] = [
+        structlog.contextvars.merge_contextvars,
+        structlog.stdlib.add_log_level,
+        structlog.processors.TimeStamper(fmt="iso" if settings.as_json else "%H:%M:%S", utc=settings.as_json),
+    ]
+    structlog.configure(
+        processors=[*shared, structlog.stdlib.ProcessorFormatter.wrap_for_formatter],
+        wrapper_class=structlog.make_filtering_bound_logger(level),
+        logger_factory=structlog.stdlib.LoggerFactory(),
+        cache_logger_on_first_use=False,
+    )
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(_formatter(settings, shared))
+    root = logging.getLogger()
+    root.handlers[:] = [handler]
+    root.setLevel(level)
+    for name in QUIET_LOGGERS:
+        logging.getLogger(name).setLevel(logging.WARNING)
+    # Its own lines say the same as ours, in its own words.
+    logging.getLogger("uvicorn.error").setLevel(logging.WARNING)
+    structlog.contextvars.bind_contextvars(process=process)
+
+
+def _formatter(settings: LogSettings, shared: list[Any]) -> logging.Formatter:
+    last: list[Any] = [structlog.stdlib.ProcessorFormatter.remove_processors_meta]
+    if settings.as_json:
+        last += [structlog.processors.format_exc_info, structlog.processors.JSONRenderer()]
+    else:
+        traceback = structlog.dev.plain_traceback
+        last += [
+            structlog.dev.ConsoleRenderer(
+                colors=sys.stderr.isatty(), exception_formatter=traceback, pad_event_to=0, pad_level=False
+            )
+        ]
+    return structlog.stdlib.ProcessorFormatter(processors=last, foreign_pre_chain=shared)

@@ -1,0 +1,181 @@
+"""From the tracking process to everybody: the newest report becomes the newest instant.
+
+One thread draws the overlay and encodes it once for all viewers. Newest wins: what came while it was busy is
+dropped, and counted. Whatever happens, an instant goes out at least once a second, and never with a picture
+that is known to be dead.
+"""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+import structlog
+
+from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.loop.board import Board, Posted
+from server.loop.report import Report, ReportUnpacker
+from tracker.navigation import NavigationSnapshot
+
+Image: TypeAlias = npt.NDArray[np.uint8]
+HEARTBEAT_S = 0.9
+
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Picture:
+    """How the outgoing picture is made.
+
+    Attributes:
+        draw: a new image with the overlay of a snapshot.
+        encode: JPEG of an image.
+    """
+
+    draw: Callable[[Image, NavigationSnapshot], Image]
+    encode: Callable[[Image], bytes]
+
+
+class Publisher:
+    """Publishes what the tracking process reports, in a thread of its own."""
+
+    def __init__(self, *, board: Board, hub: LiveHub, picture: Picture) -> None:
+        self._board = board
+        self._hub = hub
+        self._picture = picture
+        self._stop = threading.Event()
+        self._sequence = 0
+        self._dropped = 0
+        self._generation = -1
+        self._read = 0
+        self._tracked = 0
+        self._unpacker = ReportUnpacker()
+        self._last: Instant | None = None
+        self._last_at_s = 0.0
+        self._trouble: Trouble | None = None
+        self._drawing_failed = ""
+        self._thread = threading.Thread(target=self._run, name="publisher", daemon=True)
+
+    def start(self) -> None:
+        """Begin to publish."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Publish no more."""
+        self._stop.set()
+        self._board.wake()
+        self._thread.join(1.0)
+
+    def _run(self) -> None:
+        while not self._stop.is_set():
+            try:
+                self.publish_newest()
+            except Exception:
+                # A thread that ends here would leave a server that looks alive and shows nothing.
+                log.exception("an instant could not be published")
+                self._stop.wait(HEARTBEAT_S)
+            self._board.wait(self._last_at_s + HEARTBEAT_S - time.monotonic())
+
+    def publish_newest(self) -> None:
+        """Publish the newest report, a change of the process, or a sign of life when it is due."""
+        posted = self._board.posted
+        report, image = self._newest(posted)
+        if report is None:
+            self._publish_without_image(posted)
+            return
+        self._board.note_running(posted.generation)
+        self._board.note_source(report.source)
+        self._trouble = report.trouble
+        snapshot, jpeg, server_ms = report.snapshot, b"", dict[str, float]()
+        if snapshot is not None and image is not None:
+            snapshot, jpeg, server_ms = self._drawn(snapshot, image)
+        now = self._board.posted
+        if now.generation != posted.generation:
+            # It died while its picture was drawn.
+            self._publish_without_image(now)
+            return
+        self._publish(now.process, report.source, snapshot, jpeg, server_ms)
+
+    def _newest(self, posted: Posted) -> tuple[Report | None, Image | None]:
+        if posted.generation != self._generation:
+            self._generation, self._read, self._tracked, self._trouble = posted.generation, 0, 0, None
+        if posted.ring is None:
+            return None, None
+        entry = posted.ring.newest(after=self._read)
+        if entry is None:
+            return None, None
+        self._read = entry.sequence
+        report = self._unpacker.unpack(entry.note)
+        shown = 1 if report.snapshot is not None else 0
+        self._dropped += max(0, report.tracked_images - self._tracked - shown)
+        self._tracked = report.tracked_images
+        return report, entry.image
+
+    def _publish_without_image(self, posted: Posted) -> None:
+        """Tell a change of the process at once, otherwise only that the server is alive."""
+        last = self._last
+        due = time.monotonic() - self._last_at_s >= HEARTBEAT_S
+        process = self._status(posted.process)
+        changed = last is None or (last.process.state, last.process.trouble) != (
+            process.state,
+            process.trouble,
+        )
+        if not (due or changed):
+            return
+        source = self._board.source
+        if posted.process.state is not ProcessState.RUNNING:
+            source = replace(source, state=SourceState.OPENING, trouble=None, rate_hz=0.0)
+        self._publish(posted.process, source, None, b"", {})
+
+    def _status(self, process: ProcessStatus) -> ProcessStatus:
+        trouble = process.trouble or (self._trouble if process.state is ProcessState.RUNNING else None)
+        return replace(process, trouble=trouble, dropped_images=self._dropped)
+
+    def _publish(
+        self,
+        process: ProcessStatus,
+        source: SourceStatus,
+        snapshot: NavigationSnapshot | None,
+        jpeg: bytes,
+        server_ms: dict[str, float],
+    ) -> None:
+        instant = Instant(
+            sequence=self._sequence,
+            source=source,
+            process=self._status(process),
+            snapshot=snapshot,
+            jpeg=jpeg,
+            server_ms=server_ms,
+        )
+        self._sequence += 1
+        self._last, self._last_at_s = instant, time.monotonic()
+        self._hub.publish(instant)
+
+    def _drawn(
+        self, snapshot: NavigationSnapshot, image: Image
+    ) -> tuple[NavigationSnapshot | None, bytes, dict[str, float]]:
+        """The picture of a snapshot; nothing at all when it cannot be drawn, and why in the status."""
+        started_s = time.monotonic()
+        try:
+            drawn = self._picture.draw(image, snapshot)
+            drawn_s = time.monotonic()
+            jpeg = self._picture.encode(drawn)
+        except Exception as error:  # noqa: BLE001  told once below, and shown on the page
+            self._tell_drawing_failed(error)
+            return None, b"", {}
+        done_s = time.monotonic()
+        return snapshot, jpeg, {"overlay": (drawn_s - started_s) * 1e3, "encode": (done_s - drawn_s) * 1e3}
+
+    def _tell_drawing_failed(self, error: Exception) -> None:
+        sentence = f"{type(error).__name__}: {error}"
+        self._trouble = Trouble(
+            code="OVERLAY_FAILED",
+            message=f"the overlay cannot be drawn: {sentence}",
+            remedy="Start the program again; if it stays, report it with the log.",
+        )
+        if sentence != self._drawing_failed:
+            self._drawing_failed = sentence
+            log.error("the overlay cannot be drawn", exc_info=error)

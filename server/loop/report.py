@@ -1,0 +1,90 @@
+"""What the tracking process tells the server, and how it is packed.
+
+The setup (camera, tools, plan) is the same for thousands of images: it is packed once, and unpacked to the
+same object as long as it does not change.
+"""
+
+import io
+import pickle
+import struct
+from dataclasses import dataclass
+
+from server.live import SourceStatus, Trouble
+from tracker.navigation import NavigationSnapshot, Setup
+
+LENGTH = struct.Struct("<I")
+SETUP_MARK = "setup"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """One message of the tracking process.
+
+    Attributes:
+        source: the source of images.
+        snapshot: what the image says that goes with it; None when there is no image.
+        trouble: why it cannot track, although it runs.
+        tracked_images: how many images this process has reported.
+    """
+
+    source: SourceStatus
+    snapshot: NavigationSnapshot | None = None
+    trouble: Trouble | None = None
+    tracked_images: int = 0
+
+
+class ReportPacker:
+    """From reports to bytes."""
+
+    def __init__(self) -> None:
+        self._setup: Setup | None = None
+        self._setup_bytes = b""
+
+    def pack(self, report: Report) -> bytes:
+        """The report as bytes."""
+        setup = None if report.snapshot is None else report.snapshot.setup
+        if setup is not None and setup is not self._setup:
+            self._setup, self._setup_bytes = setup, pickle.dumps(setup, protocol=5)
+        body = io.BytesIO()
+        _Pickler(body, setup).dump(report)
+        return LENGTH.pack(len(self._setup_bytes)) + self._setup_bytes + body.getvalue()
+
+
+class ReportUnpacker:
+    """From the bytes of a process that this server started back to reports."""
+
+    def __init__(self) -> None:
+        self._setup: Setup | None = None
+        self._setup_bytes = b""
+
+    def unpack(self, content: bytes) -> Report:
+        """The report; its setup is the same object as in the last one if it is the same setup."""
+        (length,) = LENGTH.unpack_from(content)
+        setup_bytes = content[LENGTH.size : LENGTH.size + length]
+        if setup_bytes and setup_bytes != self._setup_bytes:
+            self._setup, self._setup_bytes = pickle.loads(setup_bytes), setup_bytes  # noqa: S301  own child
+        unpickler = _Unpickler(io.BytesIO(content[LENGTH.size + length :]), self._setup)
+        report: Report = unpickler.load()
+        return report
+
+
+class _Pickler(pickle.Pickler):
+    def __init__(self, file: io.BytesIO, setup: Setup | None) -> None:
+        super().__init__(file, protocol=5)
+        self._setup = setup
+
+    def persistent_id(self, obj: object) -> str | None:
+        """Leave the setup out."""
+        return SETUP_MARK if self._setup is not None and obj is self._setup else None
+
+
+class _Unpickler(pickle.Unpickler):
+    def __init__(self, file: io.BytesIO, setup: Setup | None) -> None:
+        super().__init__(file)
+        self._setup = setup
+
+    def persistent_load(self, pid: object) -> Setup:
+        """Put the setup in."""
+        if pid != SETUP_MARK or self._setup is None:
+            raise pickle.UnpicklingError(f"unknown part {pid!r}")
+        return self._setup

@@ -1,0 +1,212 @@
+"""Starts the tracking process, watches it, and starts it again when it dies or falls silent.
+
+At most 5 restarts in 60 s; then it says so and waits until the first of them is a minute old, because an
+untouched screen in theatre has to come back by itself.
+"""
+
+import multiprocessing
+import signal
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from multiprocessing import forkserver
+from multiprocessing.connection import wait
+from multiprocessing.context import ForkServerProcess
+from typing import TypeAlias
+
+import structlog
+
+from server.live import ProcessState, ProcessStatus, Trouble
+from server.loop.board import Board
+from server.loop.ring import ImageRing
+from server.loop.worker import WorkerLink, WorkerOrder, run_worker
+
+PRELOAD = ["server.loop.preload"]
+STOP_TIMEOUT_S = 1.0
+
+Target: TypeAlias = Callable[[WorkerOrder, WorkerLink], None]
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Watch:
+    """When the tracking process counts as dead, and how often it is started again.
+
+    Attributes:
+        silent_after_s: without a report, once it has tracked its first image.
+        first_image_after_s: without a report before that: the first image may have to compile the tracker.
+        restarts: how often it is started again within `window_s`.
+        window_s: see `restarts`.
+        look_every_s: how often silence is looked for; a death is noticed at once.
+    """
+
+    silent_after_s: float = 2.5
+    first_image_after_s: float = 90.0
+    restarts: int = 5
+    window_s: float = 60.0
+    look_every_s: float = 0.25
+
+
+class Supervisor:
+    """Keeps one tracking process running, from a thread of its own."""
+
+    def __init__(
+        self, *, order: WorkerOrder, board: Board, watch: Watch | None = None, target: Target = run_worker
+    ) -> None:
+        self._order = order
+        self._board = board
+        self._watch = watch or Watch()
+        self._target = target
+        self._context = multiprocessing.get_context("forkserver")
+        self._stop = threading.Event()
+        self._asleep, self._awake = multiprocessing.Pipe(duplex=False)
+        self._restarted_at_s: deque[float] = deque()
+        self._restarts = 0
+        self._pid: int | None = None
+        self._thread = threading.Thread(target=self._run, name="supervisor", daemon=True)
+
+    @property
+    def pid(self) -> int | None:
+        """The tracking process, None while there is none."""
+        return self._pid
+
+    def start(self) -> None:
+        """Begin; call it from the main thread, whose end shall end the process that forks."""
+        self._context.set_forkserver_preload(PRELOAD)
+        # Blocked in everything started here: Ctrl+C in a terminal reaches the whole process group, and only
+        # the server may act on it.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            forkserver.ensure_running()
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the tracking process, and wait for it."""
+        self._stop.set()
+        self._awake.close()
+        self._thread.join(STOP_TIMEOUT_S * 3)
+
+    def _run(self) -> None:
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        self._board.post(ProcessStatus(state=ProcessState.STARTING), None)
+        while not self._stop.is_set():
+            trouble = self._run_once()
+            if self._stop.is_set():
+                return
+            log.error(trouble.message, code=trouble.code, restarts=self._restarts)
+            self._post(ProcessState.RESTARTING, trouble)
+            self._wait_until_allowed(trouble)
+            self._restarts += 1
+            self._restarted_at_s.append(time.monotonic())
+
+    def _run_once(self) -> Trouble:
+        """Start a process, watch it to its end, and say how it ended."""
+        ring = ImageRing()
+        told, stop = self._context.Pipe(duplex=False)
+        link = WorkerLink(ring=ring, notice=self._board.notice, stop=told)
+        process = self._context.Process(
+            target=self._target, args=(self._next_order(), link), name="tracking", daemon=True
+        )
+        started_s = time.monotonic()
+        try:
+            process.start()
+        except (OSError, EOFError) as error:
+            stop.close()
+            return _trouble(f"could not be started: {error}")
+        finally:
+            told.close()
+        self._pid = process.pid
+        state = self._board.posted.process.state
+        restarting = state if state is ProcessState.STARTING else ProcessState.RESTARTING
+        self._post(restarting, self._board.posted.process.trouble, ring)
+        log.debug("tracking process started", pid=process.pid, took_s=round(time.monotonic() - started_s, 2))
+        ending = self._watch_process(process, ring)
+        # From here on nothing it left behind is live; everybody is told before it is cleaned up.
+        if not self._stop.is_set():
+            self._post(ProcessState.RESTARTING, ending)
+        stop.close()
+        self._end(process)
+        self._pid = None
+        ring.close()
+        return ending
+
+    def _watch_process(self, process: ForkServerProcess, ring: ImageRing) -> Trouble:
+        """Returns when the process is dead, silent, or to be stopped."""
+        began_s = time.monotonic()
+        while True:
+            ready = wait([process.sentinel, self._asleep], timeout=self._watch.look_every_s)
+            if process.sentinel in ready:
+                process.join(STOP_TIMEOUT_S)
+                return _trouble(f"(pid {process.pid}) ended {_how(process.exitcode)}")
+            if self._asleep in ready:
+                return _trouble("was stopped")
+            limit_s = self._watch.silent_after_s if ring.images else self._watch.first_image_after_s
+            silent_s = time.monotonic() - max(ring.written_at_s, began_s)
+            if silent_s > limit_s:
+                return _trouble(f"(pid {process.pid}) said nothing for {silent_s:.1f} s, limit {limit_s:g} s")
+
+    def _end(self, process: ForkServerProcess) -> None:
+        if self._stop.is_set():
+            process.join(STOP_TIMEOUT_S)
+        if process.exitcode is None:
+            process.kill()
+            process.join(STOP_TIMEOUT_S)
+        if process.exitcode is not None:
+            process.close()
+
+    def _next_order(self) -> WorkerOrder:
+        source = self._board.source
+        return replace(self._order, first_number=source.images, skipped_before=source.skipped_images)
+
+    def _wait_until_allowed(self, trouble: Trouble) -> None:
+        """Returns when it may be started again; until then it is given up, and says so."""
+        watch = self._watch
+        while not self._stop.is_set():
+            now_s = time.monotonic()
+            while self._restarted_at_s and now_s - self._restarted_at_s[0] >= watch.window_s:
+                self._restarted_at_s.popleft()
+            if len(self._restarted_at_s) < watch.restarts:
+                return
+            left_s = watch.window_s - (now_s - self._restarted_at_s[0])
+            if self._board.posted.process.state is not ProcessState.GIVEN_UP:
+                given_up = _given_up(watch, trouble)
+                log.error(given_up.message, code=given_up.code, remedy=given_up.remedy)
+                self._post(ProcessState.GIVEN_UP, given_up)
+            wait([self._asleep], timeout=left_s)
+
+    def _post(self, state: ProcessState, trouble: Trouble | None, ring: ImageRing | None = None) -> None:
+        self._board.post(ProcessStatus(state=state, restarts=self._restarts, trouble=trouble), ring)
+
+
+def _trouble(what: str) -> Trouble:
+    return Trouble(
+        code="TRACKING_PROCESS_ENDED",
+        message=f"the tracking process {what}",
+        remedy="It is started again by itself; if this repeats, look at the log.",
+    )
+
+
+def _given_up(watch: Watch, last: Trouble) -> Trouble:
+    return Trouble(
+        code="TRACKING_GIVEN_UP",
+        message=f"the tracking process was started again {watch.restarts} times within {watch.window_s:g} s "
+        f"and ended again; the last time: {last.message}",
+        remedy=f"Look at the log for the reason. It is tried again within {watch.window_s:g} s; "
+        "to try at once, stop the program and start it again.",
+        context={"restarts": watch.restarts, "window_s": watch.window_s},
+    )
+
+
+def _how(exitcode: int | None) -> str:
+    if exitcode is None:
+        return "in an unknown way"
+    if exitcode < 0:
+        try:
+            return f"by signal {-exitcode} ({signal.Signals(-exitcode).name})"
+        except ValueError:
+            return f"by signal {-exitcode}"
+    return f"with status {exitcode}"

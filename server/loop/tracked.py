@@ -1,0 +1,42 @@
+"""Everything between a source and the live hub, started and stopped as one."""
+
+from server.capture.address import source_from_text
+from server.config import Config
+from server.live import LiveHub
+from server.logs import LogSettings
+from server.loop.board import Board
+from server.loop.publisher import Picture, Publisher
+from server.loop.supervisor import Supervisor, Watch
+from server.loop.worker import WorkerOrder
+
+
+class Tracked:
+    """Captures and tracks in a process of its own, and publishes to `hub`."""
+
+    def __init__(self, config: Config, *, log: LogSettings, watch: Watch | None = None) -> None:
+        self.hub = LiveHub()
+        self._board = Board(source_from_text(config.camera.source).name)
+        self._supervisor = Supervisor(
+            order=WorkerOrder(config=config, log=log), board=self._board, watch=watch
+        )
+        self._publisher: Publisher | None = None
+
+    @property
+    def pid(self) -> int | None:
+        """The tracking process, None while there is none."""
+        return self._supervisor.pid
+
+    def start(self) -> None:
+        """Start the tracking process; call it from the main thread. Nothing is published yet."""
+        self._supervisor.start()
+
+    def publish(self, picture: Picture) -> None:
+        """Begin to publish, with pictures made in this way."""
+        self._publisher = Publisher(board=self._board, hub=self.hub, picture=picture)
+        self._publisher.start()
+
+    def stop(self) -> None:
+        """End the process and the threads; harmless when they were not started."""
+        if self._publisher is not None:
+            self._publisher.stop()
+        self._supervisor.stop()

@@ -1,0 +1,148 @@
+"""The tracking process itself: newest image in, report and image out.
+
+Two threads do the work: one captures, the main one tracks. A third only waits for the server to let go of
+its end of the stop pipe, which happens when it wants to stop and when it dies.
+"""
+
+import contextlib
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, wait
+
+import cv2
+import structlog
+
+from server.capture.capture import Capture
+from server.capture.choose import source_from_config
+from server.capture.shot import Shot, Source
+from server.config import Config
+from server.live import Trouble
+from server.logs import LogSettings, configure_logging
+from server.loop.parent import die_with_parent
+from server.loop.report import Report, ReportPacker
+from server.loop.ring import ImageRing
+from server.loop.tracking import Tracking
+from server.setup import build_setup
+from tracker.errors import NavigationError
+
+# A sign of life when no image comes.
+HEARTBEAT_S = 0.5
+STOP_GRACE_S = 0.7
+
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkerOrder:
+    """What a tracking process is told when it is started.
+
+    Attributes:
+        config: the settings.
+        log: how to log.
+        first_number: the number of its first image, above all that were reported before.
+        skipped_before: images that were skipped before.
+    """
+
+    config: Config
+    log: LogSettings
+    first_number: int = 0
+    skipped_before: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkerLink:
+    """The ends of a tracking process that the server holds the other ends of.
+
+    Attributes:
+        ring: where reports and images go.
+        notice: one byte in here says that something was written; never blocks.
+        stop: closed by the server when the process shall end.
+    """
+
+    ring: ImageRing
+    notice: Connection
+    stop: Connection
+    _packer: ReportPacker = field(default_factory=ReportPacker)
+
+    def send(self, report: Report, shot: Shot | None = None) -> None:
+        """Write a report, and wake the server."""
+        self.ring.write(self._packer.pack(report), None if shot is None else shot.image)
+        # A full pipe has woken it already.
+        with contextlib.suppress(BlockingIOError):
+            os.write(self.notice.fileno(), b".")
+
+
+def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
+    """The tracking process, from start to end."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    die_with_parent()
+    configure_logging(order.log, process="tracking")
+    os.set_blocking(link.notice.fileno(), False)
+    # Two: one core is left to the server, and the tracker's images are small.
+    cv2.setNumThreads(2)
+    stop = threading.Event()
+    threading.Thread(target=_end_when_told, args=(link.stop, stop), name="stop", daemon=True).start()
+    try:
+        preparation = build_setup(order.config)
+        theatre = preparation.theatre
+        source = source_from_config(
+            order.config,
+            stop=stop,
+            renderer=None if theatre is None else theatre.renderer(),
+            first_number=order.first_number,
+        )
+        work(order, link, stop, source, Tracking(preparation))
+    except BrokenPipeError:
+        # The server is gone.
+        os._exit(0)
+    except Exception:
+        log.exception("the tracking process failed")
+        os._exit(1)
+
+
+def work(
+    order: WorkerOrder,
+    link: WorkerLink,
+    stop: threading.Event,
+    source: Source,
+    tracking: Tracking,
+    *,
+    clock: Callable[[], float] = time.monotonic,
+) -> None:
+    """Track the newest image of the source until `stop` is set."""
+    capture = Capture(source, stop=stop, taken_before=order.first_number - order.skipped_before)
+    capture.start()
+    link.send(Report(source=capture.status()))
+    tracked = 0
+    trouble: Trouble | None = None
+    while not stop.is_set():
+        shot = capture.take(HEARTBEAT_S)
+        status = capture.status()
+        if shot is None:
+            link.send(Report(source=status, trouble=trouble, tracked_images=tracked))
+            continue
+        try:
+            snapshot = tracking.conclude(shot, skipped_images=status.skipped_images, clock=clock)
+            trouble = tracking.trouble
+            report = Report(source=status, snapshot=snapshot, trouble=trouble, tracked_images=tracked + 1)
+            link.send(report, shot)
+            tracked += 1
+        except NavigationError as error:
+            if trouble is None or trouble.code != error.code:
+                log.warning(error.message, code=error.code, remedy=error.remedy)
+            trouble = Trouble.from_error(error)
+            link.send(Report(source=status, trouble=trouble, tracked_images=tracked))
+    capture.close(STOP_GRACE_S)
+
+
+def _end_when_told(told: Connection, stop: threading.Event) -> None:
+    """Ends this process when the other end of the pipe is let go of."""
+    wait([told])
+    stop.set()
+    time.sleep(STOP_GRACE_S)
+    # Whatever still hangs (a driver, a stream that does not answer) is not worth waiting for.
+    os._exit(0)

@@ -1,0 +1,169 @@
+"""What stands before the first image: camera, markers, tools, plan and registration, from the settings."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from server.camera_file import load_camera_file
+from server.capture.address import SourceKind, source_from_text
+from server.config import Config, ToolConfig
+from server.marker_file import load_marker_image
+from tracker.camera import CameraModel
+from tracker.errors import CalibrationError
+from tracker.geometry import Camera, Rigid, Vertebra
+from tracker.marker import MarkerModel
+from tracker.navigation import Absent, AbsentReason, Setup
+from tracker.pipeline import Tracker
+from tracker.plan import Channel
+from tracker.pose import ToolModel
+
+if TYPE_CHECKING:
+    from tracker.plan import Surface
+    from tracker.rehearsal import Theatre
+
+# An ordinary lens: about 45 degrees across. It only helps to find the marker, no millimetre comes from it.
+NOMINAL_FOCAL_BY_WIDTH = 1.2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Preparation:
+    """All that is known before the first image.
+
+    Attributes:
+        camera: the calibrated camera; None when there is no camera file.
+        models: the markers to look for.
+        tools: by name.
+        channel: the planned channel, or why there is none.
+        camera_from_vertebra: the registration, or why there is none.
+        registered_by: how the registration was made, in words; empty when it was not.
+        theatre: the rehearsal's, None for every other source.
+    """
+
+    camera: CameraModel | None
+    models: tuple[MarkerModel, ...]
+    tools: Mapping[str, ToolModel]
+    channel: Channel | Absent
+    camera_from_vertebra: Rigid[Camera, Vertebra] | Absent
+    registered_by: str
+    theatre: "Theatre | None" = None
+
+    @property
+    def surface(self) -> "Surface | None":
+        """The vertebra for the 3-D scene, if there is one."""
+        return None if self.theatre is None else self.theatre.surface
+
+    @property
+    def setup(self) -> Setup | None:
+        """The setup when the camera is calibrated; otherwise it waits for the size of the first image."""
+        return None if self.camera is None else self._setup(self.camera, calibrated=True)
+
+    def setup_for(self, size_wh_px: tuple[int, int]) -> Setup:
+        """The setup for images of this size.
+
+        Raises:
+            CalibrationError: CAMERA_SIZE_MISMATCH, the camera was calibrated at another size.
+        """
+        if self.camera is None:
+            return self.uncalibrated_setup_for(size_wh_px)
+        if self.camera.size_wh_px != tuple(size_wh_px):
+            (width, height), (width_file, height_file) = size_wh_px, self.camera.size_wh_px
+            raise CalibrationError(
+                "CAMERA_SIZE_MISMATCH",
+                f"images are {width}x{height} px, but the camera was calibrated at "
+                f"{width_file}x{height_file} px",
+                "Set the camera to the calibrated size, or calibrate it at this one; nothing is scaled.",
+                {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_file, height_file]},
+            )
+        return self._setup(self.camera, calibrated=True)
+
+    def uncalibrated_setup_for(self, size_wh_px: tuple[int, int]) -> Setup:
+        """A setup that finds and labels markers, and claims no millimetre."""
+        return self._setup(nominal_camera(size_wh_px), calibrated=False)
+
+    def tracker_for(self, setup: Setup) -> Tracker:
+        """A new tracker of these markers, which knows nothing of images before."""
+        return Tracker(camera=setup.camera, models=self.models)
+
+    def _setup(self, camera: CameraModel, *, calibrated: bool) -> Setup:
+        return Setup(
+            camera=camera,
+            camera_calibrated=calibrated,
+            tools=self.tools,
+            channel=self.channel,
+            camera_from_vertebra=self.camera_from_vertebra,
+            registered_by=self.registered_by,
+        )
+
+
+def build_setup(config: Config) -> Preparation:
+    """Everything that stands before the first image.
+
+    Raises:
+        NavigationError: a marker, tool or camera file cannot be used.
+    """
+    models = tuple(
+        MarkerModel.from_image(load_marker_image(marker.image), side_mm=marker.side_mm, name=name)
+        for name, marker in config.markers.items()
+    )
+    tools = {name: _tool(name, tool) for name, tool in config.tools.items()}
+    if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
+        theatre = _theatre(config)
+        return Preparation(
+            camera=theatre.camera,
+            models=(theatre.marker, *models),
+            tools={theatre.tool.name: theatre.tool, **tools},
+            channel=theatre.channels[0],
+            camera_from_vertebra=theatre.camera_from_vertebra,
+            registered_by="rehearsal",
+            theatre=theatre,
+        )
+    calibration = config.camera.calibration
+    return Preparation(
+        camera=None if calibration is None else load_camera_file(calibration),
+        models=models,
+        tools=tools,
+        channel=Absent(reason=AbsentReason.NO_PLAN),
+        camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
+        registered_by="",
+    )
+
+
+def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
+    """A plausible camera for images of this size, when nothing is known of the real one."""
+    width, height = size_wh_px
+    focal = NOMINAL_FOCAL_BY_WIDTH * width
+    return CameraModel(
+        matrix=np.array([[focal, 0.0, (width - 1) / 2], [0.0, focal, (height - 1) / 2], [0.0, 0.0, 1.0]]),
+        distortion=np.zeros(5),
+        size_wh_px=(width, height),
+    )
+
+
+def _tool(name: str, tool: ToolConfig) -> ToolModel:
+    return ToolModel.from_tip_and_axis(
+        name=name,
+        marker=tool.marker,
+        tip_in_marker_mm=tool.tip_in_marker_mm,
+        axis_in_marker=tool.axis_in_marker,
+        radius_mm=tool.radius_mm,
+        length_mm=tool.length_mm,
+    )
+
+
+def _theatre(config: Config) -> "Theatre":
+    # Here, because it takes time to load and only the rehearsal needs it.
+    from tracker.rehearsal import Theatre, TheatreSettings  # noqa: PLC0415
+
+    rehearsal = config.rehearsal
+    return Theatre(
+        TheatreSettings(
+            seed=rehearsal.seed,
+            size_wh_px=(rehearsal.width, rehearsal.height),
+            noise=rehearsal.noise,
+            blur=rehearsal.blur,
+            clutter=rehearsal.clutter,
+            light=rehearsal.light,
+        )
+    )

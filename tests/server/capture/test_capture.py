@@ -1,0 +1,172 @@
+"""The newest image, the status and the log of a source that is told what to do by the test."""
+
+import queue
+import threading
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from structlog.testing import capture_logs
+
+from server.capture.capture import Capture
+from server.capture.rehearsal import RehearsalSource
+from server.capture.shot import Shot
+from server.errors import CaptureError
+from server.live import SourceState
+
+
+def shot(number: int) -> Shot:
+    image = np.full((4, 6, 3), number % 256, dtype=np.uint8)
+    now_s = time.monotonic()
+    return Shot(image=image, number=number, captured_at_s=now_s, source_time_s=now_s)
+
+
+class ToldSource:
+    """Gives what the test puts in: a shot, an error to raise, or None for the end."""
+
+    def __init__(self, *, waits_for_taker: bool = False, stalls: bool = False) -> None:
+        self.name = "told"
+        self.waits_for_taker = waits_for_taker
+        self.stalls = stalls
+        self.defect: CaptureError | None = None
+        self.told: queue.Queue[Shot | BaseException | None] = queue.Queue()
+        self.opened = 0
+
+    def open(self) -> None:
+        self.opened += 1
+
+    def read(self) -> Shot | None:
+        given = self.told.get()
+        if isinstance(given, BaseException):
+            raise given
+        return given
+
+    def close(self) -> None:
+        pass
+
+
+def gone(reason: str = "cable out") -> CaptureError:
+    return CaptureError("CAMERA_STOPPED", reason, "Plug it in.")
+
+
+def until(true: Callable[[], bool]) -> None:
+    deadline_s = time.monotonic() + 30.0
+    while not true():
+        assert time.monotonic() < deadline_s
+        threading.Event().wait(0.002)
+
+
+def test_the_newest_image_wins_and_the_skipped_are_counted() -> None:
+    source, stop = ToldSource(), threading.Event()
+    capture = Capture(source, stop=stop)
+    for number in range(5):
+        source.told.put(shot(number))
+    capture.start()
+    until(lambda: capture.status().images == 5)
+    taken = capture.take(1.0)
+    assert taken is not None
+    assert taken.number == 4
+    status = capture.status()
+    assert (status.images, status.skipped_images) == (5, 4)
+    stop.set()
+    source.told.put(None)
+    capture.close()
+
+
+def test_a_source_that_waits_for_its_taker_skips_nothing() -> None:
+    source, stop = ToldSource(waits_for_taker=True), threading.Event()
+    capture = Capture(source, stop=stop)
+    for number in range(5):
+        source.told.put(shot(number))
+    source.told.put(None)
+    capture.start()
+    numbers: list[int] = []
+    while capture.status().state is not SourceState.ENDED or len(numbers) < 5:
+        taken = capture.take(1.0)
+        if taken is not None:
+            numbers.append(taken.number)
+    assert numbers == [0, 1, 2, 3, 4]
+    assert capture.status().skipped_images == 0
+
+
+def test_a_fault_is_told_once_however_often_it_is_tried_and_it_comes_back() -> None:
+    source, stop = ToldSource(), threading.Event()
+    capture = Capture(source, stop=stop)
+    with capture_logs() as logs:
+        source.told.put(shot(0))
+        for _ in range(3):
+            source.told.put(gone())
+        capture.start()
+        until(lambda: source.opened == 4)
+        assert capture.status().state is SourceState.RECONNECTING
+        trouble = capture.status().trouble
+        assert trouble is not None
+        assert (trouble.code, trouble.message, trouble.remedy) == (
+            "CAMERA_STOPPED",
+            "cable out",
+            "Plug it in.",
+        )
+        source.told.put(shot(1))
+        until(lambda: capture.status().state is SourceState.RUNNING)
+        assert capture.status().trouble is None
+        until(lambda: any(line["event"] == "source is back" for line in logs))
+    stop.set()
+    source.told.put(None)
+    capture.close()
+    assert [line["event"] for line in logs][:2] == ["source runs", "cable out"]
+    assert [line["event"] for line in logs].count("cable out") == 1
+
+
+def test_a_change_of_the_status_wakes_who_waits_for_an_image() -> None:
+    source, stop = ToldSource(), threading.Event()
+    capture = Capture(source, stop=stop)
+    source.told.put(gone())
+    capture.start()
+    # Woken by the change: the time given is longer than the test may take.
+    assert capture.take(1000.0) is None
+    assert capture.status().state is SourceState.RECONNECTING
+    stop.set()
+
+
+def test_an_unexpected_fault_is_raised_where_the_images_are_taken() -> None:
+    source, stop = ToldSource(), threading.Event()
+    capture = Capture(source, stop=stop)
+    source.told.put(ZeroDivisionError("a bug"))
+    capture.start()
+    with pytest.raises(ZeroDivisionError):
+        capture.take(1000.0)
+
+
+def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.MonkeyPatch) -> None:
+    source, stop = ToldSource(stalls=True), threading.Event()
+    capture = Capture(source, stop=stop)
+    source.told.put(shot(0))
+    capture.start()
+    until(lambda: capture.status().state is SourceState.RUNNING)
+    later_s = time.monotonic() + 2.5
+    monkeypatch.setattr("server.capture.capture.time.monotonic", lambda: later_s)
+    status = capture.status()
+    monkeypatch.undo()
+    assert status.state is SourceState.RECONNECTING
+    assert status.trouble is not None
+    assert status.trouble.code == "SOURCE_STALLED"
+    stop.set()
+    source.told.put(None)
+
+
+class Numbered:
+    def image_at(self, at_s: float) -> np.ndarray:
+        return np.full((4, 6, 3), round(at_s * 100), dtype=np.uint8)
+
+
+def test_the_theatre_shows_number_by_rate_seconds_of_its_own_clock() -> None:
+    stop = threading.Event()
+    source = RehearsalSource(Numbered(), rate_hz=25.0, stop=stop, fast=True, first_number=7, last_number=9)
+    source.open()
+    shots = [source.read() for _ in range(4)]
+    given = [shot for shot in shots if shot is not None]
+    assert [shot.number for shot in given] == [7, 8, 9]
+    assert [shot.source_time_s for shot in given] == pytest.approx([0.28, 0.32, 0.36])
+    assert [int(shot.image[0, 0, 0]) for shot in given] == [28, 32, 36]
+    assert shots[3] is None

@@ -1,0 +1,145 @@
+"""Video files and folders as sources, whole and broken."""
+
+import threading
+from pathlib import Path
+
+import pytest
+from filmed import cut_video, write_images, write_video
+
+from server.capture.choose import source_from_config
+from server.capture.folder import FolderSource, natural_order
+from server.capture.shot import Shot, Source
+from server.capture.video_file import VideoFileSource
+from server.config import CameraConfig, Config
+from server.errors import CaptureError
+
+
+def level(shot: Shot) -> int:
+    return round(float(shot.image.mean()) / 10)
+
+
+def read_all(source: Source, most: int = 100) -> list[Shot]:
+    source.open()
+    shots: list[Shot] = []
+    while len(shots) < most and (shot := source.read()) is not None:
+        shots.append(shot)
+    source.close()
+    return shots
+
+
+def video(path: Path, stop: threading.Event, *, loop: bool = False, fast: bool = True) -> VideoFileSource:
+    return VideoFileSource(path, loop=loop, fast=fast, stop=stop)
+
+
+def test_a_video_gives_every_image_once_with_its_own_time(tmp_path: Path, stop: threading.Event) -> None:
+    shots = read_all(video(write_video(tmp_path / "v.avi"), stop))
+    assert [level(shot) for shot in shots] == list(range(8))
+    assert [shot.number for shot in shots] == list(range(8))
+    assert [shot.source_time_s for shot in shots] == pytest.approx([n / 25 for n in range(8)])
+
+
+def test_a_looped_video_goes_on_counting_and_its_time_goes_on(tmp_path: Path, stop: threading.Event) -> None:
+    shots = read_all(video(write_video(tmp_path / "v.avi"), stop, loop=True), most=20)
+    assert [level(shot) for shot in shots] == [n % 8 for n in range(20)]
+    assert [shot.number for shot in shots] == list(range(20))
+    assert [shot.source_time_s for shot in shots] == pytest.approx([n / 25 for n in range(20)])
+
+
+def test_a_video_at_its_own_rate_is_never_early(tmp_path: Path, stop: threading.Event) -> None:
+    shots = read_all(video(write_video(tmp_path / "v.avi"), stop, fast=False))
+    began_s = shots[0].captured_at_s
+    for shot in shots:
+        assert shot.captured_at_s - began_s >= shot.source_time_s - 0.002
+
+
+def test_a_cut_video_gives_what_is_there_and_says_what_is_missing(
+    tmp_path: Path, stop: threading.Event
+) -> None:
+    source = video(cut_video(tmp_path / "cut.avi"), stop)
+    shots = read_all(source)
+    assert 0 < len(shots) < 20
+    assert source.defect is not None
+    assert source.defect.code == "VIDEO_FILE_CUT"
+    assert f"{len(shots)} of 20 images" in source.defect.message
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "words"),
+    [
+        pytest.param(b"", "VIDEO_FILE_UNREADABLE", "0 bytes", id="empty"),
+        pytest.param(b"only words, no video\n" * 50, "VIDEO_FILE_UNREADABLE", "1050 bytes", id="a-text"),
+        pytest.param(None, "SOURCE_NOT_FOUND", "does not exist", id="missing"),
+    ],
+)
+def test_what_is_no_video_is_told_with_a_remedy(
+    tmp_path: Path, stop: threading.Event, content: bytes | None, code: str, words: str
+) -> None:
+    path = tmp_path / "film.mov"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(CaptureError) as caught:
+        video(path, stop).open()
+    assert caught.value.code == code
+    assert words in caught.value.message
+    assert "film.mov" in caught.value.message
+    assert caught.value.remedy
+
+
+def folder(path: Path, stop: threading.Event, *, loop: bool = False) -> FolderSource:
+    return FolderSource(path, loop=loop, fast=True, stop=stop, rate_hz=10.0)
+
+
+def test_a_folder_is_read_in_the_order_a_person_sorts(tmp_path: Path, stop: threading.Event) -> None:
+    images = write_images(tmp_path / "f", {"i10.png": 30, "i2.png": 20, "i1.png": 10, "I3.PNG": 25})
+    (images / "notes.txt").write_text("no image")
+    shots = read_all(folder(images, stop))
+    assert [round(float(shot.image.mean())) for shot in shots] == [10, 20, 25, 30]
+    assert [shot.source_time_s for shot in shots] == pytest.approx([0.0, 0.1, 0.2, 0.3])
+    names = [Path(name) for name in ("b", "a10", "a9", "10", "9a")]
+    assert [path.name for path in sorted(names, key=natural_order)] == ["9a", "10", "a9", "a10", "b"]
+
+
+def test_a_bad_image_is_left_out_and_told(tmp_path: Path, stop: threading.Event) -> None:
+    images = write_images(tmp_path / "f", {"1.png": 10, "3.png": 30})
+    (images / "2.png").write_bytes(b"not a picture")
+    source = folder(images, stop)
+    assert [round(float(shot.image.mean())) for shot in read_all(source)] == [10, 30]
+    assert source.defect is not None
+    assert source.defect.code == "FOLDER_IMAGE_UNREADABLE"
+    assert "2.png" in source.defect.message
+
+
+def test_a_folder_that_grows_gives_the_new_images_at_its_next_turn(
+    tmp_path: Path, stop: threading.Event
+) -> None:
+    source = folder(write_images(tmp_path / "f", {"1.png": 10}), stop, loop=True)
+    source.open()
+    first = source.read()
+    write_images(tmp_path / "f", {"2.png": 20})
+    later = [source.read() for _ in range(2)]
+    assert first is not None
+    assert [round(float(shot.image.mean())) for shot in later if shot] == [10, 20]
+    assert [shot.number for shot in later if shot] == [1, 2]
+
+
+def test_a_folder_without_a_usable_image_is_an_error(tmp_path: Path, stop: threading.Event) -> None:
+    (tmp_path / "f").mkdir()
+    with pytest.raises(CaptureError) as caught:
+        folder(tmp_path / "f", stop).open()
+    assert caught.value.code == "FOLDER_WITHOUT_IMAGES"
+    (tmp_path / "f" / "1.png").write_bytes(b"")
+    source = folder(tmp_path / "f", stop, loop=True)
+    source.open()
+    with pytest.raises(CaptureError) as caught:
+        source.read()
+    assert caught.value.code == "FOLDER_IMAGE_UNREADABLE"
+
+
+def test_a_path_is_whatever_it_is_when_it_is_opened(tmp_path: Path, stop: threading.Event) -> None:
+    path = tmp_path / "source"
+    config = Config(camera=CameraConfig(source=str(path), loop=False, rate="fast"))
+    source = source_from_config(config, stop=stop, first_number=5)
+    with pytest.raises(CaptureError):
+        source.open()
+    write_images(path, {"1.png": 10})
+    assert [shot.number for shot in read_all(source)] == [5]

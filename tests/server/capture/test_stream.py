@@ -1,0 +1,136 @@
+"""Network streams, against a small MJPEG server that is stopped and started again."""
+
+import socket
+import threading
+from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import cv2
+import pytest
+from filmed import grey_image, write_video
+
+from server.capture.address import source_from_text
+from server.capture.capture import Capture
+from server.capture.stream import StreamSource
+from server.capture.video_file import VideoFileSource
+from server.errors import CaptureError
+from server.live import SourceState
+
+
+class MjpegServer(ThreadingHTTPServer):
+    daemon_threads = True
+    allow_reuse_address = True
+
+    def __init__(self, port: int = 0) -> None:
+        super().__init__(("127.0.0.1", port), _Handler)
+        self.ended = threading.Event()
+        self._thread = threading.Thread(target=self.serve_forever, args=(0.02,), daemon=True)
+        self._thread.start()
+
+    def end(self) -> None:
+        self.ended.set()
+        self.shutdown()
+        self.server_close()
+        self._thread.join()
+
+
+class _Handler(BaseHTTPRequestHandler):
+    def log_message(self, *args: object) -> None:
+        del args
+
+    def do_GET(self) -> None:
+        server = self.server
+        assert isinstance(server, MjpegServer)
+        content = cv2.imencode(".jpg", grey_image(100))[1].tobytes()
+        head = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n" % len(content)
+        self.send_response(200)
+        self.send_header("Content-Type", "multipart/x-mixed-replace; boundary=x")
+        self.end_headers()
+        try:
+            while not server.ended.wait(0.03):
+                self.wfile.write(head + content + b"\r\n")
+        except OSError:
+            pass
+
+
+@pytest.fixture
+def server() -> Iterator[MjpegServer]:
+    made = MjpegServer()
+    yield made
+    if not made.ended.is_set():
+        made.end()
+
+
+def stream_of(port: int, stop: threading.Event) -> StreamSource:
+    return StreamSource(source_from_text(f"http://user:secret@127.0.0.1:{port}/live.mjpg"), stop=stop)
+
+
+def test_a_stream_gives_images_and_reconnects_when_its_server_is_back(
+    server: MjpegServer, stop: threading.Event
+) -> None:
+    port = server.server_address[1]
+    capture = Capture(stream_of(port, stop), stop=stop)
+    capture.start()
+    first = capture.take(30.0)
+    assert first is not None
+    assert float(first.image.mean()) == pytest.approx(100, abs=2)
+    server.end()
+    while capture.status().state is not SourceState.RECONNECTING:
+        capture.take(10.0)
+    trouble = capture.status().trouble
+    assert trouble is not None
+    assert trouble.code in {"STREAM_STOPPED", "STREAM_UNREACHABLE", "STREAM_WITHOUT_VIDEO"}
+    assert "secret" not in trouble.message
+    assert trouble.remedy
+    again = MjpegServer(port)
+    try:
+        shot = None
+        while shot is None:
+            shot = capture.take(10.0)
+        assert shot.number > first.number
+        assert capture.status().state is SourceState.RUNNING
+        assert capture.status().trouble is None
+    finally:
+        stop.set()
+        capture.close(5.0)
+        again.end()
+
+
+def test_nobody_there_is_told_at_once_with_host_and_port(stop: threading.Event) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))  # bound, not listening: refused
+        port = taken.getsockname()[1]
+        with pytest.raises(CaptureError) as caught:
+            stream_of(port, stop).open()
+    assert caught.value.code == "STREAM_UNREACHABLE"
+    assert f"127.0.0.1:{port}" in caught.value.message
+    assert "secret" not in str(caught.value)
+
+
+def test_a_host_that_answers_without_video_is_given_up_by_itself(stop: threading.Event) -> None:
+    with socket.socket() as mute:
+        mute.bind(("127.0.0.1", 0))
+        mute.listen(8)
+        with pytest.raises(CaptureError) as caught:
+            stream_of(mute.getsockname()[1], stop).open()
+    assert caught.value.code == "STREAM_WITHOUT_VIDEO"
+
+
+def test_an_address_that_cannot_be_is_told(stop: threading.Event) -> None:
+    source = StreamSource(source_from_text("rtsp://camera:notaport/x"), stop=stop)
+    with pytest.raises(CaptureError) as caught:
+        source.open()
+    assert caught.value.code == "STREAM_ADDRESS_INVALID"
+
+
+def test_a_file_keeps_its_first_image_after_a_stream_was_open(
+    server: MjpegServer, stop: threading.Event, tmp_path: Path
+) -> None:
+    stream = stream_of(server.server_address[1], stop)
+    stream.open()
+    stream.close()
+    video = VideoFileSource(write_video(tmp_path / "v.avi", images=3), loop=False, fast=True, stop=stop)
+    video.open()
+    times_s = [shot.source_time_s for shot in iter(video.read, None) if shot]
+    assert times_s == pytest.approx([0.0, 0.04, 0.08])

@@ -1,0 +1,169 @@
+"""`coaxial` as a person types it."""
+
+import json
+import os
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from server.cli import app
+
+REPOSITORY = Path(__file__).parents[3]
+
+
+def coaxial(*words: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY)}
+    environment.pop("COAXIAL_PORT", None)
+    return subprocess.run(
+        [sys.executable, "-W", "error", "-m", "server", *map(str, words)],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+
+
+def write_film(path: Path, *, images: int) -> Path:
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
+    for number in range(images):
+        writer.write(np.full((48, 64, 3), 5 * number, dtype=np.uint8))
+    writer.release()
+    return path
+
+
+@pytest.fixture
+def film(tmp_path: Path) -> Path:
+    return write_film(tmp_path / "v.avi", images=6)
+
+
+@pytest.fixture
+def marker(tmp_path: Path) -> Path:
+    picture = np.zeros((40, 40), np.uint8)
+    picture[10:20, 10:] = 255
+    path = tmp_path / "m one.png"
+    cv2.imwrite(str(path), picture)
+    return path
+
+
+def is_one_sentence_with_remedy(text: str) -> bool:
+    lines = text.strip().splitlines()
+    return len(lines) == 2 and lines[0].startswith("Error: ") and lines[1].endswith(".")
+
+
+@pytest.mark.parametrize("words", [["--help"], ["run", "--help"], ["track", "--help"], ["--version"]])
+def test_help_and_version_answer(words: list[str]) -> None:
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0
+    assert "Coaxial" in result.output or "Usage" in result.output
+
+
+def test_a_wrong_setting_stops_the_start_with_one_sentence(tmp_path: Path) -> None:
+    (tmp_path / "config.yaml").write_text("server: {prot: 8000}\n")
+    result = coaxial("run", folder=tmp_path)
+    assert result.returncode == 2
+    assert is_one_sentence_with_remedy(result.stderr)
+    for word in ("config.yaml", "'server.prot'", "'server.port'"):
+        assert word in result.stderr
+    assert result.stdout == ""
+
+
+def test_a_taken_port_is_told(tmp_path: Path) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        result = coaxial("run", "--port", str(taken.getsockname()[1]), folder=tmp_path)
+    assert result.returncode == 2
+    assert is_one_sentence_with_remedy(result.stderr)
+    assert "--port" in result.stderr
+
+
+def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path: Path) -> None:
+    result = coaxial(
+        "track", film, "--marker", marker, "--side-mm", "40", "--json", "out.jsonl", folder=tmp_path
+    )
+    assert result.returncode == 0, result.stderr
+    assert result.stdout == ""
+    assert result.stderr.startswith("6 images: m-one seen in 0")
+    lines = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
+    assert [line["image_number"] for line in lines] == list(range(6))
+    assert [line["time_s"] for line in lines] == pytest.approx([n / 25 for n in range(6)])
+    assert not (tmp_path / "out.jsonl.part").exists()
+    keys = {
+        *("image_number", "time_s", "name", "seen", "reason", "camera_from_marker", "pose_covariance"),
+        *("corners_px", "score_ratio", "target_score_ratio", "model_coverage_ratio", "target_coverage_ratio"),
+        *("fit_error_px2", "found_by", "best_score_ratio", "stage_ms"),
+    }
+    for line in lines:
+        assert set(line) == keys
+        assert line["name"] == "m-one"
+        assert not line["seen"]
+        assert line["reason"]
+        assert line["stage_ms"]["reading"] >= 0.0
+
+
+def test_track_can_write_to_standard_output_and_stop_early(film: Path, marker: Path, tmp_path: Path) -> None:
+    result = coaxial(
+        "track",
+        film,
+        "--marker",
+        marker,
+        "--side-mm",
+        "40",
+        "--name",
+        "a",
+        "--json",
+        "-",
+        "--images",
+        "2",
+        folder=tmp_path,
+    )
+    assert result.returncode == 0, result.stderr
+    assert [json.loads(line)["name"] for line in result.stdout.splitlines()] == ["a", "a"]
+
+
+def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: Path, tmp_path: Path) -> None:
+    write_film(film, images=40)
+    film.write_bytes(film.read_bytes()[: film.stat().st_size * 6 // 10])
+    result = coaxial(
+        "track", film, "--marker", marker, "--side-mm", "40", "--json", "o.jsonl", folder=tmp_path
+    )
+    assert result.returncode == 2
+    assert "of 40 images" in result.stderr
+    assert (tmp_path / "o.jsonl").read_text().count("\n") < 40
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        pytest.param(["v.avi"], "no marker", id="no-marker"),
+        pytest.param(["v.avi", "--marker", "m one.png"], "--side-mm 0 times", id="no-side"),
+        pytest.param(["v.avi", "--marker", "none.png", "--side-mm", "4"], "none.png", id="no-picture"),
+        pytest.param(["v.avi", "--marker", "m one.png", "--side-mm", "-4"], "above 0", id="negative-side"),
+        pytest.param(["none.avi", "--marker", "m one.png", "--side-mm", "4"], "none.avi", id="no-video"),
+        pytest.param(
+            ["m one.png", "--marker", "m one.png", "--side-mm", "4", "--camera", "c"],
+            "--camera",
+            id="no-camera",
+        ),
+        pytest.param(["0", "--marker", "m one.png", "--side-mm", "4"], "camera 0", id="live-source"),
+        pytest.param(
+            ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "no/o.jsonl"],
+            "no/o.jsonl",
+            id="no-folder",
+        ),
+    ],
+)
+@pytest.mark.usefixtures("film", "marker")
+def test_what_cannot_be_tracked_is_told_in_one_sentence(tmp_path: Path, words: list[str], told: str) -> None:
+    result = coaxial("track", *words, folder=tmp_path)
+    assert result.returncode == 2
+    assert is_one_sentence_with_remedy(result.stderr), result.stderr
+    assert told in result.stderr

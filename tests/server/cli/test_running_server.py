@@ -1,0 +1,49 @@
+"""`coaxial run` from its first line to its last."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import urllib.request
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+REPOSITORY = Path(__file__).parents[3]
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_it_prints_one_address_serves_it_and_stops_without_a_word(
+    tmp_path: Path, ending: signal.Signals
+) -> None:
+    writer = cv2.VideoWriter(str(tmp_path / "v.avi"), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
+    for number in range(6):
+        writer.write(np.full((48, 64, 3), 20 * number, dtype=np.uint8))
+    writer.release()
+    with subprocess.Popen(
+        [sys.executable, "-m", "server", "run", "--source", "v.avi", "--port", "0"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(REPOSITORY)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # As in a terminal, where Ctrl+C reaches every process of the group.
+        start_new_session=True,
+    ) as server:
+        assert server.stdout is not None
+        first, address, last = (server.stdout.readline().strip() for _ in range(3))
+        assert "research software, not a medical device" in first
+        found = re.fullmatch(r"Open (http://127\.0\.0\.1:\d+/)", address)
+        assert found is not None
+        assert last == "Ctrl+C stops it"
+        with urllib.request.urlopen(found[1] + "health", timeout=60) as answer:  # noqa: S310  our own address
+            assert answer.status == 200
+        os.killpg(server.pid, ending) if ending is signal.SIGINT else server.send_signal(ending)
+        out, err = server.communicate(timeout=60)
+    assert server.returncode == 0, err
+    assert out == ""
+    assert "Traceback" not in err
+    assert "leaked" not in err

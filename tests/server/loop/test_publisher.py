@@ -1,0 +1,139 @@
+"""From reports to instants, with the time and the process in the test's hand."""
+
+import pytest
+from made import Seen, made_image, made_snapshot, made_source
+
+from server.live import ProcessState, ProcessStatus, SourceState, Trouble
+from server.loop.board import Board
+from server.loop.publisher import Image, Picture, Publisher
+from server.loop.report import Report, ReportPacker
+from server.loop.ring import ImageRing
+from tracker.navigation import NavigationSnapshot
+
+RUNNING = ProcessStatus(state=ProcessState.STARTING)
+DEAD = ProcessStatus(
+    state=ProcessState.RESTARTING, restarts=1, trouble=Trouble(code="DEAD", message="m", remedy="r")
+)
+
+
+class Stage:
+    """A publisher on a board with a ring, and what it has published."""
+
+    def __init__(self, picture: Picture | None = None) -> None:
+        self.hub = Seen()
+        self.board = Board("made")
+        self.ring = ImageRing(image_bytes=100_000)
+        self.packer = ReportPacker()
+        self.tracked = 0
+        self.publisher = Publisher(
+            board=self.board,
+            hub=self.hub,
+            picture=picture
+            or Picture(draw=lambda image, _: image + 1, encode=lambda image: image.tobytes()[:2]),
+        )
+        self.board.post(RUNNING, self.ring)
+
+    def report_image(self, number: int) -> None:
+        self.tracked += 1
+        report = Report(
+            source=made_source(number + 1), snapshot=made_snapshot(number), tracked_images=self.tracked
+        )
+        self.ring.write(self.packer.pack(report), made_image(number))
+
+    def later(self, monkeypatch: pytest.MonkeyPatch, by_s: float) -> None:
+        now_s = self.publisher._last_at_s + by_s
+        monkeypatch.setattr("server.loop.publisher.time.monotonic", lambda: now_s)
+
+
+def test_picture_and_snapshot_of_an_instant_belong_together() -> None:
+    stage = Stage()
+    stage.report_image(5)
+    stage.publisher.publish_newest()
+    instant = stage.hub.instants[-1]
+    assert instant.snapshot is not None
+    assert instant.snapshot.image_number == 5
+    assert instant.jpeg == bytes([6, 6])
+    assert set(instant.server_ms) == {"overlay", "encode"}
+    assert instant.process.state is ProcessState.RUNNING
+    assert instant.source == made_source(6)
+
+
+def test_the_newest_wins_and_what_was_dropped_is_counted() -> None:
+    stage = Stage()
+    for number in range(4):
+        stage.report_image(number)
+    stage.publisher.publish_newest()
+    stage.report_image(4)
+    stage.publisher.publish_newest()
+    shown = [instant.snapshot.image_number for instant in stage.hub.instants if instant.snapshot]
+    assert shown == [3, 4]
+    assert stage.hub.instants[-1].process.dropped_images == 3
+
+
+def test_a_dead_process_takes_its_picture_with_it_at_once() -> None:
+    stage = Stage()
+    stage.report_image(0)
+    stage.publisher.publish_newest()
+    stage.report_image(1)
+    stage.board.post(DEAD, None)
+    stage.publisher.publish_newest()
+    instant = stage.hub.instants[-1]
+    assert instant.snapshot is None
+    assert instant.jpeg == b""
+    assert instant.process == DEAD
+    assert instant.source.state is SourceState.OPENING
+    assert instant.source.images == 1
+
+
+def test_a_process_that_dies_while_its_picture_is_drawn_is_not_shown_any_more() -> None:
+    def draw(image: Image, snapshot: NavigationSnapshot) -> Image:
+        del snapshot
+        stage.board.post(DEAD, None)
+        return image
+
+    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"))
+    stage.report_image(0)
+    stage.publisher.publish_newest()
+    assert [instant.snapshot for instant in stage.hub.instants] == [None]
+
+
+def test_a_sign_of_life_carries_no_old_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    stage = Stage()
+    stage.report_image(0)
+    stage.publisher.publish_newest()
+    stage.later(monkeypatch, 0.5)
+    stage.publisher.publish_newest()
+    assert len(stage.hub.instants) == 1
+    stage.later(monkeypatch, 0.95)
+    stage.publisher.publish_newest()
+    assert len(stage.hub.instants) == 2
+    assert stage.hub.instants[-1].snapshot is None
+    assert stage.hub.instants[-1].process.state is ProcessState.RUNNING
+
+
+def test_sequences_grow_by_one_over_images_deaths_and_signs_of_life() -> None:
+    stage = Stage()
+    stage.report_image(0)
+    stage.publisher.publish_newest()
+    stage.board.post(DEAD, None)
+    stage.publisher.publish_newest()
+    stage.ring = ImageRing(image_bytes=100_000)
+    stage.board.post(RUNNING, stage.ring)
+    stage.publisher.publish_newest()
+    stage.report_image(1)
+    stage.publisher.publish_newest()
+    assert [instant.sequence for instant in stage.hub.instants] == list(range(len(stage.hub.instants)))
+    assert stage.hub.instants[-1].snapshot is not None
+
+
+def test_a_failing_overlay_is_told_and_shows_nothing() -> None:
+    def draw(image: Image, snapshot: NavigationSnapshot) -> Image:
+        raise ZeroDivisionError(f"a bug in image {snapshot.image_number} of {image.shape}")
+
+    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"))
+    stage.report_image(0)
+    stage.publisher.publish_newest()
+    instant = stage.hub.instants[-1]
+    assert (instant.snapshot, instant.jpeg) == (None, b"")
+    assert instant.process.trouble is not None
+    assert instant.process.trouble.code == "OVERLAY_FAILED"

@@ -1,0 +1,128 @@
+"""The tracking process is killed, hangs, fails for ever; and nothing of it is left behind."""
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+
+import pytest
+from made import Seen, failing_worker, silent_worker, steady_worker
+
+from server.config import Config
+from server.live import Instant, ProcessState
+from server.logs import LogSettings
+from server.loop.board import Board
+from server.loop.publisher import Picture, Publisher
+from server.loop.supervisor import Supervisor, Target, Watch
+from server.loop.worker import WorkerOrder
+
+
+class Stage:
+    """Supervisor and publisher around a process that the test chooses."""
+
+    def __init__(self, target: Target, watch: Watch) -> None:
+        self.hub = Seen()
+        board = Board("made")
+        order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
+        self.supervisor = Supervisor(order=order, board=board, watch=watch, target=target)
+        picture = Picture(draw=lambda image, _: image, encode=lambda _: b"jpeg")
+        self.publisher = Publisher(board=board, hub=self.hub, picture=picture)
+        self.supervisor.start()
+        self.publisher.start()
+
+    def end(self) -> None:
+        self.publisher.stop()
+        self.supervisor.stop()
+
+
+@pytest.fixture
+def staged() -> Iterator[Callable[[Target, Watch], Stage]]:
+    stages = []
+
+    def make(target: Target, watch: Watch) -> Stage:
+        stages.append(Stage(target, watch))
+        return stages[-1]
+
+    yield make
+    for stage in stages:
+        stage.end()
+
+
+def shows_image(instant: Instant) -> bool:
+    return instant.snapshot is not None
+
+
+def is_dead(instant: Instant) -> bool:
+    return instant.process.state is ProcessState.RESTARTING
+
+
+def number(instant: Instant) -> int:
+    assert instant.snapshot is not None
+    return instant.snapshot.image_number
+
+
+def exists(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_a_killed_process_is_told_at_once_and_replaced(staged: Callable[[Target, Watch], Stage]) -> None:
+    stage = staged(steady_worker, Watch())
+    before = stage.hub.until(shows_image)
+    pid = stage.supervisor.pid
+    assert pid is not None
+    os.kill(pid, signal.SIGKILL)
+    dead = stage.hub.until(is_dead)
+    assert dead.snapshot is None
+    assert dead.jpeg == b""
+    assert dead.process.trouble is not None
+    assert "SIGKILL" in dead.process.trouble.message
+    again = stage.hub.until(shows_image, after=dead.sequence)
+    assert again.process.restarts == 1
+    assert again.process.trouble is None
+    assert number(again) > number(before)
+    sequences = [instant.sequence for instant in stage.hub.instants]
+    assert sequences == list(range(len(sequences)))
+    # Between the death and the first new image, no picture at all.
+    between = stage.hub.instants[dead.sequence : again.sequence]
+    assert all(instant.snapshot is None for instant in between)
+
+
+def test_a_process_that_hangs_is_killed_and_replaced(staged: Callable[[Target, Watch], Stage]) -> None:
+    stage = staged(silent_worker, Watch(silent_after_s=0.3, look_every_s=0.05))
+    stage.hub.until(shows_image)
+    pid = stage.supervisor.pid
+    assert pid is not None
+    dead = stage.hub.until(is_dead)
+    assert dead.process.trouble is not None
+    assert "limit 0.3 s" in dead.process.trouble.message
+    stage.hub.until(shows_image, after=dead.sequence)
+    assert not exists(pid)
+
+
+def test_a_process_that_always_fails_is_given_up_and_tried_again_later(
+    staged: Callable[[Target, Watch], Stage],
+) -> None:
+    stage = staged(failing_worker, Watch(restarts=2, window_s=1.0))
+    given_up = stage.hub.until(lambda instant: instant.process.state is ProcessState.GIVEN_UP)
+    trouble = given_up.process.trouble
+    assert given_up.process.restarts == 2
+    assert trouble is not None
+    assert trouble.code == "TRACKING_GIVEN_UP"
+    assert "2 times within 1 s" in trouble.message
+    assert "status 7" in trouble.message
+    assert trouble.remedy
+    later = stage.hub.until(lambda instant: instant.process.restarts > 2, after=given_up.sequence)
+    assert later.snapshot is None
+
+
+def test_stopping_ends_the_process(staged: Callable[[Target, Watch], Stage]) -> None:
+    stage = staged(steady_worker, Watch())
+    stage.hub.until(shows_image)
+    pid = stage.supervisor.pid
+    assert pid is not None
+    stage.end()
+    assert not exists(pid)
+    assert stage.supervisor.pid is None

@@ -1,0 +1,156 @@
+"""What the tracking process reports, run in a thread with a source and a tracker of the test's own."""
+
+import multiprocessing
+import threading
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from made import made_image, made_setup
+
+from server.capture.shot import Shot
+from server.config import Config
+from server.live import SourceState
+from server.logs import LogSettings
+from server.loop.report import Report, ReportUnpacker
+from server.loop.ring import ImageRing
+from server.loop.tracking import Tracking
+from server.loop.worker import WorkerLink, WorkerOrder, work
+from server.setup import Preparation
+from tracker.errors import InvalidInput
+from tracker.navigation import Setup
+from tracker.pipeline import Tracker
+from tracker.pose import Sighting
+
+ORDER = WorkerOrder(config=Config(), log=LogSettings(as_json=True), first_number=10, skipped_before=4)
+
+
+class Counting:
+    """Three images, each one taken before the next, then the end."""
+
+    name, waits_for_taker, stalls, defect = "counting", True, False, None
+
+    def __init__(self) -> None:
+        self.number = 10
+
+    def open(self) -> None:
+        pass
+
+    def read(self) -> Shot | None:
+        if self.number == 13:
+            return None
+        now_s = time.monotonic()
+        shot = Shot(
+            image=made_image(self.number), number=self.number, captured_at_s=now_s, source_time_s=now_s
+        )
+        self.number += 1
+        return shot
+
+    def close(self) -> None:
+        pass
+
+
+class Failing(Tracker):
+    """Raises what it is given for the image with this grey level."""
+
+    def __init__(self, level: int, error: Exception) -> None:
+        super().__init__(camera=made_setup().camera, models=[])
+        self.level, self.error = level, error
+
+    def step(self, image: np.ndarray, *, captured_at_s: float) -> dict[str, Sighting]:
+        if int(image[0, 0, 0]) == self.level:
+            raise self.error
+        return super().step(image, captured_at_s=captured_at_s)
+
+
+class Prepared(Preparation):
+    """A preparation with a tracker of the test's making."""
+
+    def __init__(self, tracker: Tracker) -> None:
+        setup = made_setup()
+        super().__init__(
+            camera=None,
+            models=(),
+            tools={},
+            channel=setup.channel,
+            camera_from_vertebra=setup.camera_from_vertebra,
+            registered_by="",
+        )
+        object.__setattr__(self, "made", tracker)
+
+    made: Tracker
+
+    def tracker_for(self, setup: Setup) -> Tracker:
+        del setup
+        return self.made
+
+
+class KeptRing(ImageRing):
+    """A ring that remembers all that was written."""
+
+    def __init__(self) -> None:
+        super().__init__(image_bytes=20_000)
+        self.reports: list[Report] = []
+        self._unpacker = ReportUnpacker()
+        self.ended = threading.Event()
+
+    def write(self, note: bytes, image: np.ndarray | None = None) -> None:
+        super().write(note, image)
+        report = self._unpacker.unpack(note)
+        self.reports.append(report)
+        if report.source.state is SourceState.ENDED:
+            self.ended.set()
+
+
+@pytest.fixture
+def link() -> Iterator[tuple[WorkerLink, KeptRing]]:
+    ring = KeptRing()
+    notices, notice = multiprocessing.Pipe(duplex=False)
+    told, stop = multiprocessing.Pipe(duplex=False)
+    yield WorkerLink(ring=ring, notice=notice, stop=told), ring
+    for end in (notices, notice, told, stop):
+        end.close()
+
+
+def run_to_the_end(link: tuple[WorkerLink, KeptRing], tracker: Tracker) -> list[Report]:
+    stop = threading.Event()
+    thread = threading.Thread(
+        target=work, args=(ORDER, link[0], stop, Counting(), Tracking(Prepared(tracker)))
+    )
+    thread.start()
+    assert link[1].ended.wait(30)
+    stop.set()
+    thread.join(30)
+    return link[1].reports
+
+
+def test_each_image_is_reported_with_its_number_and_the_counts_go_on(
+    link: tuple[WorkerLink, KeptRing],
+) -> None:
+    reports = run_to_the_end(link, Failing(255, ZeroDivisionError()))
+    shown = [report for report in reports if report.snapshot]
+    assert [report.snapshot.image_number for report in shown if report.snapshot] == [10, 11, 12]
+    assert [report.tracked_images for report in shown] == [1, 2, 3]
+    assert shown[-1].source.images == 13
+    assert shown[-1].source.skipped_images == 4
+    assert reports[-1].snapshot is None
+
+
+def test_an_image_that_the_tracker_refuses_becomes_trouble_and_the_next_one_ends_it(
+    link: tuple[WorkerLink, KeptRing],
+) -> None:
+    refusal = InvalidInput("IMAGE_ODD", "an image is odd", "Give an even one.")
+    reports = run_to_the_end(link, Failing(11, refusal))
+    troubles = [report.trouble.code if report.trouble else None for report in reports[1:4]]
+    numbers = [report.snapshot.image_number if report.snapshot else None for report in reports[1:4]]
+    assert troubles == [None, "IMAGE_ODD", None]
+    assert numbers == [10, None, 12]
+
+
+def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
+    link: tuple[WorkerLink, KeptRing],
+) -> None:
+    tracking = Tracking(Prepared(Failing(11, ZeroDivisionError("a bug"))))
+    with pytest.raises(ZeroDivisionError):
+        work(ORDER, link[0], threading.Event(), Counting(), tracking)

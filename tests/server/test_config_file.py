@@ -1,0 +1,140 @@
+"""Settings: where they come from, and how every mistake in them is told."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+import yaml
+
+from server.config import Config
+from server.config_file import Override, load_config
+from server.errors import ConfigError
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+def settings(folder: Path, content: object) -> Path:
+    file = folder / "settings.yaml"
+    file.write_text(content if isinstance(content, str) else yaml.safe_dump(content))
+    return file
+
+
+def refused(folder: Path, content: object) -> ConfigError:
+    with pytest.raises(ConfigError) as caught:
+        load_config(settings(folder, content), environment={})
+    assert "settings.yaml" in caught.value.message
+    assert caught.value.remedy
+    return caught.value
+
+
+def test_the_file_in_the_repository_says_what_is_built_in() -> None:
+    assert load_config(REPOSITORY / "config.yaml", environment={}) == Config()
+
+
+def test_without_a_file_the_built_in_settings_hold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert load_config(environment={}) == Config()
+    (tmp_path / "config.yaml").write_text("server: {port: 8123}\ncamera:\n")
+    assert load_config(environment={}).server.port == 8123
+
+
+TOOL = {
+    "marker": "a",
+    "tip_in_marker_mm": [0, 0, 0],
+    "axis_in_marker": [0, 0, 0],
+    "radius_mm": 1,
+    "length_mm": 9,
+}
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        pytest.param(
+            {"server": {"prot": 1}}, ["'server.prot'", "'server.port'", "host, port"], id="key-nearly-right"
+        ),
+        pytest.param({"sever": {}}, ["'sever'", "'server'", "limits"], id="section-nearly-right"),
+        pytest.param(
+            {"server": {"port": 70000}}, ["'server.port' is 70000", "0 to 65535"], id="out-of-range"
+        ),
+        pytest.param({"server": {"port": "8000"}}, ["'8000'", "whole number"], id="text-for-a-number"),
+        pytest.param({"rehearsal": {"seed": True}}, ["True", "whole number"], id="flag-for-a-number"),
+        pytest.param({"rehearsal": {"noise": float("nan")}}, ["nan", "0 to 10"], id="not-a-number"),
+        pytest.param({"camera": {"rate": "slow"}}, ["'slow'", "own or fast"], id="word-not-offered"),
+        pytest.param({"camera": {"source": [1]}}, ["[1]", "0 to 99", "text"], id="source-is-a-list"),
+        pytest.param({"server": [1]}, ["'server' is [1]", "host, port"], id="section-is-a-list"),
+        pytest.param({"video": {"jpeg_quality": 0}}, ["1 to 100"], id="quality-zero"),
+        pytest.param({"tracker": {"accept_score_ratio": 1.1}}, ["1.1", "0 to 1"], id="ratio-over-one"),
+        pytest.param({"camera": {"width": 640}}, ["camera.width", "camera.height"], id="width-alone"),
+        pytest.param({"tools": {"t": TOOL}}, ["tools.t.marker", "axis_in_marker"], id="tool-of-nothing"),
+        pytest.param({"markers": {"a b": {}}}, ["markers.a b", "letters"], id="name-with-a-space"),
+        pytest.param({5: 1}, ["'[5]'", "server"], id="key-is-a-number"),
+        pytest.param("server: {port: 1\n", ["YAML", "line"], id="not-yaml"),
+        pytest.param("- a\n", ["YAML", "list"], id="list-at-the-top"),
+        pytest.param("video: {}\nvideo: {}\n", ["'video'", "twice"], id="key-twice"),
+        pytest.param(
+            {"camera": {"calibration": "c.yaml"}}, ["camera.calibration", "c.yaml"], id="no-camera-file"
+        ),
+        pytest.param(
+            {"markers": {"m": {"image": "m.png", "side_mm": 4}}},
+            ["markers.m.image", "m.png"],
+            id="no-picture",
+        ),
+        pytest.param(
+            {"markers": {"drill": {"image": "m.png", "side_mm": 4}}}, ["rehearsal's own"], id="drill-is-taken"
+        ),
+    ],
+)
+def test_a_mistake_is_told_with_file_key_value_and_what_is_allowed(
+    tmp_path: Path, content: object, words: list[str]
+) -> None:
+    error = refused(tmp_path, content)
+    for word in words:
+        assert word in error.message
+
+
+def test_all_mistakes_are_told_at_once(tmp_path: Path) -> None:
+    error = refused(tmp_path, {"server": {"port": -1, "hots": ""}, "video": {"jpeg_quality": 101}})
+    mistakes = error.context["mistakes"]
+    assert isinstance(mistakes, list)
+    assert [mistake["key"] for mistake in mistakes] == ["server.port", "server.hots", "video.jpeg_quality"]
+
+
+def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"nowhere\.yaml") as caught:
+        load_config(tmp_path / "nowhere.yaml", environment={})
+    assert caught.value.code == "CONFIG_FILE_UNREADABLE"
+
+
+def test_paths_belong_to_the_folder_of_the_file_and_typed_ones_to_the_working_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "set"
+    folder.mkdir()
+    picture = np.zeros((20, 20), np.uint8)
+    picture[5:9, 5:9] = 255
+    cv2.imwrite(str(folder / "m.png"), picture)
+    file = settings(
+        folder, {"camera": {"source": "v.mov"}, "markers": {"m": {"image": "m.png", "side_mm": 4}}}
+    )
+    monkeypatch.chdir(tmp_path)
+    config = load_config(file, environment={})
+    assert config.camera.source == str(folder / "v.mov")
+    assert config.markers["m"].image == folder / "m.png"
+    typed: dict[tuple[str, ...], Override] = {
+        ("camera", "source"): Override(value="w.mov", origin="--source")
+    }
+    assert load_config(file, overrides=typed, environment={}).camera.source == str(tmp_path / "w.mov")
+
+
+def test_typed_beats_environment_beats_file_and_each_is_named_when_it_is_wrong(tmp_path: Path) -> None:
+    file = settings(tmp_path, {"server": {"port": 1}})
+    assert load_config(file, environment={"COAXIAL_PORT": "2"}).server.port == 2
+    typed: dict[tuple[str, ...], Override] = {("server", "port"): Override(value=3, origin="--port")}
+    assert load_config(file, overrides=typed, environment={"COAXIAL_PORT": "2"}).server.port == 3
+    with pytest.raises(ConfigError, match=r"^COAXIAL_PORT: 'server\.port' is 'x'"):
+        load_config(file, environment={"COAXIAL_PORT": "x"})
+    typed = {("server", "port"): Override(value=-3, origin="--port")}
+    with pytest.raises(ConfigError, match=r"^--port: 'server\.port' is -3"):
+        load_config(file, overrides=typed, environment={})

@@ -1,0 +1,129 @@
+"""Marker pictures, camera files, and the setup made from them."""
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from server.camera_file import load_camera_file
+from server.config import CameraConfig, Config, MarkerConfig, ToolConfig
+from server.marker_file import load_marker_image
+from server.setup import build_setup
+from tracker.errors import CalibrationError, InvalidInput
+from tracker.navigation import Absent, AbsentReason
+
+CAMERA = {
+    "matrix": [[500, 0, 32], [0, 500, 24], [0, 0, 1]],
+    "distortion": [0, 0, 0, 0],
+    "size_wh_px": [64, 48],
+}
+
+
+def picture(path: Path, *, width: int = 40, height: int = 40, contrast: int = 255) -> Path:
+    image = np.zeros((height, width), np.uint8)
+    image[height // 4 : height // 2, width // 4 :] = contrast
+    cv2.imwrite(str(path), image)
+    return path
+
+
+@pytest.mark.parametrize("suffix", ["png", "jpg", "bmp"])
+def test_a_marker_picture_is_read_as_grey(tmp_path: Path, suffix: str) -> None:
+    image = load_marker_image(picture(tmp_path / f"m.{suffix}"))
+    assert image.shape == (40, 40)
+    assert image.dtype == np.uint8
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "contrast", "code"),
+    [
+        pytest.param(7, 7, 255, "MARKER_IMAGE_TOO_SMALL", id="seven-pixels"),
+        pytest.param(100, 97, 255, "MARKER_IMAGE_NOT_SQUARE", id="three-percent-off-square"),
+        pytest.param(40, 40, 20, "MARKER_IMAGE_FLAT", id="nearly-one-grey"),
+        pytest.param(100, 98, 255, None, id="two-percent-off-square-is-fine"),
+    ],
+)
+def test_a_picture_that_cannot_be_a_marker_is_refused_with_its_numbers(
+    tmp_path: Path, width: int, height: int, contrast: int, code: str | None
+) -> None:
+    file = picture(tmp_path / "m.png", width=width, height=height, contrast=contrast)
+    if code is None:
+        assert load_marker_image(file).shape == (height, width)
+        return
+    with pytest.raises(InvalidInput) as caught:
+        load_marker_image(file)
+    assert caught.value.code == code
+    assert "m.png" in caught.value.message
+
+
+def test_a_file_that_is_no_picture_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "m.png").write_text("words")
+    with pytest.raises(InvalidInput, match="5 bytes"):
+        load_marker_image(tmp_path / "m.png")
+
+
+def test_a_camera_file_may_be_yaml_or_json(tmp_path: Path) -> None:
+    for name, text in (("c.json", json.dumps(CAMERA)), ("c.yaml", str(CAMERA))):
+        (tmp_path / name).write_text(text)
+        assert load_camera_file(tmp_path / name).size_wh_px == (64, 48)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        pytest.param("[1, 2]", "CAMERA_FILE_INVALID", id="a-list"),
+        pytest.param("matrix: 1", "CAMERA_FILE_INCOMPLETE", id="keys-missing"),
+        pytest.param("a: [", "CAMERA_FILE_UNREADABLE", id="not-yaml"),
+        pytest.param(json.dumps({**CAMERA, "matrix": "k"}), "CAMERA_FILE_INVALID", id="matrix-is-a-word"),
+        pytest.param(json.dumps({**CAMERA, "distortion": [0]}), "CAMERA_MODEL_INVALID", id="one-coefficient"),
+    ],
+)
+def test_a_camera_file_that_cannot_be_used_names_itself(tmp_path: Path, text: str, code: str) -> None:
+    (tmp_path / "c.yaml").write_text(text)
+    with pytest.raises(InvalidInput) as caught:
+        load_camera_file(tmp_path / "c.yaml")
+    assert caught.value.code == code
+    assert "c.yaml" in caught.value.message
+
+
+def config(folder: Path, *, calibrated: bool) -> Config:
+    (folder / "c.json").write_text(json.dumps(CAMERA))
+    calibration = folder / "c.json" if calibrated else None
+    tool = ToolConfig(
+        marker="m", tip_in_marker_mm=[0, -9, 0], axis_in_marker=[0, -1, 0], radius_mm=2, length_mm=9
+    )
+    return Config(
+        camera=CameraConfig(source="v.mov", calibration=calibration),
+        markers={"m": MarkerConfig(image=picture(folder / "m.png"), side_mm=25.0)},
+        tools={"t": tool},
+    )
+
+
+def test_without_a_camera_file_no_millimetre_is_claimed(tmp_path: Path) -> None:
+    preparation = build_setup(config(tmp_path, calibrated=False))
+    assert preparation.setup is None
+    setup = preparation.setup_for((640, 360))
+    assert not setup.camera_calibrated
+    assert setup.camera.size_wh_px == (640, 360)
+    assert setup.camera.matrix[0, 0] == pytest.approx(768.0)
+
+
+def test_without_plan_and_registration_both_are_absent_with_their_reason(tmp_path: Path) -> None:
+    setup = build_setup(config(tmp_path, calibrated=True)).setup
+    assert setup is not None
+    assert setup.camera_calibrated
+    assert setup.channel == Absent(reason=AbsentReason.NO_PLAN)
+    assert setup.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)
+    assert setup.registered_by == ""
+    assert setup.tools["t"].marker == "m"
+
+
+def test_a_camera_file_for_another_size_is_refused_with_both_sizes(tmp_path: Path) -> None:
+    preparation = build_setup(config(tmp_path, calibrated=True))
+    with pytest.raises(CalibrationError) as caught:
+        preparation.setup_for((640, 360))
+    assert caught.value.code == "CAMERA_SIZE_MISMATCH"
+    assert "640x360" in caught.value.message
+    assert "64x48" in caught.value.message
+    assert not preparation.uncalibrated_setup_for((640, 360)).camera_calibrated
