@@ -140,8 +140,10 @@ def add_tool(scene: viser.SceneApi, node: str, tool: ToolModel) -> viser.FrameHa
     """
     frame = scene.add_frame(node, show_axes=False, visible=False)
     burr_mm = 1.25 * tool.radius_mm
+    shaft_mm = max(tool.length_mm - burr_mm, burr_mm)
     for part, radius_mm, length_mm, middle_mm in (
-        ("shaft", tool.radius_mm, tool.length_mm, -tool.length_mm / 2),
+        # The shaft ends inside the burr, whose foremost point is the tip.
+        ("shaft", tool.radius_mm, shaft_mm, -burr_mm - shaft_mm / 2),
         ("axis", AXIS_RADIUS_MM, DRILL_LEAD_MM, DRILL_LEAD_MM / 2),
     ):
         scene.add_cylinder(
@@ -157,7 +159,6 @@ def add_tool(scene: viser.SceneApi, node: str, tool: ToolModel) -> viser.FrameHa
         f"{node}/burr",
         radius=burr_mm,
         color=BURR,
-        # Its foremost point is the tip.
         position=(0.0, 0.0, -burr_mm),
         cast_shadow=False,
         receive_shadow=False,
@@ -174,9 +175,10 @@ def first_view(setup: Setup | None, surface: Surface | None) -> View:
             look_at_mm=np.array([0.0, 0.0, 300.0]),
             up=(0.0, -1.0, 0.0),
         )
-    look_at, away_mm, side = np.zeros(3), 170.0, 1.0
+    look_at, away_mm, side = np.zeros(3), 180.0, 1.0
     if surface is not None:
-        look_at = (surface.vertices_mm.min(axis=0) + surface.vertices_mm.max(axis=0)) / 2
+        low, high = surface.vertices_mm.min(axis=0), surface.vertices_mm.max(axis=0)
+        look_at, away_mm = (low + high) / 2, max(away_mm, 1.8 * float(np.linalg.norm(high - low)))
     if isinstance(setup.channel, Channel):
         side = 1.0 if setup.channel.entry_in_vertebra_mm[0] >= look_at[0] else -1.0
         look_at = setup.channel.entry_in_vertebra_mm
