@@ -13,6 +13,8 @@ import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 from scene_theatre import Running, Theatre, running
 
+from server.scene import scene as scene_module
+
 pytestmark = pytest.mark.browser
 
 FLAGS = [
@@ -164,3 +166,21 @@ def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
     assert set(touched) == {"CANVAS"}
     # The client of viser, left alone, says nothing but where it looks from.
     assert {verdict: count for verdict, count in counts.items() if count} == {"camera": counts["camera"]}
+
+
+def test_a_line_that_fell_silent_is_asked_for_anew(
+    browser: Browser, theatre: Theatre, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(scene_module, "LEAST_SILENCE_MS", 1000.0)
+    with running(theatre, stale_after_ms=100) as server:
+        page = opened(browser, server.address)
+        with fed(server, theatre):
+            told(page, "m.image_number >= 5")
+        # A server that lost its power: the line stands, and nothing ever comes.
+        follower = server.app.state.scene._follower
+        page.evaluate("told.length = 0")
+        follower.get_loop().call_soon_threadsafe(follower.cancel)
+        page.wait_for_function(
+            "told.findIndex((m) => !m.connected) >= 0 && told.at(-1).connected", timeout=60_000
+        )
+        page.close()
