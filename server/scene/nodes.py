@@ -66,14 +66,14 @@ def vector(values: Array) -> Vector:
     return x, y, z
 
 
-def add_bone(scene: viser.SceneApi, surface: Surface) -> None:
+def add_bone(scene: viser.SceneApi, root: str, surface: Surface) -> None:
     """The vertebra, translucent so that the channel is seen inside, with letters for its sides."""
     scene.add_mesh_simple(
-        "/vertebra",
+        f"{root}/vertebra",
         np.asarray(surface.vertices_mm, dtype=np.float32),
         np.asarray(surface.faces, dtype=np.uint32),
         color=BONE,
-        opacity=0.55,
+        opacity=0.6,
         cast_shadow=False,
         receive_shadow=False,
     )
@@ -81,21 +81,21 @@ def add_bone(scene: viser.SceneApi, surface: Surface) -> None:
     centre, reach = (low + high) / 2, (high - low) / 2 + 8.0
     for letter, side in ORIENTATION.items():
         scene.add_label(
-            f"/side/{letter}",
+            f"{root}/side_{letter}",
             letter,
             position=vector(centre + reach * np.asarray(side)),
             anchor="center-center",
-            font_screen_scale=0.8,
+            font_screen_scale=1.0,
         )
 
 
-def add_channel(scene: viser.SceneApi, channel: Channel) -> None:
+def add_channel(scene: viser.SceneApi, root: str, channel: Channel) -> None:
     """The planned channel, and its axis drawn on towards the hand that shall find it."""
     axis = channel.axis_in_vertebra
     turned = quaternion(rotation_between([0.0, 0.0, 1.0], axis))
     middle = (channel.entry_in_vertebra_mm + channel.target_in_vertebra_mm) / 2
     scene.add_cylinder(
-        "/channel",
+        f"{root}/channel",
         radius=channel.radius_mm,
         height=channel.length_mm,
         color=CHANNEL,
@@ -105,7 +105,7 @@ def add_channel(scene: viser.SceneApi, channel: Channel) -> None:
         receive_shadow=False,
     )
     scene.add_cylinder(
-        "/channel_axis",
+        f"{root}/channel_axis",
         radius=AXIS_RADIUS_MM,
         height=CHANNEL_LEAD_MM,
         color=CHANNEL,
@@ -116,11 +116,13 @@ def add_channel(scene: viser.SceneApi, channel: Channel) -> None:
     )
 
 
-def add_camera(scene: viser.SceneApi, camera: CameraModel, world_from_camera: Rigid[World, Camera]) -> None:
+def add_camera(
+    scene: viser.SceneApi, root: str, camera: CameraModel, world_from_camera: Rigid[World, Camera]
+) -> None:
     """The camera that sees the marker."""
     width, height = camera.size_wh_px
     scene.add_camera_frustum(
-        "/camera",
+        f"{root}/camera",
         fov=2 * math.atan(height / (2 * float(camera.matrix[1, 1]))),
         aspect=(width / float(camera.matrix[0, 0])) / (height / float(camera.matrix[1, 1])),
         scale=CAMERA_SIZE_MM,

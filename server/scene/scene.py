@@ -20,8 +20,11 @@ from tracker.navigation import Setup
 from tracker.plan import Surface
 
 MOST_VIEWERS = 32
+# A viewer that takes nothing for 2 s is dropped, beside the time that a thin line needs for the last message.
 SEND_TIMEOUT_S = 2.0
-LEAST_INTERVAL_S = 1 / 60
+THINNEST_LINE_BYTES_PER_S = 50_000
+# Above the rate of any camera here; a pause of a full period would miss images of a camera at 60 Hz.
+LEAST_INTERVAL_S = 1 / 100
 # The scene says something at least once in the time after which it counts as stale. A page that has heard
 # nothing for much longer asks for a new line.
 LEAST_SILENCE_MS = 6000.0
@@ -81,6 +84,7 @@ class Scene:
         self._door = Door()
         self._stage = Stage(self._door, setup=self._setup, surface=self._surface)
         self._follower = asyncio.create_task(self._follow(self._stage), name="scene follower")
+        self._follower.add_done_callback(_say_why)
 
     async def stop(self) -> None:
         """Let the viewers go and end the follower."""
@@ -120,24 +124,32 @@ class Scene:
             _log.info("scene_viewer_refused", reason=refusal or "not running")
             await websocket.close(CROWDED if refusal == "crowded" else REFUSED)
             return
-        await websocket.accept(subprotocol=SUBPROTOCOL)
         self.viewers += 1
+        try:
+            await websocket.accept(subprotocol=SUBPROTOCOL)
+            code = await self._serve(door, websocket)
+            if code is not None:
+                async with asyncio.timeout(SEND_TIMEOUT_S):
+                    await websocket.close(code)
+        except (TimeoutError, WebSocketDisconnect):
+            _log.info("scene_viewer_gone")
+        finally:
+            self.viewers -= 1
+
+    async def _serve(self, door: Door, websocket: WebSocket) -> int | None:
+        """Speak and listen until one of both ends; the close code, or None when nobody is left to close."""
         tasks = [
             asyncio.create_task(self._speak(door, websocket)),
             asyncio.create_task(self._listen(websocket)),
         ]
         try:
             done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-            code = next(iter(done)).result()
-            if code is not None:
-                with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
-                    async with asyncio.timeout(SEND_TIMEOUT_S):
-                        await websocket.close(code)
         finally:
-            self.viewers -= 1
             for task in tasks:
                 task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            # Not gather(): it would hide from an outer cancel scope that the cancellation was its own.
+            await asyncio.wait(tasks)
+        return next((code for code in [task.result() for task in done] if code is not None), None)
 
     def _refusal(self, websocket: WebSocket) -> str | None:
         headers = websocket.headers
@@ -149,10 +161,13 @@ class Scene:
 
     async def _speak(self, door: Door, websocket: WebSocket) -> int | None:
         """Send the scene; the close code, or None when there is nobody left to close."""
+        underway_bytes = 0
 
         async def send(message: bytes) -> None:
-            async with asyncio.timeout(SEND_TIMEOUT_S):
+            nonlocal underway_bytes
+            async with asyncio.timeout(SEND_TIMEOUT_S + underway_bytes / THINNEST_LINE_BYTES_PER_S):
                 await websocket.send_bytes(message)
+            underway_bytes = len(message)
 
         try:
             await door.serve(send)
@@ -175,6 +190,12 @@ class Scene:
             if gate.goodbye:
                 _log.warning("scene_viewer_misbehaves", refusals=gate.refusals)
                 return REFUSED
+
+
+def _say_why(follower: asyncio.Task[None]) -> None:
+    """A follower that ends by itself leaves every viewer with a stale scene; the log must say why."""
+    if not follower.cancelled() and (error := follower.exception()) is not None:
+        _log.critical("scene_follower_died", exc_info=error)
 
 
 def mount_scene(

@@ -59,12 +59,14 @@ class Stage:
         self._drawn_setup: Setup | None = None
         self._world_from_camera: Rigid[World, Camera] = Rigid.identity()
         self._beats = 0
+        self._generation = 0
+        self._root: viser.FrameHandle | None = None
         self._tools: dict[str, viser.FrameHandle] = {}
         scene = door.scene
         scene.configure_environment_map(hdri=None)
         scene.configure_default_lights(enabled=True, cast_shadow=False)
         # The map of surroundings is off, so the shaded sides need a light of their own.
-        scene.add_light_ambient("/light", intensity=1.2)
+        scene.add_light_ambient("/light", intensity=2.0)
         door.initial_camera.fov = VIEW_ANGLE_RAD
         door.initial_camera.near = 1.0
         door.initial_camera.far = 5000.0
@@ -112,8 +114,13 @@ class Stage:
     def _build(self, setup: Setup | None) -> None:
         """Draw all that does not move, anew; drills are there but hidden."""
         scene = self._door.scene
-        for node in ("/vertebra", "/side", "/channel", "/channel_axis", "/camera", "/tools"):
-            scene.remove_by_name(node)
+        # Under a new name each time: where a name is removed and given again at once, a viewer keeps the old
+        # pose and visibility for the new node.
+        if self._root is not None:
+            self._root.remove()
+        self._generation += 1
+        root = f"/setup_{self._generation}"
+        self._root = scene.add_frame(root, show_axes=False)
         self._tools = {}
         self._drawn_setup, self._drawn_key = setup, None if setup is None else _key(setup)
         self._look(setup)
@@ -125,14 +132,14 @@ class Stage:
             world_from_vertebra: Rigid[World, Vertebra] = Rigid.identity()
             self._world_from_camera = world_from_vertebra @ setup.camera_from_vertebra.inverse
             if self._surface is not None:
-                add_bone(scene, self._surface)
+                add_bone(scene, root, self._surface)
             if isinstance(setup.channel, Channel):
-                add_channel(scene, setup.channel)
+                add_channel(scene, root, setup.channel)
         if setup.camera_calibrated:
-            add_camera(scene, setup.camera, self._world_from_camera)
+            add_camera(scene, root, setup.camera, self._world_from_camera)
         # Numbered, because a name may hold a slash, which is viser's sign for a child.
         for index, (name, tool) in enumerate(setup.tools.items()):
-            self._tools[name] = add_tool(scene, f"/tools/{index}", tool)
+            self._tools[name] = add_tool(scene, f"{root}/tool_{index}", tool)
 
     def _look(self, setup: Setup | None) -> None:
         view = first_view(setup, self._surface)

@@ -70,6 +70,7 @@
     tell();
   };
   requestAnimationFrame(look);
+  tell();
 
   setInterval(() => {
     const live = connected && !contextLost && drawn !== null && now() - changedAt <= staleAfterMs;

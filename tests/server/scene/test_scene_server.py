@@ -18,8 +18,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
+from server.live import Instant
 from server.scene import scene as scene_module
 from server.scene.gate import Verdict
+from server.scene.stage import Stage
 from tracker.plan import Surface
 
 PROTOCOL = "viser-v1.1.1"
@@ -54,6 +56,12 @@ def next_number(line: ClientConnection) -> int | None:
         if "/image_number" in positions:
             thousands, rest, _ = positions["/image_number"]
             return None if thousands == 0 else int((thousands - 1) * 1000 + rest)
+
+
+def reach(line: ClientConnection, image: int | None) -> None:
+    """Read on until this image is told."""
+    while next_number(line) != image:
+        pass
 
 
 def until(happened: Callable[[], bool]) -> None:
@@ -93,7 +101,7 @@ def test_who_comes_late_gets_the_state_at_once(theatre: Theatre) -> None:
     with running(theatre, stale_after_ms=60_000) as server:
         server.hub.publish(theatre.instant(0, image_number=41))
         with viewer(server) as first:
-            until(lambda: next_number(first) == 41)
+            reach(first, 41)
         with viewer(server) as late:
             assert next_number(late) == 41
 
@@ -102,16 +110,33 @@ def test_many_viewers_get_the_newest(theatre: Theatre) -> None:
     with running(theatre, stale_after_ms=60_000) as server, viewer(server) as one, viewer(server) as two:
         for image in range(50):
             server.hub.publish(theatre.instant(image, image_number=image))
-        until(lambda: next_number(one) == 49)
-        until(lambda: next_number(two) == 49)
+        reach(one, 49)
+        reach(two, 49)
         assert server.app.state.scene.viewers == 2
 
 
 def test_when_nobody_says_anything_the_image_is_taken_away(theatre: Theatre) -> None:
     with running(theatre, stale_after_ms=200) as server, viewer(server) as line:
         server.hub.publish(theatre.instant(0, image_number=5))
-        until(lambda: next_number(line) == 5)
-        until(lambda: next_number(line) is None)
+        reach(line, 5)
+        reach(line, None)
+
+
+def test_one_bad_instant_hides_the_drill_and_the_next_is_shown(
+    theatre: Theatre, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    show = Stage.show
+
+    def stumble(stage: Stage, instant: Instant) -> None:
+        if instant.sequence == 1:
+            raise ValueError("a number that is none")
+        show(stage, instant)
+
+    monkeypatch.setattr(Stage, "show", stumble)
+    with running(theatre, stale_after_ms=60_000) as server, viewer(server) as line:
+        for sequence, shown in ((0, 0), (1, None), (2, 2)):
+            server.hub.publish(theatre.instant(sequence, image_number=sequence))
+            reach(line, shown)
 
 
 @pytest.mark.parametrize(
@@ -154,7 +179,7 @@ def test_what_a_viewer_sends_is_counted_and_goes_nowhere(theatre: Theatre) -> No
         assert scene.counts[Verdict.UNWANTED] == 3
         assert scene.counts[Verdict.CAMERA] == 1
         server.hub.publish(theatre.instant(0, image_number=6))
-        until(lambda: next_number(line) == 6)
+        reach(line, 6)
 
 
 def test_who_floods_is_thrown_out(theatre: Theatre) -> None:
@@ -173,6 +198,7 @@ def test_a_stalled_viewer_delays_nobody_and_is_dropped(
     theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(scene_module, "SEND_TIMEOUT_S", 0.3)
+    monkeypatch.setattr(scene_module, "THINNEST_LINE_BYTES_PER_S", 1e9)
     # A surface of 24 MB fills whatever the kernel is willing to hold for somebody who does not read.
     large = Theatre(
         setup=theatre.setup,

@@ -68,10 +68,10 @@ def test_pose_visibility_and_number_of_an_image_come_in_one_batch(theatre: Theat
         stage.show(theatre.instant(1, image_number=123456, tip_z_mm=20.0))
         batch = await viewer.batches.get()
         assert number(batch) == [124.0, 456.0]
-        shown = of_kind(batch, "SetSceneNodeVisibilityMessage", "/tools/0")
+        shown = of_kind(batch, "SetSceneNodeVisibilityMessage", "/setup_1/tool_0")
         assert shown is not None
         assert shown["visible"] is True
-        moved = of_kind(batch, "SetPositionMessage", "/tools/0")
+        moved = of_kind(batch, "SetPositionMessage", "/setup_1/tool_0")
         assert moved is not None
         channel = theatre.setup.channel
         assert isinstance(channel, Channel)
@@ -97,7 +97,7 @@ def test_a_drill_is_hidden_in_the_batch_that_says_so(
         instant = last(theatre)
         stage.show(instant)
         batch = await viewer.batches.get()
-        hidden = of_kind(batch, "SetSceneNodeVisibilityMessage", "/tools/0")
+        hidden = of_kind(batch, "SetSceneNodeVisibilityMessage", "/setup_1/tool_0")
         assert hidden is not None
         assert hidden["visible"] is False
         assert number(batch) == ([0.0, 0.0] if instant.snapshot is None else [1.0, 8.0])
@@ -154,10 +154,10 @@ def test_before_registration_neither_bone_nor_channel_is_drawn(theatre: Theatre)
     async def play(_: Stage, viewer: Viewer) -> None:
         batch = await viewer.batches.get()
         nodes = {m.get("name") for m in batch if m["type"].endswith(("MeshMessage", "CylinderMessage"))}
-        assert "/vertebra" not in nodes
-        assert "/channel" not in nodes
-        assert "/tools/0/shaft" in nodes
-        assert of_kind(batch, "CameraFrustumMessage", "/camera") is not None
+        assert "/setup_1/vertebra" not in nodes
+        assert "/setup_1/channel" not in nodes
+        assert "/setup_1/tool_0/shaft" in nodes
+        assert of_kind(batch, "CameraFrustumMessage", "/setup_1/camera") is not None
 
     on_stage(before, play)
 
@@ -170,12 +170,28 @@ def test_registration_brings_bone_and_channel_and_moves_to_the_vertebras_frame(t
         await viewer.batches.get()
         stage.show(theatre.instant(1, image_number=3))
         batch = await viewer.batches.get()
-        assert of_kind(batch, "MeshMessage", "/vertebra") is not None
-        assert of_kind(batch, "CylinderMessage", "/channel") is not None
+        assert of_kind(batch, "MeshMessage", "/setup_2/vertebra") is not None
+        assert of_kind(batch, "CylinderMessage", "/setup_2/channel") is not None
         assert number(batch) == [1.0, 3.0]
-        camera = of_kind(batch, "SetPositionMessage", "/camera")
+        assert of_kind(batch, "RemoveSceneNodeMessage", "/setup_1") is not None
+        camera = of_kind(batch, "SetPositionMessage", "/setup_2/camera")
         assert camera is not None
         np.testing.assert_allclose(camera["position"], [0.0, 400.0, 0.0], atol=1e-6)
+
+    on_stage(before, play)
+
+
+def test_a_setup_that_comes_back_stands_where_it_stood_at_first(theatre: Theatre) -> None:
+    """A name that was used before would keep its old pose in a viewer; so none is used twice."""
+    before = theatre.unregistered()
+
+    async def play(stage: Stage, viewer: Viewer) -> None:
+        batches = [await viewer.batches.get()]
+        for sequence, now in enumerate((theatre, before, theatre)):
+            stage.show(now.instant(sequence, image_number=sequence, seen=False))
+            batches.append(await viewer.batches.get())
+        made = [m["name"] for batch in batches for m in batch if m["type"] == "CameraFrustumMessage"]
+        assert made == [f"/setup_{generation}/camera" for generation in (1, 2, 3, 4)]
 
     on_stage(before, play)
 
@@ -191,7 +207,7 @@ def test_who_comes_late_gets_the_whole_scene_as_it_is_now(theatre: Theatre) -> N
         async with asyncio.timeout(20):
             batch = await viewer.batches.get()
         assert number(batch) == [1.0, 199.0]
-        assert of_kind(batch, "MeshMessage", "/vertebra") is not None
+        assert of_kind(batch, "MeshMessage", "/setup_1/vertebra") is not None
         assert batch[-1]["type"] == "ReplayDoneMessage"
         door.stop()
         await serving
