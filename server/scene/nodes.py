@@ -17,7 +17,7 @@ from tracker.navigation import Absent, Setup
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 
-BONE = (226, 214, 190)
+BONE = (244, 228, 196)
 CHANNEL = (64, 140, 255)
 DRILL = (255, 138, 31)
 BURR = (255, 200, 120)
@@ -73,7 +73,7 @@ def add_bone(scene: viser.SceneApi, root: str, surface: Surface) -> None:
         np.asarray(surface.vertices_mm, dtype=np.float32),
         np.asarray(surface.faces, dtype=np.uint32),
         color=BONE,
-        opacity=0.6,
+        opacity=0.7,
         cast_shadow=False,
         receive_shadow=False,
     )
@@ -177,10 +177,10 @@ def first_view(setup: Setup | None, surface: Surface | None) -> View:
             look_at_mm=np.array([0.0, 0.0, 300.0]),
             up=(0.0, -1.0, 0.0),
         )
-    look_at, away_mm, side = np.zeros(3), 180.0, 1.0
+    look_at, away_mm, side = np.zeros(3), 170.0, 1.0
     if surface is not None:
         low, high = surface.vertices_mm.min(axis=0), surface.vertices_mm.max(axis=0)
-        look_at, away_mm = (low + high) / 2, max(away_mm, 1.8 * float(np.linalg.norm(high - low)))
+        look_at, away_mm = (low + high) / 2, max(away_mm, 1.45 * float(np.linalg.norm(high - low)))
     if isinstance(setup.channel, Channel):
         side = 1.0 if setup.channel.entry_in_vertebra_mm[0] >= look_at[0] else -1.0
         look_at = setup.channel.entry_in_vertebra_mm

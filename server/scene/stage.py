@@ -66,7 +66,7 @@ class Stage:
         scene.configure_environment_map(hdri=None)
         scene.configure_default_lights(enabled=True, cast_shadow=False)
         # The map of surroundings is off, so the shaded sides need a light of their own.
-        scene.add_light_ambient("/light", intensity=2.0)
+        scene.add_light_ambient("/light", intensity=1.4)
         door.initial_camera.fov = VIEW_ANGLE_RAD
         door.initial_camera.near = 1.0
         door.initial_camera.far = 5000.0
