@@ -84,4 +84,8 @@ def comes_from_here(*, origin: str | None, host: str | None) -> bool:
     """
     if origin is None:
         return True
-    return host is not None and urlsplit(origin).netloc.lower() == host.lower()
+    try:
+        page = urlsplit(origin).netloc
+    except ValueError:
+        return False
+    return host is not None and page.lower() == host.lower()

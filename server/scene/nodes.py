@@ -17,6 +17,8 @@ from tracker.navigation import Absent, Setup
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 
+BONE_NODE = "/vertebra"
+
 BONE = (244, 228, 196)
 CHANNEL = (64, 140, 255)
 DRILL = (255, 138, 31)
@@ -69,11 +71,11 @@ def vector(values: Array) -> Vector:
 def add_bone(scene: viser.SceneApi, root: str, surface: Surface) -> None:
     """The vertebra, translucent so that the channel is seen inside, with letters for its sides."""
     scene.add_mesh_simple(
-        f"{root}/vertebra",
+        f"{root}{BONE_NODE}",
         np.asarray(surface.vertices_mm, dtype=np.float32),
         np.asarray(surface.faces, dtype=np.uint32),
         color=BONE,
-        opacity=0.7,
+        opacity=0.6,
         cast_shadow=False,
         receive_shadow=False,
     )

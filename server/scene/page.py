@@ -11,6 +11,7 @@ import viser
 from starlette.requests import Request
 from starlette.responses import Response
 
+from server.scene.nodes import BONE_NODE
 from server.scene.stage import NUMBER_BASE, NUMBER_NODE
 
 # Hides every control that viser has or will have: nothing but the drawing is visible, and what is not visible
@@ -87,6 +88,7 @@ def make_page(*, stale_after_ms: float, silent_after_ms: float) -> Page:
         "__SILENT_AFTER_MS__": silent_after_ms,
         "__NUMBER_NODE__": NUMBER_NODE,
         "__NUMBER_BASE__": NUMBER_BASE,
+        "__BONE_NODE__": BONE_NODE,
     }
     for token, value in values.items():
         script = script.replace(token, json.dumps(value))

@@ -5,6 +5,7 @@
   const staleAfterMs = __STALE_AFTER_MS__;
   const silentAfterMs = __SILENT_AFTER_MS__;
   const numberNode = __NUMBER_NODE__;
+  const boneNode = __BONE_NODE__;
   const numberBase = __NUMBER_BASE__;
 
   let connected = false;
@@ -56,6 +57,14 @@
 
   // The number is the position of a hidden node, read from the scene graph itself: it is set in the same
   // pass over the same batch as the drill's pose.
+  // A translucent bone that hides its own far side is speckled where its triangles come in the wrong order.
+  const clear = (nodes) => {
+    for (const name of Object.keys(nodes)) {
+      if (!name.endsWith(boneNode) || !nodes[name]) continue;
+      nodes[name].traverse((part) => { if (part.material) part.material.depthWrite = false; });
+    }
+  };
+
   let last = null;
   const look = () => {
     requestAnimationFrame(look);
@@ -64,6 +73,7 @@
     if (!node || !connected || contextLost) return;
     const number = node.position.x < 1 ? null : (node.position.x - 1) * numberBase + node.position.y;
     if (number === last) return;
+    clear(viewer.nodeRefFromName);
     last = number;
     drawn = number;
     changedAt = number === null ? -Infinity : now();

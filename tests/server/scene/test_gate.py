@@ -70,6 +70,7 @@ def test_a_viewer_that_goes_on_must_go() -> None:
         pytest.param("http://evil.example", "theatre:8000", False, id="another page"),
         pytest.param("null", "theatre:8000", False, id="a sandboxed page"),
         pytest.param("http://theatre:8000", None, False, id="no host"),
+        pytest.param("http://[", "theatre:8000", False, id="no address at all"),
         pytest.param("", "theatre:8000", False, id="empty origin"),
     ],
 )

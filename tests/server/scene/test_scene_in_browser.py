@@ -23,6 +23,15 @@ FLAGS = [
 ]  # fmt: skip
 
 
+BONE_HIDES_ITSELF = """() => {
+  const found = [];
+  __viserMutable.nodeRefFromName["/setup_1/vertebra"].traverse((part) => {
+    if (part.material) found.push(part.material.depthWrite);
+  });
+  return found;
+}"""
+
+
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -84,6 +93,7 @@ def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Thea
         with fed(server, theatre, first_image=99_990):
             told(page, "m.image_number >= 100010")
             shown = picture(page)
+            hides_itself = page.frames[1].evaluate(BONE_HIDES_ITSELF)
         with fed(server, theatre, first_image=200_000, seen=False):
             told(page, "m.image_number >= 200010")
             hidden = picture(page)
@@ -91,6 +101,7 @@ def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Thea
         page.close()
     assert orange_px(shown) > 500
     assert orange_px(hidden) == 0
+    assert hides_itself == [False]
     assert hidden.std() > 5  # bone and channel still stand there
     numbers = [m["image_number"] for m in messages if m["image_number"] is not None]
     assert numbers == sorted(numbers)
