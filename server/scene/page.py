@@ -1,0 +1,104 @@
+"""The page of viser, made fit for a theatre: hardened, calling nobody outside, watched by `watch.js`."""
+
+import gzip
+import hashlib
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import viser
+from starlette.requests import Request
+from starlette.responses import Response
+
+from server.scene.nodes import BONE_NODE
+from server.scene.stage import NUMBER_BASE, NUMBER_NODE
+
+# Hides every control that viser has or will have: nothing but the drawing is visible, and what is not visible
+# takes no touch.
+STYLE = """
+html, body, #root { background: #0b0f14 !important; }
+body * { visibility: hidden !important; }
+body canvas { visibility: visible !important; }
+html:not([data-coaxial=live]) body canvas { opacity: 0.12 !important; filter: grayscale(1); }
+#coaxial-stale { display: none; position: fixed; inset: 0; place-content: center; pointer-events: none;
+  color: #ffd24a; font: 700 6vmin system-ui, sans-serif; letter-spacing: 0.05em; }
+html:not([data-coaxial=live]) #coaxial-stale { display: grid; }
+"""
+
+HOST = re.compile(r"[A-Za-z0-9.\-]+(:\d+)?|\[[0-9A-Fa-f:.]+\](:\d+)?")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Page:
+    """The document as it is sent.
+
+    Attributes:
+        plain: as it is.
+        zipped: the same by gzip.
+        etag: changes when it does.
+    """
+
+    plain: bytes
+    zipped: bytes
+    etag: str
+
+    def answer(self, request: Request) -> Response:
+        """The document, or 304 when the browser has it already."""
+        headers = {
+            "Cache-Control": "no-cache",
+            "ETag": self.etag,
+            "Vary": "Accept-Encoding",
+            "Content-Security-Policy": content_security_policy(request.headers.get("host")),
+            "Referrer-Policy": "no-referrer",
+            "X-Content-Type-Options": "nosniff",
+        }
+        known = {
+            tag.strip().removeprefix("W/") for tag in request.headers.get("if-none-match", "").split(",")
+        }
+        if self.etag in known:
+            return Response(status_code=304, headers=headers)
+        body = self.plain
+        if "gzip" in request.headers.get("accept-encoding", ""):
+            body, headers["Content-Encoding"] = self.zipped, "gzip"
+        return Response(body, headers=headers, media_type="text/html; charset=utf-8")
+
+
+def content_security_policy(host: str | None) -> str:
+    """What this document may do: run itself, and talk to this server only.
+
+    The page of viser unpacks its own code and style into inline elements, runs WebAssembly, and keeps its
+    WebSocket in a worker made from a blob. It needs no eval: only its sorter of splats does, which is not
+    used here. Not all browsers count ws: as 'self', so the address is written out.
+    """
+    lines = f" ws://{host} wss://{host}" if host is not None and HOST.fullmatch(host) else ""
+    return (
+        "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob: data:; "
+        "style-src 'unsafe-inline'; img-src data: blob:; font-src data:; "
+        f"connect-src 'self' data: blob:{lines}; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
+    )
+
+
+def make_page(*, stale_after_ms: float, silent_after_ms: float) -> Page:
+    """The page of viser with the watching script and the style put in before `</head>`."""
+    source = Path(viser.__file__).parent / "client" / "build" / "index.html"
+    script = Path(__file__).with_name("watch.js").read_text(encoding="utf-8")
+    values = {
+        "__STALE_AFTER_MS__": stale_after_ms,
+        "__SILENT_AFTER_MS__": silent_after_ms,
+        "__NUMBER_NODE__": NUMBER_NODE,
+        "__NUMBER_BASE__": NUMBER_BASE,
+        "__BONE_NODE__": BONE_NODE,
+    }
+    for token, value in values.items():
+        script = script.replace(token, json.dumps(value))
+    head = f"<script>{script}</script><style>{STYLE}</style>"
+    html = source.read_text(encoding="utf-8").replace("<title>Viser</title>", "<title>Coaxial scene</title>")
+    # Before viser's own loader, which stands in the head too: what it finds must be wrapped already.
+    html = html.replace("<head>", f"<head>{head}", 1)
+    plain = html.encode()
+    return Page(
+        plain=plain,
+        zipped=gzip.compress(plain, mtime=0),
+        etag=f'"{hashlib.sha256(plain).hexdigest()[:32]}"',
+    )

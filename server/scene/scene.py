@@ -1,0 +1,216 @@
+"""The scene as a part of the application: its two addresses, its follower, its viewers."""
+
+import asyncio
+import contextlib
+import time
+from typing import Any, Protocol
+
+import structlog
+from starlette.requests import Request
+from starlette.responses import RedirectResponse, Response
+from starlette.routing import BaseRoute, Route, WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from server.live import LiveHub
+from server.scene.door import SUBPROTOCOL, Door
+from server.scene.gate import Gate, Verdict, comes_from_here
+from server.scene.page import make_page
+from server.scene.stage import Stage
+from tracker.navigation import Setup
+from tracker.plan import Surface
+
+MOST_VIEWERS = 32
+# A viewer that takes nothing for 2 s is dropped, beside the time that a thin line needs for the last message.
+SEND_TIMEOUT_S = 2.0
+THINNEST_LINE_BYTES_PER_S = 50_000
+# Above the rate of any camera here; a pause of a full period would miss images of a camera at 60 Hz.
+LEAST_INTERVAL_S = 1 / 100
+# The scene says something at least once in the time after which it counts as stale. A page that has heard
+# nothing for much longer asks for a new line.
+LEAST_SILENCE_MS = 6000.0
+
+GOING_AWAY, REFUSED, CROWDED = 1001, 1008, 1013
+
+_log = structlog.get_logger(__name__)
+
+
+class Application(Protocol):
+    """What is needed of the application: a Starlette or FastAPI object."""
+
+    router: Any
+    state: Any
+
+
+class Scene:
+    """Follows the newest instant and shows it to any number of viewers.
+
+    Attributes:
+        routes: `GET /scene/` and `WS /scene`.
+        viewers: how many are watching now.
+        counts: messages from viewers by what became of them, since the start.
+        slow_viewers: how many were dropped because nothing could be sent to them for 2 s.
+    """
+
+    def __init__(
+        self,
+        *,
+        hub: LiveHub,
+        setup: Setup | None = None,
+        surface: Surface | None = None,
+        stale_after_ms: float = 500.0,
+    ) -> None:
+        self._hub = hub
+        self._setup = setup
+        self._surface = surface
+        self._stale_after_s = stale_after_ms / 1000
+        self._page = make_page(
+            stale_after_ms=stale_after_ms, silent_after_ms=max(LEAST_SILENCE_MS, 6 * stale_after_ms)
+        )
+        self._door: Door | None = None
+        self._stage: Stage | None = None
+        self._follower: asyncio.Task[None] | None = None
+        self.viewers = 0
+        self.slow_viewers = 0
+        self.counts: dict[Verdict, int] = dict.fromkeys(Verdict, 0)
+        self.routes: list[BaseRoute] = [
+            Route("/scene", lambda _: RedirectResponse("scene/"), methods=["GET"]),
+            Route("/scene/", self._answer, methods=["GET"]),
+            WebSocketRoute("/scene", self._watch),
+            WebSocketRoute("/scene/", self._watch),
+        ]
+
+    async def start(self) -> None:
+        """Begin to follow. Call it in the application's event loop."""
+        self._door = Door()
+        self._stage = Stage(self._door, setup=self._setup, surface=self._surface)
+        self._follower = asyncio.create_task(self._follow(self._stage), name="scene follower")
+        self._follower.add_done_callback(_say_why)
+
+    async def stop(self) -> None:
+        """Let the viewers go and end the follower."""
+        if self._follower is not None:
+            self._follower.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._follower
+        if self._door is not None:
+            self._door.stop()
+        self._door = self._stage = self._follower = None
+
+    async def _follow(self, stage: Stage) -> None:
+        sequence = -1
+        while True:
+            try:
+                async with asyncio.timeout(self._stale_after_s):
+                    instant = await self._hub.next_after(sequence)
+            except TimeoutError:
+                # Nobody says anything any more: what stands in the scene is not true now.
+                stage.show_nothing()
+                continue
+            sequence = instant.sequence
+            try:
+                stage.show(instant)
+            except Exception:  # noqa: BLE001 one bad instant must not freeze the scene for ever
+                _log.exception("scene_instant_failed", sequence=sequence)
+                stage.show_nothing()
+            await asyncio.sleep(LEAST_INTERVAL_S)
+
+    async def _answer(self, request: Request) -> Response:
+        return self._page.answer(request)
+
+    async def _watch(self, websocket: WebSocket) -> None:
+        """One viewer, from its handshake to its end."""
+        door, refusal = self._door, self._refusal(websocket)
+        if door is None or refusal is not None:
+            _log.info("scene_viewer_refused", reason=refusal or "not running")
+            await websocket.close(CROWDED if refusal == "crowded" else REFUSED)
+            return
+        self.viewers += 1
+        try:
+            await websocket.accept(subprotocol=SUBPROTOCOL)
+            code = await self._serve(door, websocket)
+            if code is not None:
+                async with asyncio.timeout(SEND_TIMEOUT_S):
+                    await websocket.close(code)
+        except (TimeoutError, WebSocketDisconnect):
+            _log.info("scene_viewer_gone")
+        finally:
+            self.viewers -= 1
+
+    async def _serve(self, door: Door, websocket: WebSocket) -> int | None:
+        """Speak and listen until one of both ends; the close code, or None when nobody is left to close."""
+        tasks = [
+            asyncio.create_task(self._speak(door, websocket)),
+            asyncio.create_task(self._listen(websocket)),
+        ]
+        try:
+            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            # Not gather(): it would hide from an outer cancel scope that the cancellation was its own.
+            await asyncio.wait(tasks)
+        return next((code for code in [task.result() for task in done] if code is not None), None)
+
+    def _refusal(self, websocket: WebSocket) -> str | None:
+        headers = websocket.headers
+        if not comes_from_here(origin=headers.get("origin"), host=headers.get("host")):
+            return "from another page"
+        if SUBPROTOCOL not in websocket.scope.get("subprotocols", []):
+            return f"does not speak {SUBPROTOCOL}"
+        return "crowded" if self.viewers >= MOST_VIEWERS else None
+
+    async def _speak(self, door: Door, websocket: WebSocket) -> int | None:
+        """Send the scene; the close code, or None when there is nobody left to close."""
+        underway_bytes = 0
+
+        async def send(message: bytes) -> None:
+            nonlocal underway_bytes
+            async with asyncio.timeout(SEND_TIMEOUT_S + underway_bytes / THINNEST_LINE_BYTES_PER_S):
+                await websocket.send_bytes(message)
+            underway_bytes = len(message)
+
+        try:
+            await door.serve(send)
+        except TimeoutError:
+            self.slow_viewers += 1
+            _log.info("scene_viewer_dropped", blocked_s=SEND_TIMEOUT_S)
+            return None
+        except WebSocketDisconnect:
+            return None
+        return GOING_AWAY
+
+    async def _listen(self, websocket: WebSocket) -> int | None:
+        """Judge what comes; the close code for a viewer that must go, or None when it went by itself."""
+        gate = Gate(counts=self.counts)
+        while True:
+            message = await websocket.receive()
+            if message["type"] == "websocket.disconnect":
+                return None
+            gate.judge(message.get("bytes") or message.get("text"), now_s=time.monotonic())
+            if gate.goodbye:
+                _log.warning("scene_viewer_misbehaves", refusals=gate.refusals)
+                return REFUSED
+
+
+def _say_why(follower: asyncio.Task[None]) -> None:
+    """A follower that ends by itself leaves every viewer with a stale scene; the log must say why."""
+    if not follower.cancelled() and (error := follower.exception()) is not None:
+        _log.critical("scene_follower_died", exc_info=error)
+
+
+def mount_scene(
+    app: Application,
+    *,
+    hub: LiveHub,
+    setup: Setup | None,
+    surface: Surface | None,
+    stale_after_ms: float = 500.0,
+) -> None:
+    """Add `GET /scene/` and `WS /scene`, and put the scene at `app.state.scene`.
+
+    The application's lifespan calls `app.state.scene.start()` and `.stop()`. The routes go first, so that a
+    catch-all for the page's own addresses does not hide them.
+    """
+    scene = Scene(hub=hub, setup=setup, surface=surface, stale_after_ms=stale_after_ms)
+    app.state.scene = scene
+    app.router.routes[:0] = scene.routes

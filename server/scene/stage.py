@@ -1,0 +1,178 @@
+"""Puts one instant into the scene, all of it or nothing."""
+
+from dataclasses import dataclass
+
+import viser
+
+from server.live import Instant
+from server.scene.door import Door
+from server.scene.nodes import (
+    VIEW_ANGLE_RAD,
+    Quaternion,
+    Vector,
+    World,
+    add_bone,
+    add_camera,
+    add_channel,
+    add_tool,
+    first_view,
+    quaternion,
+    vector,
+)
+from tracker.geometry import Camera, Rigid, Vertebra
+from tracker.navigation import Absent, NavigationSnapshot, Setup
+from tracker.plan import Channel, Surface
+
+NUMBER_NODE = "/image_number"
+# viser leaves out a change of position below 1e-5 of its size, which one image in 100000 is. So the number
+# travels in two parts, each small enough: thousands and the rest.
+NUMBER_BASE = 1000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Placed:
+    """Where a drill is drawn."""
+
+    position: Vector
+    wxyz: Quaternion
+
+
+def number_position(image_number: int | None, *, beats: int) -> Vector:
+    """The image's number as the position of a hidden node: 1 + thousands, and the rest.
+
+    x is 0 when no image is shown, as it is for the moment before a new node has its first position. z changes
+    with each batch, so that a page can tell a quiet theatre from a dead line.
+    """
+    if image_number is None:
+        return 0.0, 0.0, float(beats % NUMBER_BASE)
+    thousands, rest = divmod(image_number, NUMBER_BASE)
+    return 1.0 + thousands, float(rest), float(beats % NUMBER_BASE)
+
+
+class Stage:
+    """The scene as it is drawn now. Call it from the event loop only."""
+
+    def __init__(self, door: Door, *, setup: Setup | None, surface: Surface | None) -> None:
+        self._door = door
+        self._surface = surface
+        self._drawn_key: tuple[object, ...] | None = None
+        self._drawn_setup: Setup | None = None
+        self._world_from_camera: Rigid[World, Camera] = Rigid.identity()
+        self._beats = 0
+        self._generation = 0
+        self._root: viser.FrameHandle | None = None
+        self._tools: dict[str, viser.FrameHandle] = {}
+        scene = door.scene
+        scene.configure_environment_map(hdri=None)
+        scene.configure_default_lights(enabled=True, cast_shadow=False)
+        # The map of surroundings is off, so the shaded sides need a light of their own.
+        scene.add_light_ambient("/light", intensity=1.4)
+        door.initial_camera.fov = VIEW_ANGLE_RAD
+        door.initial_camera.near = 1.0
+        door.initial_camera.far = 5000.0
+        self._build(setup)
+        self._number = scene.add_frame(NUMBER_NODE, show_axes=False, visible=False)
+        self._count(None)
+
+    def show(self, instant: Instant) -> None:
+        """Draw this instant: each drill where it is, hidden where it is not seen, and the image's number."""
+        snapshot = instant.snapshot
+        if snapshot is None:
+            self.show_nothing()
+            return
+        rebuilt = snapshot.setup is not self._drawn_setup and _key(snapshot.setup) != self._drawn_key
+        with self._door.atomic():
+            if rebuilt:
+                self._build(snapshot.setup)
+            self._drawn_setup = snapshot.setup
+            placed = self._placed(snapshot)
+            for name, handle in self._tools.items():
+                _draw(handle, placed.get(name))
+            self._count(snapshot.image_number)
+        self._door.flush()
+
+    def show_nothing(self) -> None:
+        """Hide every drill: no image says where it is."""
+        with self._door.atomic():
+            for handle in self._tools.values():
+                _draw(handle, None)
+            self._count(None)
+        self._door.flush()
+
+    def _count(self, image_number: int | None) -> None:
+        self._beats += 1
+        self._number.position = number_position(image_number, beats=self._beats)
+
+    def _placed(self, snapshot: NavigationSnapshot) -> dict[str, _Placed]:
+        placed = {}
+        for name, tool in snapshot.tools.items():
+            if not isinstance(tool, Absent):
+                pose = self._world_from_camera @ tool.camera_from_tool
+                placed[name] = _Placed(position=vector(pose.translation_mm), wxyz=quaternion(pose.rotation))
+        return placed
+
+    def _build(self, setup: Setup | None) -> None:
+        """Draw all that does not move, anew; drills are there but hidden."""
+        scene = self._door.scene
+        # Under a new name each time: where a name is removed and given again at once, a viewer keeps the old
+        # pose and visibility for the new node.
+        if self._root is not None:
+            self._root.remove()
+        self._generation += 1
+        root = f"/setup_{self._generation}"
+        self._root = scene.add_frame(root, show_axes=False)
+        self._tools = {}
+        self._drawn_setup, self._drawn_key = setup, None if setup is None else _key(setup)
+        self._look(setup)
+        if setup is None:
+            return
+        if isinstance(setup.camera_from_vertebra, Absent):
+            self._world_from_camera = Rigid.identity()
+        else:
+            world_from_vertebra: Rigid[World, Vertebra] = Rigid.identity()
+            self._world_from_camera = world_from_vertebra @ setup.camera_from_vertebra.inverse
+            if self._surface is not None:
+                add_bone(scene, root, self._surface)
+            if isinstance(setup.channel, Channel):
+                add_channel(scene, root, setup.channel)
+        if setup.camera_calibrated:
+            add_camera(scene, root, setup.camera, self._world_from_camera)
+        # Numbered, because a name may hold a slash, which is viser's sign for a child.
+        for index, (name, tool) in enumerate(setup.tools.items()):
+            self._tools[name] = add_tool(scene, f"{root}/tool_{index}", tool)
+
+    def _look(self, setup: Setup | None) -> None:
+        view = first_view(setup, self._surface)
+        self._door.scene.set_up_direction(view.up)
+        camera = self._door.initial_camera
+        camera.position, camera.look_at, camera.up = (
+            vector(view.position_mm),
+            vector(view.look_at_mm),
+            view.up,
+        )
+
+
+def _draw(handle: viser.FrameHandle, placed: _Placed | None) -> None:
+    if placed is not None:
+        handle.position = placed.position
+        handle.wxyz = placed.wxyz
+    handle.visible = placed is not None
+
+
+def _key(setup: Setup) -> tuple[object, ...]:
+    """Equal for setups that look alike: each image brings a copy of its own through the pipe."""
+    channel, registration = setup.channel, setup.camera_from_vertebra
+    return (
+        setup.camera_calibrated,
+        setup.camera.size_wh_px,
+        setup.camera.matrix.tobytes(),
+        tuple((name, tool.radius_mm, tool.length_mm) for name, tool in setup.tools.items()),
+        None
+        if isinstance(channel, Absent)
+        else (
+            channel.entry_in_vertebra_mm.tobytes(),
+            channel.target_in_vertebra_mm.tobytes(),
+            channel.radius_mm,
+        ),
+        None if isinstance(registration, Absent) else registration.matrix.tobytes(),
+    )

@@ -1,0 +1,80 @@
+"""Who is let in, and what a viewer may say."""
+
+import msgspec
+import pytest
+
+from server.scene.gate import BURST, LARGEST_MESSAGE_BYTES, Gate, Verdict, comes_from_here
+
+
+def message(kind: str, **fields: object) -> bytes:
+    return msgspec.msgpack.encode({"type": kind, **fields})
+
+
+@pytest.mark.parametrize(
+    ("sent", "verdict"),
+    [
+        pytest.param(message("ViewerCameraMessage", fov=1.0), Verdict.CAMERA, id="a turned view"),
+        pytest.param(message("ShareUrlRequest"), Verdict.UNWANTED, id="a share tunnel asked for"),
+        pytest.param(message("ShareUrlDisconnect"), Verdict.UNWANTED, id="a share tunnel closed"),
+        pytest.param(message("GuiUpdateMessage", uuid="x", updates={}), Verdict.UNWANTED, id="a control set"),
+        pytest.param(message("GuiFormDirtyMessage", uuid="x"), Verdict.UNWANTED, id="memory to grow"),
+        pytest.param(
+            message("TransformControlsUpdateMessage", name="/x"), Verdict.UNWANTED, id="a gizmo moved"
+        ),
+        pytest.param(b"", Verdict.UNWANTED, id="nothing"),
+        pytest.param(b"\xc1\xff", Verdict.UNWANTED, id="no msgpack"),
+        pytest.param(msgspec.msgpack.encode([1, 2]), Verdict.UNWANTED, id="a list"),
+        pytest.param(msgspec.msgpack.encode({"type": 7}), Verdict.UNWANTED, id="a type that is a number"),
+        pytest.param(b"\x91" * 5000, Verdict.UNWANTED, id="nested without end"),
+        pytest.param("ViewerCameraMessage", Verdict.UNWANTED, id="text"),
+        pytest.param(None, Verdict.UNWANTED, id="no payload"),
+        pytest.param(
+            message("ViewerCameraMessage", pad=b"x" * LARGEST_MESSAGE_BYTES),
+            Verdict.TOO_LARGE,
+            id="over 64 kB",
+        ),
+    ],
+)
+def test_only_the_camera_is_let_in(sent: bytes | str | None, verdict: Verdict) -> None:
+    gate = Gate(counts={})
+    assert gate.judge(sent, now_s=0.0) is verdict
+    assert gate.counts == {verdict: 1}
+    assert gate.refusals == (verdict is not Verdict.CAMERA)
+
+
+def test_a_flood_is_cut_and_the_allowance_comes_back() -> None:
+    gate = Gate(counts={})
+    camera = message("ViewerCameraMessage")
+    flood = [gate.judge(camera, now_s=5.0) for _ in range(int(BURST) + 10)]
+    assert flood.count(Verdict.TOO_OFTEN) == 10
+    assert gate.judge(camera, now_s=5.5) is Verdict.CAMERA
+
+
+def test_a_viewer_that_goes_on_must_go() -> None:
+    gate = Gate(counts={})
+    for _ in range(500):
+        gate.judge(b"", now_s=0.0)
+    assert not gate.goodbye
+    gate.judge(b"", now_s=0.0)
+    assert gate.goodbye
+
+
+@pytest.mark.parametrize(
+    ("origin", "host", "let_in"),
+    [
+        pytest.param("http://theatre:8000", "theatre:8000", True, id="own page"),
+        pytest.param("https://theatre", "theatre", True, id="own page behind TLS"),
+        pytest.param("http://THEATRE:8000", "theatre:8000", True, id="names have no case"),
+        pytest.param(None, "theatre:8000", True, id="no browser"),
+        pytest.param("http://theatre:9000", "theatre:8000", False, id="another port"),
+        pytest.param("http://evil.example", "theatre:8000", False, id="another page"),
+        pytest.param("null", "theatre:8000", False, id="a sandboxed page"),
+        pytest.param("http://theatre:8000", None, False, id="no host"),
+        pytest.param("http://[", "theatre:8000", False, id="no address at all"),
+        pytest.param("", "theatre:8000", False, id="empty origin"),
+    ],
+)
+def test_a_browser_must_come_from_this_servers_page(
+    origin: str | None, host: str | None, let_in: bool
+) -> None:
+    assert comes_from_here(origin=origin, host=host) is let_in

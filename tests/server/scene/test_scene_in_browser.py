@@ -1,0 +1,197 @@
+"""The scene in a real browser: what is seen, what the page around it is told, and how it comes back."""
+
+import math
+import shutil
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+from scene_theatre import Running, Theatre, running
+
+from server.scene import scene as scene_module
+
+pytestmark = pytest.mark.browser
+
+FLAGS = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+]  # fmt: skip
+
+
+BONE_HIDES_ITSELF = """() => {
+  const found = [];
+  __viserMutable.nodeRefFromName["/setup_1/vertebra"].traverse((part) => {
+    if (part.material) found.push(part.material.depthWrite);
+  });
+  return found;
+}"""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    with sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=found, args=FLAGS)
+        yield opened
+        opened.close()
+
+
+@contextmanager
+def fed(server: Running, theatre: Theatre, *, first_image: int = 0, seen: bool = True) -> Iterator[None]:
+    """Instants at 30 a second for as long as the block lasts."""
+    over = threading.Event()
+
+    def feed() -> None:
+        sequence = 0
+        while not over.wait(1 / 30):
+            tip = 25 + 15 * math.sin(sequence / 15)
+            image = first_image + sequence
+            server.hub.publish(theatre.instant(sequence, image_number=image, seen=seen, tip_z_mm=tip))
+            sequence += 1
+
+    # Sequences begin anew with each feeder, so what was published before is forgotten first.
+    server.hub._newest = None
+    feeder = threading.Thread(target=feed)
+    feeder.start()
+    try:
+        yield
+    finally:
+        over.set()
+        feeder.join()
+
+
+def opened(browser: Browser, address: str) -> Page:
+    page = browser.new_page(viewport={"width": 640, "height": 480})
+    page.goto(address)
+    return page
+
+
+def told(page: Page, condition: str) -> None:
+    """Wait until the page around the scene has been told something for which `condition` of m holds."""
+    page.wait_for_function(f"told.some((m) => {condition})", timeout=60_000)
+
+
+def picture(page: Page) -> npt.NDArray[np.uint8]:
+    image = cv2.imdecode(np.frombuffer(page.screenshot(), dtype=np.uint8), cv2.IMREAD_COLOR)
+    assert image is not None
+    return np.asarray(image, dtype=np.uint8)
+
+
+def orange_px(image: npt.NDArray[np.uint8]) -> int:
+    blue, green, red = (image[..., channel].astype(int) for channel in range(3))
+    return int(((red > 150) & (green > 70) & (green < red - 40) & (blue < green - 40)).sum())
+
+
+def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Theatre) -> None:
+    with running(theatre) as server:
+        page = opened(browser, server.address)
+        with fed(server, theatre, first_image=99_990):
+            told(page, "m.image_number >= 100010")
+            shown = picture(page)
+            hides_itself = page.frames[1].evaluate(BONE_HIDES_ITSELF)
+        with fed(server, theatre, first_image=200_000, seen=False):
+            told(page, "m.image_number >= 200010")
+            hidden = picture(page)
+        messages = page.evaluate("told")
+        page.close()
+    assert orange_px(shown) > 500
+    assert orange_px(hidden) == 0
+    assert hides_itself == [False]
+    assert hidden.std() > 5  # bone and channel still stand there
+    numbers = [m["image_number"] for m in messages if m["image_number"] is not None]
+    assert numbers == sorted(numbers)
+    assert numbers[0] >= 99_990
+    assert set(messages[0]) == {"kind", "image_number", "connected"}
+    assert {m["kind"] for m in messages} == {"coaxial-scene"}
+
+
+def test_silence_takes_the_number_away(browser: Browser, theatre: Theatre) -> None:
+    with running(theatre) as server:
+        page = opened(browser, server.address)
+        with fed(server, theatre):
+            told(page, "m.image_number >= 5")
+        page.wait_for_function("told.at(-1).image_number === null && told.at(-1).connected", timeout=60_000)
+        assert orange_px(picture(page)) == 0
+        page.close()
+
+
+def test_an_untouched_screen_comes_back_after_a_restart(browser: Browser, theatre: Theatre) -> None:
+    with running(theatre) as server:
+        port = server.port
+        page = opened(browser, server.address)
+        # The driver makes every page believe that it has the focus; a screen in theatre has none.
+        page.context.new_cdp_session(page).send("Emulation.setFocusEmulationEnabled", {"enabled": False})
+        other = browser.new_page()
+        other.bring_to_front()
+        with fed(server, theatre, first_image=1000):
+            told(page, "m.image_number >= 1005")
+            frame = page.frames[1]
+            assert frame.evaluate("Document.prototype.hasFocus.call(document)") is False
+            frame.evaluate("window.untouched = true")
+    told(page, "!m.connected")
+    page.evaluate("told.length = 0")
+    with running(theatre, port=port) as server, fed(server, theatre, first_image=0):
+        told(page, "m.connected && m.image_number >= 5 && m.image_number < 1000")
+        assert frame.evaluate("window.untouched") is True
+    other.close()
+    page.close()
+
+
+def test_opened_alone_it_covers_itself_when_it_is_stale(browser: Browser, theatre: Theatre) -> None:
+    with running(theatre) as server:
+        page = opened(browser, f"{server.address}/scene/")
+        cover = page.locator("#coaxial-stale")
+        with fed(server, theatre):
+            cover.wait_for(state="hidden", timeout=60_000)
+            page.locator("html[data-coaxial=live]").wait_for(state="attached", timeout=60_000)
+        cover.wait_for(state="visible", timeout=60_000)
+        assert cover.text_content() == "SCENE STALE"
+        page.close()
+
+
+def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
+    browser: Browser, theatre: Theatre
+) -> None:
+    asked: list[str] = []
+    with running(theatre) as server:
+        page = browser.new_page(viewport={"width": 640, "height": 480})
+        page.on("request", lambda request: asked.append(request.url))
+        page.on("websocket", lambda line: asked.append(line.url))
+        page.goto(f"{server.address}/scene/")
+        with fed(server, theatre):
+            page.locator("html[data-coaxial=live]").wait_for(state="attached", timeout=60_000)
+            touched = page.evaluate(
+                "Array.from({length: 63}, (_, i) => [5 + 70 * (i % 9), 5 + 70 * ~~(i / 9)])"
+                ".map(([x, y]) => document.elementFromPoint(x, y).tagName)"
+            )
+        counts = dict(server.app.state.scene.counts)
+        page.close()
+        here = (f"http://127.0.0.1:{server.port}/", f"ws://127.0.0.1:{server.port}/", "data:", "blob:")
+    assert [url for url in asked if not url.startswith(here)] == []
+    assert f"ws://127.0.0.1:{server.port}/scene" in asked
+    assert set(touched) == {"CANVAS"}
+    # The client of viser, left alone, says nothing but where it looks from.
+    assert {verdict: count for verdict, count in counts.items() if count} == {"camera": counts["camera"]}
+
+
+def test_a_line_that_fell_silent_is_asked_for_anew(
+    browser: Browser, theatre: Theatre, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(scene_module, "LEAST_SILENCE_MS", 1000.0)
+    with running(theatre, stale_after_ms=100) as server:
+        page = opened(browser, server.address)
+        with fed(server, theatre):
+            told(page, "m.image_number >= 5")
+        # A server that lost its power: the line stands, and nothing ever comes.
+        follower = server.app.state.scene._follower
+        page.evaluate("told.length = 0")
+        follower.get_loop().call_soon_threadsafe(follower.cancel)
+        page.wait_for_function(
+            "told.findIndex((m) => !m.connected) >= 0 && told.at(-1).connected", timeout=60_000
+        )
+        page.close()
