@@ -5,7 +5,7 @@ import { ViewLine, type Socket } from "./line";
 import type { Live } from "./live";
 import { isSceneNote } from "./sceneAge";
 
-export type Dashboard = components["schemas"]["Dashboard"];
+export type Dashboard = components["schemas"]["DashboardMessage"];
 
 const LOOK_EVERY_MS = 50;
 const ASK_WHEN_QUIET_MS = 300;
@@ -61,7 +61,13 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
   };
   document.addEventListener("visibilitychange", onVisibility, { signal });
   addEventListener("pageshow", onVisibility, { signal });
-  addEventListener("message", (event) => { takeSceneNote(live, event); }, { signal });
+  addEventListener(
+    "message",
+    (event) => {
+      takeSceneNote(live, event);
+    },
+    { signal },
+  );
   onVisibility();
   line.start();
   return () => {
@@ -91,7 +97,7 @@ function viewLine(live: Live, onOpen: () => void): ViewLine {
 }
 
 function viewAddress(): string {
-  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/view?camera=main`;
+  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/view`;
 }
 
 /** Asks the server who it is and which limits hold; limits have one home, its config. */

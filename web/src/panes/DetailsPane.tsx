@@ -36,9 +36,13 @@ export function DetailsPane(): ReactNode {
           </div>
         ))}
       </dl>
-      <p>
-        <a href="/video/main.mjpg">{d.plainVideo}</a>
-      </p>
+      {dashboard?.cameras.map(({ name, video_path }) => (
+        <p key={name}>
+          <a href={video_path}>
+            {d.plainVideo}: {name}
+          </a>
+        </p>
+      ))}
     </details>
   );
 }

@@ -2,12 +2,12 @@
 import { de } from "./de";
 import { en, type Words } from "./en";
 
-const BY_LANGUAGE: Record<string, Words> = { en, de };
+const BY_LANGUAGE = new Map<string, Words>([en, de].map((words) => [words.language, words]));
 
 export function wordsFor(query: string, browserLanguages: readonly string[]): Words {
   const wanted = [new URLSearchParams(query).get("lang") ?? "", ...browserLanguages];
   for (const language of wanted) {
-    const words = BY_LANGUAGE[language.toLowerCase().split("-")[0] ?? ""];
+    const words = BY_LANGUAGE.get(language.toLowerCase().split("-")[0] ?? "");
     if (words) return words;
   }
   return en;
