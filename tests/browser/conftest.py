@@ -43,8 +43,10 @@ class Theatre:
             text=True,
         )
         assert self._process.stdout is not None
-        line = self._process.stdout.readline()
-        assert line.strip().isdigit(), "the server did not say its port"
+        line = self._process.stdout.readline().strip()
+        if not line.isdigit():
+            self.kill()
+            pytest.fail("the server did not say its port; what it said is on standard error")
         self.port = int(line)
 
     def tell(self, mode: str) -> None:

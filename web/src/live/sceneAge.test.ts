@@ -53,7 +53,6 @@ test("a number of the source before a restart is not taken for a new one", () =>
   scene.image(0, 2010); // the source counts anew
   expect(scene.verdict(2011, 500)).toMatchObject({ state: "stale", imageNumber: null });
 });
-});
 
 test.each([
   [null, false],
