@@ -76,7 +76,8 @@ def snapshot_at(number: int, now_s: float, *, seen: bool, calibrated: bool) -> N
     phase = number / RATE_HZ
     stands = setup(calibrated=calibrated)
     drill = Rigid[Vertebra, Tool].from_vector(
-        [0.08 * np.sin(phase), 0.05, 0.0], [1.5 * np.sin(0.9 * phase), -1.0, 12.0 + 20.0 * np.sin(0.5 * phase)]
+        [0.08 * np.sin(phase), 0.05, 0.0],
+        [1.5 * np.sin(0.9 * phase), -1.0, 12.0 + 20.0 * np.sin(0.5 * phase)],
     )
     marker = CAMERA_FROM_VERTEBRA @ drill @ stands.tools["drill"].marker_from_tool.inverse
     sighting = Seen(

@@ -5,8 +5,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import PATIENCE_MS, SCREENSHOTS, Theatre, Watched
 from playwright.sync_api import Page, expect
+
+from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, Watched
 
 pytestmark = pytest.mark.browser
 
@@ -53,7 +54,7 @@ def test_scene_is_uncovered_when_it_has_drawn(theatre: Theatre, watch: Watch) ->
     page = watch(theatre).open()
     is_live(page, "scene")
     expect(page.get_by_test_id("scene-cover")).to_be_hidden()
-    expect(page.get_by_test_id("scene-stamp")).to_contain_text("scene of image")
+    expect(page.get_by_test_id("scene-stamp")).to_contain_text("image")
 
 
 def test_silence_is_said_by_the_page_itself_and_passes(theatre: Theatre, watch: Watch) -> None:
@@ -89,7 +90,7 @@ def test_lost_camera_is_told_with_its_remedy(theatre: Theatre, watch: Watch) -> 
     page = watch(theatre).open()
     is_live(page, "video")
     theatre.tell("lost")
-    expect(page.get_by_test_id("alert")).to_contain_text("the camera has given no image for 2.0 s")
+    expect(page.get_by_test_id("alert")).to_contain_text("The camera has given no image for 2.0 s")
     expect(page.get_by_test_id("alert")).to_contain_text("Check the camera's cable")
     expect(page.get_by_test_id("video-cover")).to_contain_text("NO VIDEO")
     expect(page.get_by_test_id("video-cover")).to_contain_text("CAMERA LOST")
@@ -120,6 +121,37 @@ def test_killed_server_is_said_and_comes_back_without_reload(watch: Watch) -> No
             is_live(page, "video")
             is_live(page, "numbers")
             assert page.evaluate("window.neverReloaded") is True
+
+
+def test_server_that_hangs_is_called_gone_though_its_sockets_stand(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre, strict=False).open()
+    is_live(page, "video")
+    theatre.freeze()
+    try:
+        expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+        is_live(page, "video", live=False)
+        is_live(page, "numbers", live=False)
+        is_live(page, "scene", live=False)
+    finally:
+        theatre.thaw()
+    is_live(page, "video")
+    is_live(page, "numbers")
+
+
+def test_picture_is_empty_when_a_hidden_page_comes_back(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open()
+    is_live(page, "video")
+    theatre.tell("stop")
+    page.evaluate(
+        """() => {
+            Object.defineProperty(document, "visibilityState", { value: "hidden", configurable: true });
+            document.dispatchEvent(new Event("visibilitychange"));
+        }"""
+    )
+    # At once, in the same turn: nothing old may be left for the screen that comes back.
+    assert page.get_by_test_id("video").get_attribute("data-live") == "false"
+    assert page.get_by_test_id("numbers").get_attribute("data-live") == "false"
+    assert page.locator("canvas").evaluate(BLACK)
 
 
 def test_speaks_another_language(theatre: Theatre, watch: Watch) -> None:

@@ -20,10 +20,14 @@ export function Page(): ReactNode {
       <Header />
       <AlertBand />
       <main className="panes">
-        <VideoPane />
-        <NumbersPane />
-        <ScenePane />
-        <MarkersPane />
+        <div className="column">
+          <VideoPane />
+          <MarkersPane />
+        </div>
+        <div className="column">
+          <NumbersPane />
+          <ScenePane />
+        </div>
       </main>
       <DetailsPane />
       <Announcer />

@@ -18,7 +18,7 @@ function Fact({ name, value, mood = "plain", testid }: FactProps): ReactNode {
   return (
     <div className="fact" data-mood={mood} data-testid={testid}>
       <dt>{name}</dt>
-      <dd>
+      <dd title={value}>
         {mood !== "plain" && (
           <span aria-hidden="true" className="marks">
             {SYMBOL[mood]}{" "}

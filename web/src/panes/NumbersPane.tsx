@@ -19,7 +19,7 @@ export function NumbersPane(): ReactNode {
   const { view } = useLive();
   const pane = useRef<HTMLDivElement>(null);
   const since = useRef<HTMLSpanElement>(null);
-  const tip = useRef<HTMLParagraphElement>(null);
+  const tip = useRef<HTMLSpanElement>(null);
   const difference = useRef<HTMLParagraphElement>(null);
 
   usePainter(({ numbers, video, untrackedMs }) => {
@@ -38,11 +38,7 @@ export function NumbersPane(): ReactNode {
   });
 
   return (
-    <Pane
-      id="numbers"
-      title={words.numbers.title}
-      aside={<p className="stamp" ref={tip} data-testid="tip" />}
-    >
+    <Pane id="numbers" title={words.numbers.title}>
       <div className="numbers" data-testid="numbers" data-live="false" ref={pane}>
         <div className="numbers-state">
           {view.numbers.live ? (
@@ -54,7 +50,10 @@ export function NumbersPane(): ReactNode {
               <span aria-hidden="true">▲▲</span> {words.numbers.none} <Since span={since} />
             </p>
           )}
-          <p className="state-why">{whyWords(view.numbers, words)}</p>
+          <p className="state-why">
+            {whyWords(view.numbers, words)}
+            <span data-testid="tip" ref={tip} />
+          </p>
         </div>
         {READINGS.map((name) => (
           <div className="reading" data-reading={name} key={name}>

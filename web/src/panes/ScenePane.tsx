@@ -28,7 +28,7 @@ export function ScenePane(): ReactNode {
     setText(
       stamp.current,
       scene.state === "live"
-        ? `${words.scene.of} ${scene.imageNumber}${behind} · ${words.video.age} ${shownNumber(scene.ageMs, 0)} ms`
+        ? `${words.video.image} ${scene.imageNumber}${behind} · ${words.video.age} ${shownNumber(scene.ageMs, 0)} ms`
         : "",
     );
     setText(age.current, scene.state === "stale" && scene.ageMs !== null ? shownDuration(scene.ageMs) : "");

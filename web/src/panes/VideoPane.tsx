@@ -15,18 +15,26 @@ export function VideoPane(): ReactNode {
   const canvas = useRef<HTMLCanvasElement>(null);
   const stage = useRef<HTMLDivElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
-  const wasLive = useRef(false);
+  const painted = useRef(false);
 
   useEffect(() => {
-    live.setDraw((jpeg, isCurrent) =>
-      canvas.current ? drawPicture(canvas.current, jpeg, isCurrent) : Promise.resolve(false),
-    );
+    live.setDraw(async (jpeg, isCurrent) => {
+      if (canvas.current === null) return false;
+      const drawn = await drawPicture(canvas.current, jpeg, isCurrent);
+      if (drawn) painted.current = true;
+      return drawn;
+    });
   }, [live]);
 
-  usePainter(({ video }) => {
+  usePainter(({ video, numbers }) => {
     setData(stage.current, "live", String(video.live));
-    if (wasLive.current && !video.live && canvas.current) clearPicture(canvas.current);
-    wasLive.current = video.live;
+    // Numbers are burned into the picture: they go when the page's own numbers go for their age.
+    setData(stage.current, "late", String(video.live && !numbers.live && numbers.cause === "old"));
+    // Also what was still being decoded when its time was over.
+    if (painted.current && !video.live && canvas.current) {
+      clearPicture(canvas.current);
+      painted.current = false;
+    }
     const age = video.live ? `${shownNumber(video.ageMs, 0)} ms` : "";
     const image = video.live ? `${words.video.image} ${video.imageNumber}` : "";
     setText(stamp.current, video.live ? `${image} · ${words.video.age} ${age}` : "");
@@ -42,6 +50,9 @@ export function VideoPane(): ReactNode {
     >
       <div className="video-stage" data-testid="video" data-live="false" ref={stage}>
         <canvas ref={canvas} width={1280} height={720} role="img" aria-label={words.video.alt} />
+        <p className="when-late" data-testid="video-late">
+          <span aria-hidden="true">▲▲</span> {words.video.late}
+        </p>
         <div className="when-stale" data-testid="video-cover">
           <Cover
             urgency="medium"

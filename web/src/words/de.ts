@@ -9,6 +9,7 @@ export const de: Words = {
   video: {
     title: "Video",
     none: "KEIN VIDEO",
+    late: "BILD KOMMT SPÄT",
     image: "Bild",
     age: "Alter",
     alt: "Live-Video mit geplantem Kanal und Bohrerlinie",
@@ -40,7 +41,6 @@ export const de: Words = {
     loadingHint: "Die Szene erscheint mit ihrem ersten Bild.",
     stale: "SZENE VERALTET",
     staleHint: "Die Szene folgt dem Bohrer nicht. Sie kommt von selbst wieder.",
-    of: "Szene von Bild",
   },
   markers: {
     title: "Marker",

@@ -13,7 +13,7 @@ export interface Words {
   product: string;
   notice: string;
   skip: string;
-  video: { title: string; none: string; image: string; age: string; alt: string };
+  video: { title: string; none: string; late: string; image: string; age: string; alt: string };
   numbers: {
     title: string;
     none: string;
@@ -31,7 +31,6 @@ export interface Words {
     loadingHint: string;
     stale: string;
     staleHint: string;
-    of: string;
   };
   markers: Record<
     "title" | "none" | "name" | "state" | "seen" | "unseen" | "score" | "target" | "unknown",
@@ -71,6 +70,7 @@ export const en: Words = {
   video: {
     title: "Video",
     none: "NO VIDEO",
+    late: "PICTURE IS LATE",
     image: "image",
     age: "age",
     alt: "Live video with the planned channel and the drill's line drawn in",
@@ -102,7 +102,6 @@ export const en: Words = {
     loadingHint: "The scene appears when its first image is drawn.",
     stale: "SCENE STALE",
     staleHint: "The scene does not follow the drill now. It comes back by itself.",
-    of: "scene of image",
   },
   markers: {
     title: "Markers",
