@@ -135,6 +135,10 @@ export class Live {
     if (this.is.newest === null || message.sequence > this.is.newest.sequence) this.is.newest = message;
   }
 
+  get hasNews(): boolean {
+    return this.is.newest !== null;
+  }
+
   get currentGeneration(): number {
     return this.generation;
   }

@@ -26,11 +26,18 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
   const ask = async (): Promise<void> => {
     asking = true;
     const generation = live.currentGeneration;
-    askedAtMs = performance.now();
+    const askedNowMs = performance.now();
+    const timeout = AbortSignal.any([signal, AbortSignal.timeout(ASK_TIMEOUT_MS)]);
     try {
-      const timeout = AbortSignal.any([signal, AbortSignal.timeout(ASK_TIMEOUT_MS)]);
-      const { data } = await server.GET("/api/live", { signal: timeout, cache: "no-store" });
-      live.answered(data ?? null, askedAtMs, generation);
+      if (live.hasNews) {
+        askedAtMs = askedNowMs;
+        const { data } = await server.GET("/api/live", { signal: timeout, cache: "no-store" });
+        live.answered(data ?? null, askedNowMs, generation);
+      } else {
+        // Before the first image there is nothing to ask for but whether anybody is there.
+        await server.GET("/api/dashboard", { signal: timeout, cache: "no-store" });
+        live.answered(null, askedNowMs, generation);
+      }
     } catch {
       // No answer is what `quietMs` counts.
     } finally {
@@ -43,8 +50,12 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     const quietMs = live.quietMs();
     const sinceAskedMs = performance.now() - askedAtMs;
     if (view.link !== "open") return;
-    if (quietMs > NEW_LINE_WHEN_QUIET_MS) line.restart();
-    else if (!asking && (quietMs > ASK_WHEN_QUIET_MS || sinceAskedMs > COMPARE_CLOCKS_EVERY_MS)) void ask();
+    if (quietMs > NEW_LINE_WHEN_QUIET_MS) {
+      line.restart();
+      return;
+    }
+    const compareClocks = live.hasNews && sinceAskedMs > COMPARE_CLOCKS_EVERY_MS;
+    if (!asking && (quietMs > ASK_WHEN_QUIET_MS || compareClocks)) void ask();
   };
 
   const onEachScreenImage = (): void => {

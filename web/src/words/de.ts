@@ -16,8 +16,8 @@ export const de: Words = {
   },
   numbers: {
     title: "Bohrer zum Kanal",
-    none: "KEINE VERFOLGUNG",
-    tracking: "VERFOLGT",
+    none: "KEIN TRACKING",
+    tracking: "TRACKING",
     tip: "Spitze ±",
     tipUnknown: "Unsicherheit der Spitze unbekannt",
     numbersOf: "Zahlen sind von Bild",
