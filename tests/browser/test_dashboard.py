@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, Watched
 
@@ -74,6 +74,23 @@ def test_silence_is_said_by_the_page_itself_and_passes(theatre: Theatre, watch: 
     theatre.tell("live")
     is_live(page, "video")
     is_live(page, "numbers")
+
+
+def test_burned_in_numbers_of_a_late_picture_are_made_illegible(theatre: Theatre, watch: Watch) -> None:
+    watched = watch(theatre)
+
+    def patient(route: Route) -> None:
+        said = route.fetch().json()
+        route.fulfill(json={**said, "limits": {**said["limits"], "video_stale_after_ms": 600_000}})
+
+    watched.page.route("**/api/dashboard", patient)
+    page = watched.open()
+    is_live(page, "numbers")
+    theatre.tell("stop")
+    is_live(page, "numbers", live=False)
+    is_live(page, "video")
+    expect(page.get_by_test_id("video-late")).to_be_visible()
+    assert "blur" in page.locator("canvas").evaluate("canvas => getComputedStyle(canvas).filter")
 
 
 def test_marker_out_of_view_takes_the_numbers_and_leaves_the_video(theatre: Theatre, watch: Watch) -> None:
