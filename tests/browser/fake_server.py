@@ -1,0 +1,165 @@
+"""The real web server over a theatre of two lines: instants made by hand, told by words on standard input.
+
+    live      instants with the marker seen (so it starts)
+    unseen    instants whose marker is not seen
+    lost      the camera is gone: no snapshot, and a trouble with its remedy
+    bare      images of a camera that is not calibrated
+    stop      nothing is published any more, the server stays up
+
+Standard output gets one line, the port. The process ends with its standard input.
+"""
+
+import argparse
+import socket
+import sys
+import threading
+import time
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+import uvicorn
+
+from server.app import AppParts, create_app
+from server.config import Config
+from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.overlay import draw_overlay, encode_jpeg
+from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
+from tracker.geometry import Camera, Rigid, Tool, Vertebra
+from tracker.navigation import NavigationSnapshot, Setup, navigate
+from tracker.plan import Channel
+
+SIZE_WH_PX = (1280, 720)
+RATE_HZ = 15.0
+SIDE_MM = 25.0
+CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM
+CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
+UNPLUGGED = Trouble(
+    code="CAMERA_LOST",
+    message="the camera has given no image for 2.0 s, allowed 1.0 s",
+    remedy="Check the camera's cable; it is tried again by itself.",
+)
+
+
+def setup(*, calibrated: bool = True) -> Setup:
+    """A camera, a drill and a channel 40 mm long."""
+    focal = 1.1 * SIZE_WH_PX[0]
+    tool = ToolModel.from_tip_and_axis(
+        name="drill",
+        marker="drill",
+        tip_in_marker_mm=[0, -70, 0],
+        axis_in_marker=[0, -1, 0],
+        radius_mm=2.0,
+        length_mm=100.0,
+    )
+    return Setup(
+        camera=CameraModel(
+            matrix=np.array([[focal, 0, SIZE_WH_PX[0] / 2], [0, focal, SIZE_WH_PX[1] / 2], [0, 0, 1]]),
+            distortion=np.zeros(5),
+            size_wh_px=SIZE_WH_PX,
+        ),
+        camera_calibrated=calibrated,
+        tools={"drill": tool},
+        channel=Channel(
+            name="L3 left",
+            entry_in_vertebra_mm=np.zeros(3),
+            target_in_vertebra_mm=np.array([0.0, 0.0, 40.0]),
+            radius_mm=4.0,
+        ),
+        camera_from_vertebra=CAMERA_FROM_VERTEBRA,
+        registered_by="rehearsal",
+    )
+
+
+def snapshot_at(number: int, now_s: float, *, seen: bool, calibrated: bool) -> NavigationSnapshot:
+    """The drill on its slow way along the channel."""
+    phase = number / RATE_HZ
+    stands = setup(calibrated=calibrated)
+    drill = Rigid[Vertebra, Tool].from_vector(
+        [0.08 * np.sin(phase), 0.05, 0.0],
+        [1.5 * np.sin(0.9 * phase), -1.0, 12.0 + 20.0 * np.sin(0.5 * phase)],
+    )
+    marker = CAMERA_FROM_VERTEBRA @ drill @ stands.tools["drill"].marker_from_tool.inverse
+    sighting = Seen(
+        camera_from_marker=marker,
+        pose_covariance=np.eye(6) * 1e-4,
+        corners_px=stands.camera.px_from_camera(marker.move_points(CORNERS_MM)),
+        score_ratio=0.93,
+        target_score_ratio=0.88,
+        model_coverage_ratio=0.95,
+        target_coverage_ratio=0.9,
+        fit_error_px2=0.1,
+        found_by="track",
+    )
+    unseen = Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=0.41)
+    return navigate(
+        setup=stands,
+        sightings={"drill": sighting if seen else unseen},
+        image_number=number,
+        captured_at_s=now_s,
+        size_wh_px=SIZE_WH_PX,
+        stage_ms={"edges": 3.1, "marker": 2.4, "pose": 0.8},
+        skipped_images=3,
+    )
+
+
+def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8]) -> Instant:
+    """The instant that this mode asks for."""
+    process = ProcessStatus(state=ProcessState.RUNNING)
+    if mode == "lost":
+        away = SourceStatus(
+            name="/dev/video0", state=SourceState.RECONNECTING, trouble=UNPLUGGED, images=sequence
+        )
+        return Instant(sequence=sequence, source=away, process=process)
+    snapshot = snapshot_at(
+        sequence, time.monotonic(), seen=mode in ("live", "bare"), calibrated=mode != "bare"
+    )
+    source = SourceStatus(name="/dev/video0", state=SourceState.RUNNING, images=sequence, rate_hz=RATE_HZ)
+    jpeg = encode_jpeg(draw_overlay(ground, snapshot), 80)
+    return Instant(sequence=sequence, source=source, process=process, snapshot=snapshot, jpeg=jpeg)
+
+
+def backdrop() -> npt.NDArray[np.uint8]:
+    """A still picture, grey and soft as a field of operation is."""
+    noise = np.random.default_rng(1).uniform(40, 110, (9, 16, 3)).astype(np.uint8)
+    return np.asarray(cv2.resize(noise, SIZE_WH_PX, interpolation=cv2.INTER_CUBIC), dtype=np.uint8)
+
+
+class Feeder(threading.Thread):
+    """Publishes instants until the process ends."""
+
+    def __init__(self, hub: LiveHub) -> None:
+        super().__init__(name="feeder", daemon=True)
+        self._hub = hub
+        self.mode = "live"
+
+    def run(self) -> None:
+        """One instant after the other at the rate."""
+        ground = backdrop()
+        for sequence in range(1_000_000):
+            while self.mode == "stop":
+                time.sleep(0.01)
+            self._hub.publish(instant_at(sequence, self.mode, ground))
+            time.sleep(1.0 / RATE_HZ)
+
+
+def main() -> None:
+    """Serve until standard input ends."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--port", type=int, default=0)
+    port = parser.parse_args().port
+    hub = LiveHub()
+    feeder = Feeder(hub)
+    door = socket.create_server(("127.0.0.1", port), reuse_port=False)
+    app = create_app(AppParts(hub=hub, config=Config(), setup=setup()))
+    server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
+    threading.Thread(target=server.run, args=([door],), name="web server", daemon=True).start()
+    feeder.start()
+    sys.stdout.write(f"{door.getsockname()[1]}\n")
+    sys.stdout.flush()
+    for line in sys.stdin:
+        feeder.mode = line.strip()
+
+
+if __name__ == "__main__":
+    main()

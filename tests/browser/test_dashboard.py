@@ -1,0 +1,223 @@
+"""The dashboard in a real browser, over a real server whose feeder does as it is told."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, Route, expect
+
+from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, Watched
+
+pytestmark = pytest.mark.browser
+
+Watch = Callable[..., Watched]
+
+expect.set_options(timeout=PATIENCE_MS)
+
+# A digest of what stands on the canvas, and whether anything does.
+DIGEST = """canvas => {
+    const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    let digest = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+        digest = (digest * 31 + pixels[i] + pixels[i + 1] + pixels[i + 2]) | 0;
+    }
+    return digest;
+}"""
+BLACK = """canvas => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data
+    .every((value, index) => index % 4 === 3 || value === 0)"""
+
+
+def is_live(page: Page, pane: str, *, live: bool = True) -> None:
+    expect(page.get_by_test_id(pane)).to_have_attribute("data-live", "true" if live else "false")
+
+
+def test_picture_moves_and_numbers_change(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open()
+    is_live(page, "video")
+    is_live(page, "numbers")
+    canvas = page.locator("canvas")
+    depth = page.get_by_test_id("reading-depth")
+    first_picture, first_depth = canvas.evaluate(DIGEST), depth.inner_text()
+    expect(depth).not_to_have_text(first_depth)
+    page.wait_for_function(
+        f"first => ({DIGEST})(document.querySelector('canvas')) !== first", arg=first_picture
+    )
+    for name in ("entry", "angle", "depth", "toGo"):
+        expect(page.get_by_test_id(f"reading-{name}")).to_have_text(re.compile(r"^−?\d+\.\d$"))
+    expect(page.get_by_test_id("search-time")).to_contain_text("6.3 ms")
+    expect(page.get_by_test_id("marker-drill")).to_contain_text("93 %")
+    expect(page.get_by_text("Research software, not a medical device")).to_be_visible()
+
+
+def test_scene_is_uncovered_when_it_has_drawn(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open()
+    is_live(page, "scene")
+    expect(page.get_by_test_id("scene-cover")).to_be_hidden()
+    expect(page.get_by_test_id("scene-stamp")).to_contain_text("image")
+
+
+def test_silence_is_said_by_the_page_itself_and_passes(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open()
+    is_live(page, "numbers")
+    theatre.tell("stop")
+    is_live(page, "numbers", live=False)
+    is_live(page, "video", live=False)
+    expect(page.get_by_test_id("no-tracking")).to_contain_text("NO TRACKING")
+    expect(page.get_by_test_id("untracked-for")).to_have_text(re.compile(r"\d s$"))
+    expect(page.get_by_test_id("reading-depth")).to_have_text("—")
+    expect(page.get_by_test_id("video-cover")).to_contain_text("NO VIDEO")
+    is_live(page, "scene", live=False)
+    # The server answers questions: it is not called gone.
+    expect(page.get_by_test_id("link-state")).to_contain_text("connected")
+    assert page.locator("canvas").evaluate(BLACK), "an old picture is still on the canvas"
+    theatre.tell("live")
+    is_live(page, "video")
+    is_live(page, "numbers")
+
+
+def test_burned_in_numbers_of_a_late_picture_are_made_illegible(theatre: Theatre, watch: Watch) -> None:
+    watched = watch(theatre)
+
+    def patient(route: Route) -> None:
+        said = route.fetch().json()
+        route.fulfill(json={**said, "limits": {**said["limits"], "video_stale_after_ms": 600_000}})
+
+    watched.page.route("**/api/dashboard", patient)
+    page = watched.open()
+    is_live(page, "numbers")
+    theatre.tell("stop")
+    is_live(page, "numbers", live=False)
+    is_live(page, "video")
+    expect(page.get_by_test_id("video-late")).to_be_visible()
+    assert "blur" in page.locator("canvas").evaluate("canvas => getComputedStyle(canvas).filter")
+
+
+def test_marker_out_of_view_takes_the_numbers_and_leaves_the_video(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open()
+    is_live(page, "numbers")
+    theatre.tell("unseen")
+    is_live(page, "numbers", live=False)
+    is_live(page, "video")
+    expect(page.get_by_test_id("numbers")).to_contain_text("too few of its edges are there")
+    expect(page.get_by_test_id("reading-entry")).to_have_text("—")
+
+
+def test_lost_camera_is_told_with_its_remedy(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open()
+    is_live(page, "video")
+    theatre.tell("lost")
+    expect(page.get_by_test_id("alert")).to_contain_text("The camera has given no image for 2.0 s")
+    expect(page.get_by_test_id("alert")).to_contain_text("Check the camera's cable")
+    expect(page.get_by_test_id("video-cover")).to_contain_text("NO VIDEO")
+    expect(page.get_by_test_id("video-cover")).to_contain_text("CAMERA LOST")
+    theatre.tell("live")
+    is_live(page, "video")
+    expect(page.get_by_test_id("alert")).to_have_count(0)
+
+
+def test_camera_without_calibration_claims_no_millimetres(theatre: Theatre, watch: Watch) -> None:
+    theatre.tell("bare")
+    page = watch(theatre).open()
+    is_live(page, "video")
+    expect(page.get_by_test_id("numbers")).to_contain_text("CAMERA NOT CALIBRATED")
+    expect(page.get_by_test_id("reading-entry")).to_have_text("—")
+
+
+def test_killed_server_is_said_and_comes_back_without_reload(watch: Watch) -> None:
+    with Theatre() as first:
+        # A lost connection is written to the browser's console by the browser itself.
+        page = watch(first, strict=False).open()
+        is_live(page, "video")
+        page.evaluate("window.neverReloaded = true")
+        first.kill()
+        expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+        expect(page.get_by_test_id("video-cover")).to_contain_text("SERVER GONE")
+        is_live(page, "numbers", live=False)
+        with Theatre(first.port):
+            is_live(page, "video")
+            is_live(page, "numbers")
+            assert page.evaluate("window.neverReloaded") is True
+
+
+def test_server_that_hangs_is_called_gone_though_its_sockets_stand(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre, strict=False).open()
+    is_live(page, "video")
+    theatre.freeze()
+    try:
+        expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+        is_live(page, "video", live=False)
+        is_live(page, "numbers", live=False)
+        is_live(page, "scene", live=False)
+    finally:
+        theatre.thaw()
+    is_live(page, "video")
+    is_live(page, "numbers")
+
+
+def test_picture_is_empty_when_a_hidden_page_comes_back(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open()
+    is_live(page, "video")
+    theatre.tell("stop")
+    page.evaluate(
+        """() => {
+            Object.defineProperty(document, "visibilityState", { value: "hidden", configurable: true });
+            document.dispatchEvent(new Event("visibilitychange"));
+        }"""
+    )
+    # At once, in the same turn: nothing old may be left for the screen that comes back.
+    assert page.get_by_test_id("video").get_attribute("data-live") == "false"
+    assert page.get_by_test_id("numbers").get_attribute("data-live") == "false"
+    assert page.locator("canvas").evaluate(BLACK)
+
+
+def test_speaks_another_language(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open("?lang=de")
+    expect(page.get_by_text("Forschungssoftware, kein Medizinprodukt")).to_be_visible()
+    expect(page.locator("html")).to_have_attribute("lang", "de")
+
+
+@pytest.mark.parametrize(
+    ("width", "height"),
+    [(1920, 1080), (1024, 768), (820, 1180), (390, 844)],
+    ids=["theatre", "tablet-lying", "tablet-upright", "phone"],
+)
+def test_fits_the_screen_with_the_video_first(
+    theatre: Theatre, watch: Watch, width: int, height: int
+) -> None:
+    page = watch(theatre, width, height).open()
+    is_live(page, "video")
+    is_live(page, "scene")
+    is_live(page, "numbers")
+    picture(page, f"dashboard-{width}x{height}")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    boxes = [page.get_by_test_id(name).bounding_box() for name in ("video", "numbers", "scene")]
+    video, numbers, scene = (box for box in boxes if box is not None)
+    assert video["y"] <= numbers["y"] + 60
+    assert video["y"] < scene["y"]
+    assert video["width"] * video["height"] > scene["width"] * scene["height"]
+    if width == 1920:
+        assert page.evaluate("document.documentElement.scrollHeight") <= height
+        size = page.get_by_test_id("reading-depth").evaluate("e => parseFloat(getComputedStyle(e).fontSize)")
+        assert size >= 64.0
+
+
+def test_failure_looks_like_failure(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre, 1920, 1080).open()
+    is_live(page, "scene")
+    theatre.tell("lost")
+    is_live(page, "video", live=False)
+    is_live(page, "scene", live=False)
+    picture(page, "camera-lost-1920x1080")
+    theatre.tell("unseen")
+    is_live(page, "video")
+    is_live(page, "scene")
+    picture(page, "marker-unseen-1920x1080")
+
+
+def picture(page: Page, name: str) -> Path:
+    """A screenshot to look at."""
+    SCREENSHOTS.mkdir(exist_ok=True)
+    path = SCREENSHOTS / f"{name}.png"
+    page.screenshot(path=path, animations="disabled")
+    return path

@@ -1,0 +1,102 @@
+import { describe, expect, test } from "vitest";
+import { numbersVerdict, videoVerdict, type Cause, type Situation } from "./assess";
+import { message, situation, snapshot, taken } from "./builders";
+
+const NOW = 1000;
+const source = message().source;
+const process = message().process;
+
+const GONE: [string, Partial<Situation>, Cause][] = [
+  ["page hidden", { hidden: true }, "hidden"],
+  ["first start", { link: "connecting", heardAtMs: null, newest: null }, "connecting"],
+  ["line open, nothing said yet", { newest: null }, "connecting"],
+  ["line lost", { link: "lost" }, "server-gone"],
+  ["line said to stand, but silent", { heardAtMs: NOW - 801 }, "server-gone"],
+  [
+    "tracking starts",
+    { newest: message({ process: { ...process, state: "starting" } }) },
+    "process-starting",
+  ],
+  [
+    "tracking restarts",
+    { newest: message({ process: { ...process, state: "restarting" } }) },
+    "process-restarting",
+  ],
+  [
+    "tracking given up",
+    { newest: message({ process: { ...process, state: "given_up" } }) },
+    "process-given_up",
+  ],
+  ["camera opens", { newest: message({ source: { ...source, state: "opening" } }) }, "source-opening"],
+  [
+    "camera lost",
+    { newest: message({ source: { ...source, state: "reconnecting" } }) },
+    "source-reconnecting",
+  ],
+  ["file at its end", { newest: message({ source: { ...source, state: "ended" } }) }, "source-ended"],
+  ["no snapshot", { newest: message({ snapshot: null }) }, "no-image"],
+];
+
+describe("what takes picture and numbers away, however young they are", () => {
+  test.each(GONE)("%s", (_, changes, cause) => {
+    expect(videoVerdict(situation(changes), NOW)).toMatchObject({ live: false, cause });
+    expect(numbersVerdict(situation(changes), NOW)).toMatchObject({ live: false, cause });
+  });
+});
+
+describe("age", () => {
+  test.each([
+    [150, true],
+    [150.1, false],
+  ])("numbers %d ms old: live %s", (ageMs, live) => {
+    expect(numbersVerdict(situation({ numbers: taken(NOW - ageMs) }), NOW).live).toBe(live);
+  });
+
+  test.each([
+    [500, true],
+    [500.1, false],
+  ])("picture %d ms old: live %s", (ageMs, live) => {
+    expect(videoVerdict(situation({ picture: taken(NOW - ageMs) }), NOW).live).toBe(live);
+  });
+
+  test("an age that is no number is never live", () => {
+    expect(numbersVerdict(situation({ numbers: taken(NaN) }), NOW).live).toBe(false);
+    expect(videoVerdict(situation({ picture: taken(NaN) }), NOW).live).toBe(false);
+  });
+
+  test("numbers without a picture stand, the picture does not", () => {
+    expect(numbersVerdict(situation({ picture: null }), NOW).live).toBe(true);
+    expect(videoVerdict(situation({ picture: null }), NOW)).toMatchObject({ live: false, cause: "no-image" });
+  });
+});
+
+describe("what the image says", () => {
+  test("the first tool with numbers is read, whatever stands before it", () => {
+    const known = snapshot().tools[0];
+    if (!known) throw new Error("the builder has a tool");
+    const awl = { ...known, name: "awl", deviation: { kind: "absent", reason: "MARKER_UNSEEN" } } as const;
+    const numbers = taken(960, { tools: [awl, known] });
+    expect(numbersVerdict(situation({ numbers }), NOW)).toMatchObject({
+      live: true,
+      reading: { tool: "drill" },
+    });
+  });
+
+  test("a tool that is not seen has no numbers, but its marker's reason", () => {
+    const tools = snapshot().tools.map((tool) => ({
+      ...tool,
+      deviation: { kind: "absent", reason: "MARKER_UNSEEN" } as const,
+    }));
+    expect(numbersVerdict(situation({ numbers: taken(960, { tools }) }), NOW)).toMatchObject({
+      live: false,
+      cause: "unread",
+      unread: { reason: "MARKER_UNSEEN", marker: "drill", unseen: "SCORE_TOO_LOW" },
+    });
+  });
+
+  test("no tool at all: says that the marker is not seen first", () => {
+    expect(numbersVerdict(situation({ numbers: taken(960, { tools: [] }) }), NOW)).toMatchObject({
+      unread: { reason: "MARKER_UNSEEN" },
+    });
+  });
+});

@@ -1,0 +1,91 @@
+// What may be shown now. Pure: a situation and a time go in, a verdict for each pane comes out.
+import type { Reading } from "./reading";
+import { readingOf, type Unread } from "./reading";
+import type { LiveMessage, SnapshotMessage } from "./messages";
+import type { LinkState } from "./line";
+
+export interface Limits {
+  pose_stale_after_ms: number;
+  video_stale_after_ms: number;
+  scene_stale_after_ms: number;
+}
+
+/** One image's message with its capture time on the page's clock. */
+export interface Taken {
+  snapshot: SnapshotMessage;
+  capturedAtMs: number;
+  receivedAtMs: number;
+}
+
+export interface Situation {
+  link: LinkState;
+  hidden: boolean;
+  heardAtMs: number | null;
+  newest: LiveMessage | null;
+  /** Whose numbers stand on the page. */
+  numbers: Taken | null;
+  /** Whose picture stands on the canvas. */
+  picture: Taken | null;
+  limits: Limits;
+}
+
+/** Why a pane shows nothing, from the server's end down to the image. */
+export type Cause =
+  | "hidden"
+  | "connecting"
+  | "server-gone"
+  | "process-starting"
+  | "process-restarting"
+  | "process-given_up"
+  | "source-opening"
+  | "source-reconnecting"
+  | "source-ended"
+  | "no-image"
+  | "old";
+
+export type VideoVerdict =
+  { live: true; imageNumber: number; ageMs: number } | { live: false; cause: Cause; ageMs: number | null };
+
+export type NumbersVerdict =
+  | { live: true; reading: Reading; imageNumber: number; ageMs: number }
+  | { live: false; cause: Cause | "unread"; unread: Unread | null; ageMs: number | null };
+
+/** Nothing heard for this long, though the line is said to stand: the server is gone. */
+export const SILENT_AFTER_MS = 800;
+
+export function videoVerdict(situation: Situation, nowMs: number): VideoVerdict {
+  const { picture, limits } = situation;
+  const ageMs = picture === null ? null : nowMs - picture.capturedAtMs;
+  const cause = commonCause(situation, nowMs);
+  if (cause !== null) return { live: false, cause, ageMs };
+  if (picture === null || ageMs === null) return { live: false, cause: "no-image", ageMs: null };
+  if (!(ageMs <= limits.video_stale_after_ms)) return { live: false, cause: "old", ageMs };
+  return { live: true, imageNumber: picture.snapshot.image_number, ageMs };
+}
+
+export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerdict {
+  const { numbers, limits } = situation;
+  const ageMs = numbers === null ? null : nowMs - numbers.capturedAtMs;
+  const cause = commonCause(situation, nowMs);
+  if (cause !== null) return { live: false, cause, unread: null, ageMs };
+  if (numbers === null || ageMs === null) {
+    return { live: false, cause: "no-image", unread: null, ageMs: null };
+  }
+  if (!(ageMs <= limits.pose_stale_after_ms)) return { live: false, cause: "old", unread: null, ageMs };
+  const reading = readingOf(numbers.snapshot);
+  if (!reading.known) return { live: false, cause: "unread", unread: reading, ageMs };
+  return { live: true, reading, imageNumber: numbers.snapshot.image_number, ageMs };
+}
+
+/** What takes everything away at once, or null. */
+export function commonCause(situation: Situation, nowMs: number): Cause | null {
+  const { link, hidden, heardAtMs, newest } = situation;
+  if (hidden) return "hidden";
+  if (link === "connecting" && heardAtMs === null) return "connecting";
+  if (link !== "open") return "server-gone";
+  if (heardAtMs !== null && nowMs - heardAtMs > SILENT_AFTER_MS) return "server-gone";
+  if (newest === null) return "connecting";
+  if (newest.process.state !== "running") return `process-${newest.process.state}`;
+  if (newest.source.state !== "running") return `source-${newest.source.state}`;
+  return newest.snapshot === null ? "no-image" : null;
+}

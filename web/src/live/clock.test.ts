@@ -1,0 +1,27 @@
+import { expect, test } from "vitest";
+import { ServerClock } from "./clock";
+
+test("without a comparison, the stated age counts from receipt", () => {
+  expect(new ServerClock().capturedAtMs(1000, 20, 55)).toBe(980);
+});
+
+test("an image is never taken for younger than the server states", () => {
+  const clock = new ServerClock();
+  clock.sample(1000, 1000, 99); // says that the image was grabbed in the future
+  expect(clock.capturedAtMs(1000, 20, 100)).toBe(980);
+});
+
+test("half the round trip is taken out of the comparison", () => {
+  const clock = new ServerClock();
+  clock.sample(1000, 1100, 100);
+  expect(clock.capturedAtMs(1500, 20, 100.2)).toBe(1250);
+});
+
+test.each([
+  [1000, 2001],
+  [1000, 999],
+])("a sample from %d to %d says too little and is dropped", (askedAtMs, answeredAtMs) => {
+  const clock = new ServerClock();
+  clock.sample(askedAtMs, answeredAtMs, 1);
+  expect(clock.capturedAtMs(1000, 20, 0)).toBe(980);
+});

@@ -1,0 +1,28 @@
+// The server's monotonic clock as seen from the page, so that time on the line counts as age too.
+
+/** A sample taken over a slower line than this says too little. */
+const MAX_ROUND_TRIP_MS = 1000;
+
+export class ServerClock {
+  private offsetMs: number | null = null;
+
+  /** From a question asked at `askedAtMs` and answered at `answeredAtMs` with the server's `sentAtS`. */
+  sample(askedAtMs: number, answeredAtMs: number, sentAtS: number): void {
+    const roundTripMs = answeredAtMs - askedAtMs;
+    if (!(roundTripMs >= 0 && roundTripMs <= MAX_ROUND_TRIP_MS)) return;
+    this.offsetMs = sentAtS * 1000 - (askedAtMs + answeredAtMs) / 2;
+  }
+
+  forget(): void {
+    this.offsetMs = null;
+  }
+
+  /**
+   * When an image was grabbed, on the page's clock: the earlier of what the server states (age at sending,
+   * counted from receipt) and what the clocks say, so that an image is never taken for younger than it is.
+   */
+  capturedAtMs(receivedAtMs: number, ageMs: number, capturedAtS: number): number {
+    const stated = receivedAtMs - Math.max(ageMs, 0);
+    return this.offsetMs === null ? stated : Math.min(stated, capturedAtS * 1000 - this.offsetMs);
+  }
+}

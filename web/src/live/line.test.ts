@@ -1,0 +1,118 @@
+import { beforeEach, expect, test } from "vitest";
+import { LONGEST_WAIT_MS, waitBeforeMs } from "./backoff";
+import { bytes, message } from "./builders";
+import { ViewLine, type Socket } from "./line";
+
+class FakeSocket implements Socket {
+  binaryType: BinaryType = "blob";
+  onopen: (() => void) | null = null;
+  onmessage: ((event: { data: unknown }) => void) | null = null;
+  onclose: (() => void) | null = null;
+  sent: string[] = [];
+  closed = false;
+  send(text: string): void {
+    this.sent.push(text);
+  }
+  close(): void {
+    this.closed = true;
+  }
+}
+
+let sockets: FakeSocket[];
+let waits: { action: () => void; waitMs: number }[];
+let states: string[];
+let images: number[];
+let line: ViewLine;
+
+const newest = (): FakeSocket => {
+  const socket = sockets.at(-1);
+  if (!socket) throw new Error("no socket was opened");
+  return socket;
+};
+/** Lets the time pass that the last wait asked for. */
+const passWait = (waitMs: number): void => {
+  const due = waits.filter((wait) => wait.waitMs === waitMs);
+  waits = waits.filter((wait) => wait.waitMs !== waitMs);
+  for (const { action } of due) action();
+};
+
+beforeEach(() => {
+  sockets = [];
+  waits = [];
+  states = [];
+  images = [];
+  line = new ViewLine({
+    open: () => {
+      sockets.push(new FakeSocket());
+      return newest();
+    },
+    later: (action, waitMs) => waits.push({ action, waitMs }),
+    onLink: (state) => states.push(state),
+    onFrame: (frame) => images.push(frame.message.sequence),
+  });
+  line.start();
+});
+
+test("waits grow, and never over half a second", () => {
+  expect([0, 1, 2, 3, 50].map(waitBeforeMs)).toEqual([100, 200, 400, 500, LONGEST_WAIT_MS]);
+});
+
+test("grants one image when it opens, and no other before it is told", () => {
+  newest().onopen?.();
+  newest().onmessage?.({ data: bytes(message()) });
+  expect(newest().sent).toEqual(['{"next":true}']);
+  line.grant();
+  expect(newest().sent).toHaveLength(2);
+  expect(images).toEqual([7]);
+});
+
+test("a lost line is said at once and taken up again", () => {
+  newest().onopen?.();
+  newest().onclose?.();
+  expect(states).toEqual(["open", "lost"]);
+  passWait(100);
+  expect(sockets).toHaveLength(2);
+  newest().onclose?.();
+  passWait(200);
+  expect(sockets).toHaveLength(3);
+});
+
+test("the first message sets the wait back to its shortest", () => {
+  newest().onclose?.();
+  passWait(100);
+  newest().onopen?.();
+  newest().onmessage?.({ data: bytes(message()) });
+  newest().onclose?.();
+  passWait(100);
+  expect(sockets).toHaveLength(3);
+});
+
+test("a bad message costs the line, and nothing of it is shown", () => {
+  newest().onopen?.();
+  newest().onmessage?.({ data: new ArrayBuffer(2) });
+  expect(images).toEqual([]);
+  expect(states).toEqual(["open", "lost"]);
+  expect(newest().closed).toBe(true);
+});
+
+test("a server that takes the call and never answers is left", () => {
+  passWait(2000);
+  expect(states).toEqual(["lost"]);
+  passWait(100);
+  expect(sockets).toHaveLength(2);
+});
+
+test("what a lost line still brings is not heard", () => {
+  const old = newest();
+  old.onopen?.();
+  line.restart();
+  expect(old.onmessage).toBeNull();
+  expect(old.onclose).toBeNull();
+});
+
+test("a stopped line stays down", () => {
+  newest().onclose?.();
+  line.stop();
+  passWait(100);
+  expect(sockets).toHaveLength(1);
+});

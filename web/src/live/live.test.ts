@@ -1,0 +1,118 @@
+import { beforeEach, expect, test } from "vitest";
+import { message, snapshot } from "./builders";
+import { Live } from "./live";
+
+let nowMs: number;
+let live: Live;
+const jpeg = new Uint8Array([1]);
+const frame = (imageNumber: number, ageMs = 20) => ({
+  message: message({
+    sequence: imageNumber,
+    snapshot: snapshot({ image_number: imageNumber, age_ms: ageMs }),
+  }),
+  jpeg,
+});
+
+beforeEach(() => {
+  nowMs = 1000;
+  live = new Live(() => nowMs);
+  live.setDraw(() => Promise.resolve(true));
+  live.setLink("open");
+});
+
+test("numbers go by themselves 150 ms after their image was grabbed, with no message at all", async () => {
+  await live.take(frame(1));
+  nowMs = 1130;
+  expect(live.look().numbers.live).toBe(true);
+  nowMs = 1131;
+  expect(live.look().numbers).toMatchObject({ live: false, cause: "old" });
+  expect(live.look().video.live).toBe(true);
+  nowMs = 1481;
+  expect(live.look().video).toMatchObject({ live: false, cause: "old" });
+});
+
+test("the time without numbers is counted from the last image that had them", async () => {
+  await live.take(frame(1));
+  nowMs = 2180;
+  expect(live.look().untrackedMs).toBe(1200);
+});
+
+test("numbers that were too old come back only when young for a while", async () => {
+  await live.take(frame(1, 200));
+  nowMs = 1100;
+  await live.take(frame(2));
+  expect(live.look().numbers).toMatchObject({ live: false, cause: "old" });
+  nowMs = 1251;
+  await live.take(frame(3));
+  expect(live.look().numbers.live).toBe(true);
+});
+
+test("a picture that was taken away never comes back, only a new one does", async () => {
+  await live.take(frame(1));
+  live.setHidden(true);
+  live.setHidden(false);
+  expect(live.look().video.live).toBe(false);
+  await live.take(frame(2));
+  expect(live.look().video).toMatchObject({ live: true, imageNumber: 2 });
+});
+
+test("numbers wait for their picture, and both change together", async () => {
+  await live.take(frame(1));
+  let done: (drawn: boolean) => void = () => undefined;
+  live.setDraw(
+    () =>
+      new Promise((resolve) => {
+        done = resolve;
+      }),
+  );
+  const taking = live.take(frame(2));
+  expect(live.look().numbers).toMatchObject({ imageNumber: 1 });
+  done(true);
+  await taking;
+  expect(live.look()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 2 } });
+});
+
+test("a picture that cannot be drawn leaves its numbers, and the page can say that they differ", async () => {
+  await live.take(frame(1));
+  live.setDraw(() => Promise.resolve(false));
+  await live.take(frame(2));
+  expect(live.look()).toMatchObject({ numbers: { imageNumber: 2 }, video: { imageNumber: 1 } });
+});
+
+test("what was being drawn when the line was lost is not shown on the next line", async () => {
+  let done: (drawn: boolean) => void = () => undefined;
+  live.setDraw(
+    () =>
+      new Promise((resolve) => {
+        done = resolve;
+      }),
+  );
+  const taking = live.take(frame(1));
+  live.setLink("lost");
+  live.setLink("open");
+  done(true);
+  expect(await taking).toBe(false);
+  expect(live.look().numbers.live).toBe(false);
+});
+
+test("time on the line counts as age: the clocks are compared, the stated age is not enough", async () => {
+  // Asked at 1000, answered at 1000: the server's clock stands at 100.02 s.
+  live.answered(message(), nowMs, live.currentGeneration);
+  nowMs = 1400;
+  await live.take(frame(8)); // grabbed at 100.0 s, 20 ms old when sent, 400 ms under way
+  expect(live.look().numbers).toMatchObject({ live: false, ageMs: 420 });
+});
+
+test("an answer that came too late for its line is not heard", () => {
+  const generation = live.currentGeneration;
+  live.setLink("lost");
+  live.setLink("open");
+  live.answered(message(), nowMs, generation);
+  expect(live.look().newest).toBeNull();
+});
+
+test("a server that says nothing any more is gone within a second", async () => {
+  await live.take(frame(1));
+  nowMs = 1801;
+  expect(live.look().video).toMatchObject({ live: false, cause: "server-gone" });
+});

@@ -1,0 +1,177 @@
+// All that the page knows of now: one line in, one verdict for each pane out, looked at again with every
+// image of the screen and by a timer, so that what is old goes by itself.
+import {
+  numbersVerdict,
+  videoVerdict,
+  type Limits,
+  type NumbersVerdict,
+  type Situation,
+  type Taken,
+  type VideoVerdict,
+} from "./assess";
+import { ServerClock } from "./clock";
+import type { ViewFrame } from "./frame";
+import type { LinkState } from "./line";
+import type { LiveMessage } from "./messages";
+import { ReturnHold } from "./returnHold";
+import { SceneAge, type SceneNote, type SceneVerdict } from "./sceneAge";
+
+export interface View {
+  nowMs: number;
+  link: LinkState;
+  silentMs: number;
+  newest: LiveMessage | null;
+  video: VideoVerdict;
+  numbers: NumbersVerdict;
+  /** How long there have been no numbers; null while there are, or when there never were. */
+  untrackedMs: number | null;
+  scene: SceneVerdict;
+}
+
+/** Draws the picture of a frame; false when it cannot be drawn. */
+export type Draw = (jpeg: Uint8Array<ArrayBuffer>, isCurrent: () => boolean) => Promise<boolean>;
+
+export const DEFAULT_LIMITS: Limits = {
+  pose_stale_after_ms: 150,
+  video_stale_after_ms: 500,
+  scene_stale_after_ms: 500,
+};
+
+export class Live {
+  private draw: Draw = () => Promise.resolve(false);
+  private readonly is: Situation = {
+    link: "connecting",
+    hidden: false,
+    heardAtMs: null,
+    newest: null,
+    numbers: null,
+    picture: null,
+    limits: DEFAULT_LIMITS,
+  };
+  private trackedAtMs: number | null = null;
+  /** Grows with each line, so that what a lost line still delivers is dropped. */
+  private generation = 0;
+  private readonly clock = new ServerClock();
+  private readonly hold = new ReturnHold();
+  private readonly sceneAge = new SceneAge();
+  private readonly painters = new Set<(view: View) => void>();
+
+  constructor(private readonly now: () => number) {}
+
+  /** Called with every look; must only touch the page where something changed. */
+  onLook(painter: (view: View) => void): () => void {
+    this.painters.add(painter);
+    return () => this.painters.delete(painter);
+  }
+
+  look(): View {
+    const nowMs = this.now();
+    const numbers = this.held(numbersVerdict(this.is, nowMs), nowMs);
+    if (numbers.live) this.trackedAtMs = nowMs - numbers.ageMs;
+    const video = videoVerdict(this.is, nowMs);
+    // A picture that was taken away does not come back: only a new one does.
+    if (!video.live) this.is.picture = null;
+    const view: View = {
+      nowMs,
+      link: this.is.link,
+      silentMs: this.is.heardAtMs === null ? 0 : nowMs - this.is.heardAtMs,
+      newest: this.is.newest,
+      video,
+      numbers,
+      untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
+      scene: this.sceneAge.verdict(nowMs, this.is.limits.scene_stale_after_ms),
+    };
+    for (const painter of this.painters) painter(view);
+    return view;
+  }
+
+  setDraw(draw: Draw): void {
+    this.draw = draw;
+  }
+
+  setLimits(limits: Limits): void {
+    this.is.limits = limits;
+  }
+
+  setHidden(hidden: boolean): void {
+    this.is.hidden = hidden;
+    this.look();
+  }
+
+  setLink(link: LinkState): void {
+    this.is.link = link;
+    if (link === "open") this.heard();
+    else this.forget();
+    this.look();
+  }
+
+  sceneDrawn(note: SceneNote): void {
+    this.sceneAge.drawn(note, this.now());
+  }
+
+  /** Takes one frame; resolves when it stands on the page and the next may be granted. */
+  async take({ message, jpeg }: ViewFrame): Promise<boolean> {
+    const generation = this.generation;
+    const isCurrent = (): boolean => generation === this.generation;
+    const receivedAtMs = this.heard();
+    this.is.newest = message;
+    const taken = this.takenFrom(message, receivedAtMs);
+    if (taken) this.sceneAge.image(taken.snapshot.image_number, taken.capturedAtMs);
+    // Numbers and picture change together, when the picture is ready: both are of one image.
+    const drawn = taken !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent));
+    if (!isCurrent()) return false;
+    this.is.numbers = taken;
+    if (drawn) this.is.picture = taken;
+    this.look();
+    return true;
+  }
+
+  /** The answer to a question that was asked because the line was quiet, or to compare clocks. */
+  answered(message: LiveMessage | null, askedAtMs: number, generation: number): void {
+    if (generation !== this.generation) return;
+    const answeredAtMs = this.heard();
+    if (message === null) return;
+    this.clock.sample(askedAtMs, answeredAtMs, message.sent_at_s);
+    if (this.is.newest === null || message.sequence > this.is.newest.sequence) this.is.newest = message;
+  }
+
+  get hasNews(): boolean {
+    return this.is.newest !== null;
+  }
+
+  get currentGeneration(): number {
+    return this.generation;
+  }
+
+  /** For how long nothing has come over an open line; 0 while there is none. */
+  quietMs(): number {
+    return this.is.link !== "open" || this.is.heardAtMs === null ? 0 : this.now() - this.is.heardAtMs;
+  }
+
+  private heard(): number {
+    this.is.heardAtMs = this.now();
+    return this.is.heardAtMs;
+  }
+
+  private forget(): void {
+    this.generation += 1;
+    this.is.newest = this.is.numbers = this.is.picture = null;
+    this.clock.forget();
+    this.sceneAge.forget();
+  }
+
+  private takenFrom(message: LiveMessage, receivedAtMs: number): Taken | null {
+    const { snapshot } = message;
+    if (snapshot === null) return null;
+    const { age_ms, captured_at_s } = snapshot;
+    const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, age_ms, captured_at_s);
+    return { snapshot, capturedAtMs, receivedAtMs };
+  }
+
+  private held(verdict: NumbersVerdict, nowMs: number): NumbersVerdict {
+    const old = !verdict.live && verdict.cause === "old";
+    const held = this.hold.held(old, nowMs);
+    if (!held || !verdict.live) return verdict;
+    return { live: false, cause: "old", unread: null, ageMs: verdict.ageMs };
+  }
+}

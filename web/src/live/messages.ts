@@ -1,0 +1,15 @@
+// The types of all messages come from the server's schema: a field renamed there fails the build here.
+import type { components } from "../schema";
+
+type Schemas = components["schemas"];
+
+export type LiveMessage = Schemas["LiveMessage"];
+export type SnapshotMessage = Schemas["SnapshotMessage"];
+export type MarkerMessage = Schemas["MarkerMessage"];
+export type ToolStateMessage = Schemas["ToolStateMessage"];
+export type DeviationMessage = Schemas["DeviationMessage"];
+export type TroubleMessage = Schemas["TroubleMessage"];
+export type AbsentReason = Schemas["AbsentReason"];
+export type UnseenReason = Schemas["UnseenReason"];
+export type SourceState = Schemas["SourceState"];
+export type ProcessState = Schemas["ProcessState"];

@@ -1,0 +1,29 @@
+import { useEffect, useState, type ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
+import { useWords } from "../words/WordsContext";
+
+/** A state must last this long before it is read out: what flickers is not worth a voice. */
+const LASTS_MS = 700;
+
+/** Reads changes of state out, never numbers. */
+export function Announcer(): ReactNode {
+  const words = useWords();
+  const { video, numbers } = useLive().view;
+  const picture = video.live ? words.video.title : `${words.video.none}: ${words.cause[video.cause].state}`;
+  const tracking = numbers.live ? words.numbers.tracking : words.numbers.none;
+  const sentence = `${picture}. ${tracking}.`;
+  const [said, setSaid] = useState("");
+  useEffect(() => {
+    const timer = setTimeout(() => {
+      setSaid(sentence);
+    }, LASTS_MS);
+    return () => {
+      clearTimeout(timer);
+    };
+  }, [sentence]);
+  return (
+    <p className="heard-only" aria-live="polite" role="status">
+      {said}
+    </p>
+  );
+}

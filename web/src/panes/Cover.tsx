@@ -1,0 +1,30 @@
+import type { ReactNode } from "react";
+
+export type Urgency = "medium" | "low";
+
+const MARKS: Record<Urgency, string> = { medium: "▲▲", low: "●" };
+
+interface CoverProps {
+  urgency: Urgency;
+  title: string;
+  state?: string | undefined;
+  sentence: string;
+  children?: ReactNode;
+}
+
+/** Big words over what is not live. It is opaque: nothing old shines through. */
+export function Cover({ urgency, title, state, sentence, children }: CoverProps): ReactNode {
+  return (
+    <div className="cover" data-urgency={urgency}>
+      <p className="cover-title">
+        <span aria-hidden="true" className="marks">
+          {MARKS[urgency]}
+        </span>{" "}
+        {title}
+      </p>
+      {state !== undefined && <p className="cover-state">{state}</p>}
+      <p className="cover-sentence">{sentence}</p>
+      {children}
+    </div>
+  );
+}

@@ -1,0 +1,135 @@
+import { useRef, type ReactNode, type RefObject } from "react";
+import type { NumbersVerdict } from "../live/assess";
+import { usePainter, useLive } from "../live/LiveContext";
+import type { DeviationMessage } from "../live/messages";
+import { shownDuration, shownFigure, shownNumber } from "../live/rounding";
+import type { Words } from "../words/en";
+import { useWords } from "../words/WordsContext";
+import { Pane } from "./Pane";
+import { setData, setText } from "./setText";
+
+const READINGS = ["entry", "angle", "depth", "toGo"] as const;
+type ReadingName = (typeof READINGS)[number];
+
+const REMOVED = "—";
+
+/** The surgeon's numbers; removed, with words in their place, the moment they are not live. */
+export function NumbersPane(): ReactNode {
+  const words = useWords();
+  const { view } = useLive();
+  const pane = useRef<HTMLDivElement>(null);
+  const since = useRef<HTMLSpanElement>(null);
+  const tip = useRef<HTMLSpanElement>(null);
+  const difference = useRef<HTMLParagraphElement>(null);
+
+  usePainter(({ numbers, video, untrackedMs }) => {
+    setData(pane.current, "live", String(numbers.live));
+    const deviation = numbers.live ? numbers.reading.deviation : null;
+    for (const name of READINGS) paintReading(pane.current, name, deviation, words);
+    setText(since.current, untrackedMs === null ? "" : shownDuration(untrackedMs));
+    setText(tip.current, tipText(numbers, words));
+    const differ = numbers.live && video.live && numbers.imageNumber !== video.imageNumber;
+    setText(
+      difference.current,
+      differ
+        ? `${words.numbers.numbersOf} ${numbers.imageNumber}, ${words.numbers.pictureOf} ${video.imageNumber}`
+        : "",
+    );
+  });
+
+  return (
+    <Pane id="numbers" title={words.numbers.title}>
+      <div className="numbers" data-testid="numbers" data-live="false" ref={pane}>
+        <div className="numbers-state">
+          {view.numbers.live ? (
+            <p className="state-good">
+              <span aria-hidden="true">●</span> {words.numbers.tracking} · {view.numbers.reading.tool}
+            </p>
+          ) : (
+            <p className="state-bad" data-testid="no-tracking">
+              <span aria-hidden="true">▲▲</span> {words.numbers.none} <Since span={since} />
+            </p>
+          )}
+          <p className="state-why">
+            {whyWords(view.numbers, words)}
+            <span data-testid="tip" ref={tip} />
+          </p>
+        </div>
+        {READINGS.map((name) => (
+          <div className="reading" data-reading={name} key={name}>
+            <p className="reading-name">
+              {words.reading[name].name}
+              <small data-part="hint">{words.reading[name].hint}</small>
+            </p>
+            <p className="reading-value">
+              <output data-part="value" data-testid={`reading-${name}`} aria-live="off">
+                {REMOVED}
+              </output>
+              <span className="unit">{words.reading[name].unit}</span>
+            </p>
+          </div>
+        ))}
+        <p className="difference" ref={difference} />
+      </div>
+    </Pane>
+  );
+}
+
+function Since({ span }: { span: RefObject<HTMLSpanElement | null> }): ReactNode {
+  return <span className="since" data-testid="untracked-for" ref={span} />;
+}
+
+function whyWords(numbers: NumbersVerdict, words: Words): string {
+  if (numbers.live) return "";
+  if (numbers.cause !== "unread")
+    return `${words.cause[numbers.cause].state} · ${words.cause[numbers.cause].sentence}`;
+  const { unread } = numbers;
+  if (unread === null) return "";
+  const { state, sentence } = words.absent[unread.reason];
+  const why = unread.unseen === null ? sentence : `${unread.marker ?? ""}: ${words.unseen[unread.unseen]}`;
+  return `${state} · ${why}`;
+}
+
+function tipText(numbers: NumbersVerdict, words: Words): string {
+  if (!numbers.live) return "";
+  const { tipSdMm } = numbers.reading;
+  return tipSdMm === null ? words.numbers.tipUnknown : `${words.numbers.tip} ${shownNumber(tipSdMm, 2)} mm`;
+}
+
+function paintReading(
+  pane: HTMLElement | null,
+  name: ReadingName,
+  deviation: DeviationMessage | null,
+  words: Words,
+): void {
+  const tile = pane?.querySelector<HTMLElement>(`[data-reading=${name}]`);
+  if (!tile) return;
+  setText(
+    tile.querySelector("[data-part=value]"),
+    deviation ? shownFigure(valueOf(deviation, name)) : REMOVED,
+  );
+  setText(tile.querySelector("[data-part=hint]"), hintOf(deviation, name, words));
+  setData(tile, "past", String(name === "toGo" && deviation !== null && deviation.remaining_mm < 0));
+}
+
+function valueOf(deviation: DeviationMessage, name: ReadingName): number | null {
+  switch (name) {
+    case "entry":
+      return deviation.entry_offset_mm;
+    case "angle":
+      return deviation.angle_deg;
+    case "depth":
+      return deviation.depth_mm;
+    case "toGo":
+      return deviation.remaining_mm;
+  }
+}
+
+function hintOf(deviation: DeviationMessage | null, name: ReadingName, words: Words): string {
+  const { depthWords } = words;
+  if (deviation === null) return words.reading[name].hint;
+  if (name === "entry" && deviation.entry_offset_mm === null) return depthWords.across;
+  if (name === "depth") return deviation.depth_mm < 0 ? depthWords.before : depthWords.inside;
+  if (name === "toGo" && deviation.remaining_mm < 0) return `▲▲▲ ${depthWords.past}`;
+  return words.reading[name].hint;
+}

@@ -1,0 +1,70 @@
+import { useEffect, useRef, useState, type ReactNode } from "react";
+import { usePainter, useLive } from "../live/LiveContext";
+import { shownDuration, shownNumber } from "../live/rounding";
+import { useWords } from "../words/WordsContext";
+import { Cover } from "./Cover";
+import { Pane } from "./Pane";
+import { setData, setText } from "./setText";
+
+/** A scene that says nothing for this long, while the server is there, is loaded anew. */
+const RELOAD_AFTER_MS = 15_000;
+
+/** The 3-D scene in its frame, covered whenever what it has drawn is not live. */
+export function ScenePane(): ReactNode {
+  const words = useWords();
+  const { view } = useLive();
+  const stage = useRef<HTMLDivElement>(null);
+  const stamp = useRef<HTMLParagraphElement>(null);
+  const age = useRef<HTMLSpanElement>(null);
+  const [attempt, setAttempt] = useState(0);
+  // Before the server has spoken there is no scene to load; a frame loaded then would show an error page.
+  const known = view.newest !== null;
+  const [wanted, setWanted] = useState(known);
+  if (known && !wanted) setWanted(true);
+
+  usePainter(({ scene }) => {
+    setData(stage.current, "live", String(scene.state === "live"));
+    const behind = scene.state === "live" && scene.behindImages > 0 ? ` (−${scene.behindImages})` : "";
+    setText(
+      stamp.current,
+      scene.state === "live"
+        ? `${words.video.image} ${scene.imageNumber}${behind} · ${words.video.age} ${shownNumber(scene.ageMs, 0)} ms`
+        : "",
+    );
+    setText(age.current, scene.state === "stale" && scene.ageMs !== null ? shownDuration(scene.ageMs) : "");
+  });
+
+  const lives = view.scene.state === "live";
+  const reachable = view.link === "open";
+  useEffect(() => {
+    if (lives || !wanted || !reachable) return;
+    const timer = setTimeout(() => {
+      setAttempt((count) => count + 1);
+    }, RELOAD_AFTER_MS);
+    return () => {
+      clearTimeout(timer);
+    };
+  }, [lives, wanted, reachable, attempt]);
+
+  const loading = view.scene.state === "loading";
+  return (
+    <Pane
+      id="scene"
+      title={words.scene.title}
+      aside={<p className="stamp" data-testid="scene-stamp" ref={stamp} />}
+    >
+      <div className="scene-stage" data-testid="scene" data-live="false" ref={stage}>
+        {wanted && <iframe key={attempt} src="/scene/" title={words.scene.title} />}
+        <div className="when-stale" data-testid="scene-cover">
+          <Cover
+            urgency={loading ? "low" : "medium"}
+            title={loading ? words.scene.loading : words.scene.stale}
+            sentence={loading ? words.scene.loadingHint : words.scene.staleHint}
+          >
+            <span className="since" ref={age} />
+          </Cover>
+        </div>
+      </div>
+    </Pane>
+  );
+}

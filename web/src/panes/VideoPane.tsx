@@ -1,0 +1,69 @@
+import { useEffect, useRef, type ReactNode } from "react";
+import { useLive, usePainter } from "../live/LiveContext";
+import { shownNumber } from "../live/rounding";
+import { useWords } from "../words/WordsContext";
+import { Cover } from "./Cover";
+import { clearPicture, drawPicture } from "./drawPicture";
+import { Pane } from "./Pane";
+import { setData, setText } from "./setText";
+import { troublesOf } from "./troubles";
+
+/** The live video: a canvas that is painted directly, and cleared and covered when it is not live. */
+export function VideoPane(): ReactNode {
+  const words = useWords();
+  const { live, view } = useLive();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const stage = useRef<HTMLDivElement>(null);
+  const stamp = useRef<HTMLParagraphElement>(null);
+  const painted = useRef(false);
+
+  useEffect(() => {
+    live.setDraw(async (jpeg, isCurrent) => {
+      if (canvas.current === null) return false;
+      const drawn = await drawPicture(canvas.current, jpeg, isCurrent);
+      if (drawn) painted.current = true;
+      return drawn;
+    });
+  }, [live]);
+
+  usePainter(({ video, numbers }) => {
+    setData(stage.current, "live", String(video.live));
+    // Numbers are burned into the picture: they go when the page's own numbers go for their age.
+    setData(stage.current, "late", String(video.live && !numbers.live && numbers.cause === "old"));
+    // Also what was still being decoded when its time was over.
+    if (painted.current && !video.live && canvas.current) {
+      clearPicture(canvas.current);
+      painted.current = false;
+    }
+    const age = video.live ? `${shownNumber(video.ageMs, 0)} ms` : "";
+    const image = video.live ? `${words.video.image} ${video.imageNumber}` : "";
+    setText(stamp.current, video.live ? `${image} · ${words.video.age} ${age}` : "");
+  });
+
+  const cause = view.video.live ? null : view.video.cause;
+  const trouble = troublesOf(view)[0];
+  return (
+    <Pane
+      id="video"
+      title={words.video.title}
+      aside={<p className="stamp" data-testid="video-stamp" ref={stamp} />}
+    >
+      <div className="video-stage" data-testid="video" data-live="false" ref={stage}>
+        <canvas ref={canvas} width={1280} height={720} role="img" aria-label={words.video.alt} />
+        <p className="when-late" data-testid="video-late">
+          <span aria-hidden="true">▲▲</span> {words.video.late}
+        </p>
+        <div className="when-stale" data-testid="video-cover">
+          <Cover
+            urgency="medium"
+            title={words.video.none}
+            state={words.cause[cause ?? "old"].state}
+            sentence={
+              trouble ? `${trouble.message}. ${trouble.remedy}` : words.cause[cause ?? "old"].sentence
+            }
+          />
+        </div>
+      </div>
+    </Pane>
+  );
+}

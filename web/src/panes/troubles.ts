@@ -1,0 +1,15 @@
+import type { TroubleMessage } from "../live/messages";
+import type { View } from "../live/live";
+
+/** What the server says is wrong now: tracking first, then the camera. Nothing while the server is gone. */
+export function troublesOf({ newest }: View): TroubleMessage[] {
+  if (newest === null) return [];
+  return [newest.process.trouble, newest.source.trouble]
+    .filter((trouble) => trouble !== null)
+    .map((trouble) => ({ ...trouble, message: capitalised(trouble.message) }));
+}
+
+/** The server's messages begin small and have no full stop, so that they stand in a sentence as well. */
+function capitalised(message: string): string {
+  return message.charAt(0).toUpperCase() + message.slice(1);
+}

@@ -1,0 +1,188 @@
+// Every word of the page, in one place. Another language is one more file of the same shape.
+import type { Cause } from "../live/assess";
+import type { AbsentReason, UnseenReason } from "../live/messages";
+
+/** A short state in big words, and a sentence that says what it means or what to do. */
+export interface Saying {
+  state: string;
+  sentence: string;
+}
+
+export interface Words {
+  language: string;
+  product: string;
+  notice: string;
+  skip: string;
+  video: { title: string; none: string; late: string; image: string; age: string; alt: string };
+  numbers: {
+    title: string;
+    none: string;
+    tracking: string;
+    tip: string;
+    tipUnknown: string;
+    numbersOf: string;
+    pictureOf: string;
+  };
+  reading: Record<"entry" | "angle" | "depth" | "toGo", { name: string; hint: string; unit: string }>;
+  depthWords: { before: string; inside: string; past: string; across: string };
+  scene: {
+    title: string;
+    loading: string;
+    loadingHint: string;
+    stale: string;
+    staleHint: string;
+  };
+  markers: Record<
+    "title" | "none" | "name" | "state" | "seen" | "unseen" | "score" | "target" | "unknown",
+    string
+  >;
+  foundBy: Record<"search" | "track", string>;
+  header: Record<
+    "case" | "source" | "camera" | "server" | "searchTime" | "rate" | "noRegistration" | "registeredBy",
+    string
+  >;
+  cameraState: Record<"opening" | "running" | "reconnecting" | "ended" | "unknown", string>;
+  linkState: Record<"connecting" | "open" | "lost", string>;
+  details: Record<
+    | "title"
+    | "stages"
+    | "stage"
+    | "time"
+    | "skipped"
+    | "restarts"
+    | "images"
+    | "size"
+    | "version"
+    | "plainVideo",
+    string
+  >;
+  alerts: { title: string; remedy: string };
+  cause: Record<Cause, Saying>;
+  absent: Record<AbsentReason, Saying>;
+  unseen: Record<UnseenReason, string>;
+}
+
+export const en: Words = {
+  language: "en",
+  product: "Coaxial",
+  notice: "Research software, not a medical device",
+  skip: "Skip to the numbers",
+  video: {
+    title: "Video",
+    none: "NO VIDEO",
+    late: "PICTURE IS LATE",
+    image: "image",
+    age: "age",
+    alt: "Live video with the planned channel and the drill's line drawn in",
+  },
+  numbers: {
+    title: "Drill to channel",
+    none: "NO TRACKING",
+    tracking: "TRACKING",
+    tip: "tip ±",
+    tipUnknown: "tip uncertainty not known",
+    numbersOf: "numbers are of image",
+    pictureOf: "picture of image",
+  },
+  reading: {
+    entry: { name: "Entry", hint: "off the entry point", unit: "mm" },
+    angle: { name: "Angle", hint: "to the channel's axis", unit: "°" },
+    depth: { name: "Depth", hint: "past the entry plane", unit: "mm" },
+    toGo: { name: "To go", hint: "to the planned end", unit: "mm" },
+  },
+  depthWords: {
+    before: "before the entry plane",
+    inside: "past the entry plane",
+    past: "PAST THE PLANNED END",
+    across: "drill lies across the channel",
+  },
+  scene: {
+    title: "3-D",
+    loading: "3-D LOADING",
+    loadingHint: "The scene appears when its first image is drawn.",
+    stale: "SCENE STALE",
+    staleHint: "The scene does not follow the drill now. It comes back by itself.",
+  },
+  markers: {
+    title: "Markers",
+    none: "No marker is loaded.",
+    name: "Marker",
+    state: "State",
+    seen: "seen",
+    unseen: "not seen",
+    score: "Score",
+    target: "Target score",
+    unknown: "not known",
+  },
+  foundBy: { search: "found by search", track: "tracked" },
+  header: {
+    case: "Channel",
+    source: "Source",
+    camera: "Camera",
+    server: "Server",
+    searchTime: "Search time",
+    rate: "Rate",
+    noRegistration: "not registered",
+    registeredBy: "registered by",
+  },
+  cameraState: {
+    opening: "opening",
+    running: "running",
+    reconnecting: "reconnecting",
+    ended: "at its end",
+    unknown: "not known",
+  },
+  linkState: { connecting: "connecting", open: "connected", lost: "gone, reconnecting" },
+  details: {
+    title: "Times and counts",
+    stages: "Time of each stage",
+    stage: "Stage",
+    time: "Time",
+    skipped: "Skipped images",
+    restarts: "Restarts of tracking",
+    images: "Images",
+    size: "Image size",
+    version: "Version",
+    plainVideo: "Plain video for other screens",
+  },
+  alerts: { title: "Alerts", remedy: "What to do:" },
+  cause: {
+    hidden: { state: "PAGE WAS HIDDEN", sentence: "It shows again what is live as soon as it is in view." },
+    connecting: { state: "CONNECTING", sentence: "Waiting for the first word from the server." },
+    "server-gone": { state: "SERVER GONE", sentence: "No answer from the server. Trying again by itself." },
+    "process-starting": {
+      state: "STARTING",
+      sentence: "Tracking is being started. This takes some seconds.",
+    },
+    "process-restarting": { state: "RESTARTING", sentence: "Tracking stopped and is being started again." },
+    "process-given_up": { state: "TRACKING STOPPED", sentence: "Tracking failed too often. See the alert." },
+    "source-opening": { state: "OPENING CAMERA", sentence: "The camera is being opened." },
+    "source-reconnecting": {
+      state: "CAMERA LOST",
+      sentence: "No images come from the camera. Trying again by itself.",
+    },
+    "source-ended": { state: "END OF VIDEO", sentence: "The video has been played to its end." },
+    "no-image": { state: "WAITING", sentence: "No image has come yet." },
+    old: { state: "TOO OLD", sentence: "What came last is too old to be shown." },
+  },
+  absent: {
+    MARKER_UNSEEN: { state: "MARKER NOT SEEN", sentence: "Bring the marker into view of the camera." },
+    CAMERA_NOT_CALIBRATED: {
+      state: "CAMERA NOT CALIBRATED",
+      sentence: "Calibrate the camera: without it no millimetres are known.",
+    },
+    TOOL_NOT_DEFINED: {
+      state: "TOOL NOT DEFINED",
+      sentence: "Say where the drill's tip is behind this marker.",
+    },
+    NOT_REGISTERED: { state: "NOT REGISTERED", sentence: "Register plan and patient first." },
+    NO_PLAN: { state: "NO PLAN", sentence: "Plan a channel first." },
+  },
+  unseen: {
+    NO_CANDIDATE: "nothing in the image looks like it",
+    SCORE_TOO_LOW: "too few of its edges are there",
+    TARGET_SCORE_TOO_LOW: "edges are there that it does not have",
+    AMBIGUOUS_POSE: "two poses fit equally well",
+    FIT_FAILED: "no pose fits its edges",
+  },
+};

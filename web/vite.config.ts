@@ -1,0 +1,18 @@
+import react from "@vitejs/plugin-react";
+import { defineConfig } from "vitest/config";
+
+export default defineConfig({
+  plugins: [react()],
+  build: { target: "es2023", sourcemap: false, chunkSizeWarningLimit: 700, assetsInlineLimit: 0 },
+  // For work on the page alone: the server runs beside it on its usual port.
+  server: {
+    host: "127.0.0.1",
+    proxy: Object.fromEntries(
+      ["/api", "/ws", "/video", "/scene", "/health"].map((door) => [
+        door,
+        { target: `http://127.0.0.1:${process.env["COAXIAL_PORT"] ?? "8000"}`, ws: true },
+      ]),
+    ),
+  },
+  test: { environment: "node", include: ["src/**/*.test.ts", "src/**/*.test.tsx"] },
+});
