@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.camera import CameraModel
-from tracker.edges import Gradient, GreyImage, edgels_of, gradient_of
+from tracker.edges import GreyImage, edgels_of, gradient_of
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.marker import (

@@ -1,7 +1,5 @@
 """The compiled loops of the camera; their types are those of their calls."""
 
-import numpy as np
-
 from tracker.compiled import compiled
 
 
@@ -12,8 +10,9 @@ def _distort(x, y, lens):
     lower = 1.0 + r2 * (lens[9] + r2 * (lens[10] + r2 * lens[11]))
     radial = upper / lower
     p1, p2 = lens[6], lens[7]
-    xd = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x) + r2 * (lens[12] + r2 * lens[13])
-    yd = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y + r2 * (lens[14] + r2 * lens[15])
+    prism_x, prism_y = r2 * (lens[12] + r2 * lens[13]), r2 * (lens[14] + r2 * lens[15])
+    xd = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x) + prism_x
+    yd = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y + prism_y
     w = lens[22] * xd + lens[23] * yd + lens[24]
     xt = (lens[16] * xd + lens[17] * yd + lens[18]) / w
     yt = (lens[19] * xd + lens[20] * yd + lens[21]) / w
@@ -22,7 +21,7 @@ def _distort(x, y, lens):
 
 @compiled
 def project_with_derivative(p, lens, derivative):
-    """Pixel (u, v) of a point (3,) in camera mm; its derivative by the point goes into `derivative` (2, 3)."""
+    """Pixel (u, v) of a point (3,) in mm of the camera; `derivative` (2, 3) gets its derivative by the point."""
     z = p[2]
     x, y = p[0] / z, p[1] / z
     u, v = _distort(x, y, lens)

@@ -12,6 +12,7 @@ END_WORTH = 0.6
 
 @compiled
 def find_edgels(gx, gy, threshold):
+    """Edgels x, y, nx, ny, strength (n,), and the index of each in its pixel (h, w)."""
     height, width = gx.shape
     at = np.full((height, width), -1, np.int32)
     most = height * width // 2 + 1
@@ -50,6 +51,7 @@ def find_edgels(gx, gy, threshold):
 
 @compiled
 def link(nx, ny, strength, at):
+    """Successor and predecessor (n,) of each edgel along its edge, -1 where there is none."""
     height, width = at.shape
     count = nx.size
     successor = np.full(count, -1, np.int32)
@@ -91,6 +93,7 @@ def link(nx, ny, strength, at):
 
 @compiled
 def walk(successor, predecessor, x, y, least):
+    """Edgels in the order of their chains, where each chain starts, and whether it is closed."""
     count = successor.size
     order = np.empty(count, np.int32)
     starts = np.empty(count // least + 2, np.int32)
@@ -160,6 +163,7 @@ def _fit_line(x, y, order, a, b, out):
 
 @compiled
 def cut_straight(x, y, order, starts, tolerance, least_length):
+    """Straight pieces (s, 4) of chains: cut at the farthest edgel until none is off by the tolerance."""
     most = order.size // 2 + 1
     found = np.empty((most, 4), np.float32)
     n = 0
@@ -178,10 +182,7 @@ def cut_straight(x, y, order, starts, tolerance, least_length):
             worst, at = np.float32(0.0), -1
             for k in range(a + 1, b):
                 ex, ey = x[order[k]] - ax, y[order[k]] - ay
-                if length > 1.0:
-                    off = abs(ex * dy - ey * dx) / length
-                else:
-                    off = np.sqrt(ex * ex + ey * ey)
+                off = abs(ex * dy - ey * dx) / length if length > 1.0 else np.sqrt(ex * ex + ey * ey)
                 if off > worst:
                     worst, at = off, k
             if worst > tolerance:

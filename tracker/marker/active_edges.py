@@ -103,8 +103,8 @@ def _seen_at(square: npt.NDArray[np.uint8], level_px: int) -> tuple[npt.NDArray[
     seen = cv2.resize(square, (scale, scale), interpolation=mode).astype(np.float32)
     white = float(np.percentile(square, 98))
     margin = max(int(MARGIN_RATIO * scale), 4 * OVERSAMPLING)
-    seen = cv2.copyMakeBorder(seen, margin, margin, margin, margin, cv2.BORDER_CONSTANT, value=(white,))
-    blurred = cv2.GaussianBlur(seen, (0, 0), BLUR_PX * OVERSAMPLING)
+    paper = cv2.copyMakeBorder(seen, margin, margin, margin, margin, cv2.BORDER_CONSTANT, value=(white,))
+    blurred = cv2.GaussianBlur(paper, (0, 0), BLUR_PX * OVERSAMPLING)
     return np.asarray(blurred, dtype=np.float32), scale, margin
 
 
@@ -112,7 +112,7 @@ def _every_pixel(points: Array, *, closed: bool) -> tuple[npt.NDArray[np.int64],
     """Indexes of the edgels of a chain (n, 2) that are an image's pixel apart, and their true spacing."""
     ends = np.vstack([points, points[:1]]) if closed else points
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(ends, axis=0), axis=1))])
-    count = max(int(round(along[-1] / OVERSAMPLING)), 1)
+    count = max(round(float(along[-1]) / OVERSAMPLING), 1)
     wanted = (np.arange(count) + 0.5) * (along[-1] / count)
     picked = np.clip(np.searchsorted(along, wanted), 0, len(points) - 1)
     return picked.astype(np.int64), float(along[-1] / count)

@@ -75,8 +75,8 @@ def _expected(square: GreyImage, side_px: float) -> Array:
     """The model's fields (24, 24), blurred as a camera does, 0 dark to 1 bright."""
     small = cv2.resize(square, (4 * FIELDS, 4 * FIELDS), interpolation=cv2.INTER_AREA).astype(np.float64)
     blur = BLUR_PX * 4 * FIELDS / max(side_px, 8.0)
-    small = cv2.GaussianBlur(small, (0, 0), blur, borderType=cv2.BORDER_REPLICATE)
-    fields = cv2.resize(small, (FIELDS, FIELDS), interpolation=cv2.INTER_AREA)
+    blurred = cv2.GaussianBlur(small, (0, 0), blur, borderType=cv2.BORDER_REPLICATE)
+    fields = cv2.resize(blurred, (FIELDS, FIELDS), interpolation=cv2.INTER_AREA)
     low, high = float(square.min()), float(square.max())
     return np.asarray((fields - low) / (high - low), dtype=np.float64)
 

@@ -114,6 +114,7 @@ def _plausible(quad):
 
 @compiled
 def closed_and_open_quads(segments, successors, counts):
+    """Outlines (q, 4, 2) of four segments that close, and of three whose fourth side is missing."""
     n = len(segments)
     quads = np.empty((MOST_QUADS, 4, 2), np.float32)
     q = 0
@@ -129,7 +130,7 @@ def closed_and_open_quads(segments, successors, counts):
                     continue
                 for c in range(counts[k]):
                     m = successors[k, c]
-                    if m <= i or m == j or m == k or q >= MOST_QUADS:
+                    if m <= i or m in (j, k) or q >= MOST_QUADS:
                         continue
                     for d in range(counts[m]):
                         if successors[m, d] != i:
@@ -161,6 +162,7 @@ def closed_and_open_quads(segments, successors, counts):
 
 @compiled
 def crossings(gx, gy, points, normals, reach):
+    """Offsets and strengths (n,) of the edges that cross the normals at these points."""
     n = len(points)
     offset, response = np.zeros(n), np.zeros(n)
     for i in range(n):
@@ -172,6 +174,7 @@ def crossings(gx, gy, points, normals, reach):
 
 @compiled
 def explained(at, ex, ey, enx, eny, strength, points, normals, corners, radius, margin, least):
+    """How many edgels inside the corners are near a model edge of their direction, and how many there are."""
     height, width = at.shape
     u0 = max(int(corners[:, 0].min() - margin), 0)
     u1 = min(int(corners[:, 0].max() + margin) + 1, width - 1)
@@ -222,6 +225,7 @@ def square_to_quad(quad, h):
 
 @compiled
 def correlate(image, quads, templates):
+    """Correlation (q, m, 4) of what is inside each outline with each template at each turn."""
     height, width = image.shape
     count, models, cells = len(quads), templates.shape[0], templates.shape[2]
     side = int(np.sqrt(cells))

@@ -102,7 +102,7 @@ def _surprise(fit: Fit, expected: Rigid[Camera, Marker] | None) -> float:
     if expected is None:
         return 0.0
     turned = vector_from_rotation(fit.camera_from_marker.rotation @ expected.rotation.T)
-    return float(turned @ turned) / np.radians(EXPECTED_TURN_SD_DEG) ** 2
+    return float(turned @ turned) / float(np.radians(EXPECTED_TURN_SD_DEG)) ** 2
 
 
 def projected_edges(

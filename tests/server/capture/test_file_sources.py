@@ -4,7 +4,6 @@ import threading
 from pathlib import Path
 
 import pytest
-from filmed import cut_video, write_images, write_video
 
 from server.capture.choose import source_from_config
 from server.capture.folder import FolderSource, natural_order
@@ -12,6 +11,7 @@ from server.capture.shot import Shot, Source
 from server.capture.video_file import VideoFileSource
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
+from tests.server.capture.filmed import cut_video, write_images, write_video
 
 
 def level(shot: Shot) -> int:

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import cv2
 import pytest
-from filmed import grey_image, write_video
 
 from server.capture.address import source_from_text
 from server.capture.capture import Capture
@@ -16,6 +15,7 @@ from server.capture.stream import StreamSource
 from server.capture.video_file import VideoFileSource
 from server.errors import CaptureError
 from server.live import SourceState
+from tests.server.capture.filmed import grey_image, write_video
 
 
 class MjpegServer(ThreadingHTTPServer):

@@ -1,13 +1,13 @@
 """From reports to instants, with the time and the process in the test's hand."""
 
 import pytest
-from made import Seen, made_image, made_snapshot, made_source
 
 from server.live import ProcessState, ProcessStatus, SourceState, Trouble
 from server.loop.board import Board
 from server.loop.publisher import Image, Picture, Publisher
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
+from tests.server.loop.made import Seen, made_image, made_snapshot, made_source
 from tracker.navigation import NavigationSnapshot
 
 RUNNING = ProcessStatus(state=ProcessState.STARTING)

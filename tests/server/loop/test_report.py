@@ -1,7 +1,6 @@
-from made import made_setup, made_snapshot, made_source
-
 from server.live import Trouble
 from server.loop.report import Report, ReportPacker, ReportUnpacker
+from tests.server.loop.made import made_setup, made_snapshot, made_source
 
 
 def test_a_report_comes_out_as_it_went_in() -> None:

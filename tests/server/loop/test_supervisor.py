@@ -5,7 +5,6 @@ import signal
 from collections.abc import Callable, Iterator
 
 import pytest
-from made import Seen, failing_worker, silent_worker, steady_worker
 
 from server.config import Config
 from server.live import Instant, ProcessState
@@ -14,6 +13,7 @@ from server.loop.board import Board
 from server.loop.publisher import Picture, Publisher
 from server.loop.supervisor import Supervisor, Target, Watch
 from server.loop.worker import WorkerOrder
+from tests.server.loop.made import Seen, failing_worker, silent_worker, steady_worker
 
 
 class Stage:

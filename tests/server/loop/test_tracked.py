@@ -12,13 +12,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from made import Seen
 
 from server.config import CameraConfig, Config, MarkerConfig
 from server.live import SourceState
 from server.logs import LogSettings
 from server.loop.publisher import Picture
 from server.loop.tracked import Tracked
+from tests.server.loop.made import Seen
 
 REPOSITORY = Path(__file__).parents[3]
 

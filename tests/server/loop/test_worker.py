@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from made import made_image, made_setup
 
 from server.capture.shot import Shot
 from server.config import Config
@@ -18,6 +17,7 @@ from server.loop.ring import ImageRing
 from server.loop.tracking import Tracking
 from server.loop.worker import WorkerLink, WorkerOrder, work
 from server.setup import Preparation
+from tests.server.loop.made import made_image, made_setup
 from tracker.errors import InvalidInput
 from tracker.navigation import Setup
 from tracker.pipeline import Tracker

@@ -1,7 +1,8 @@
 """The theatre made by hand, as a fixture."""
 
 import pytest
-from scene_theatre import Theatre, make_theatre
+
+from tests.server.scene.scene_theatre import Theatre, make_theatre
 
 
 @pytest.fixture

@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
-from scene_theatre import Running, Theatre, running
 
 from server.scene import scene as scene_module
+from tests.server.scene.scene_theatre import Running, Theatre, running
 
 pytestmark = pytest.mark.browser
 

@@ -13,7 +13,6 @@ import msgspec
 import numpy as np
 import pytest
 import zstandard
-from scene_theatre import Running, Theatre, running
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
@@ -22,6 +21,7 @@ from server.live import Instant
 from server.scene import scene as scene_module
 from server.scene.gate import Verdict
 from server.scene.stage import Stage
+from tests.server.scene.scene_theatre import Running, Theatre, running
 from tracker.plan import Surface
 
 PROTOCOL = "viser-v1.1.1"

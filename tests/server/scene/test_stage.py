@@ -9,11 +9,11 @@ import msgspec
 import numpy as np
 import pytest
 import zstandard
-from scene_theatre import Theatre
 
 from server.live import Instant
 from server.scene.door import Door
 from server.scene.stage import NUMBER_NODE, Stage
+from tests.server.scene.scene_theatre import Theatre
 from tracker.navigation import Absent
 from tracker.plan import Channel
 
