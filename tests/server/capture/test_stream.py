@@ -18,6 +18,13 @@ from server.errors import CaptureError
 from server.live import SourceState
 
 
+@pytest.fixture
+def stop() -> Iterator[threading.Event]:
+    event = threading.Event()
+    yield event
+    event.set()
+
+
 class MjpegServer(ThreadingHTTPServer):
     daemon_threads = True
     allow_reuse_address = True
