@@ -1,6 +1,7 @@
 """Video files and folders as sources, whole and broken."""
 
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,13 @@ from server.capture.video_file import VideoFileSource
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
 from tests.server.capture.filmed import cut_video, write_images, write_video
+
+
+@pytest.fixture
+def stop() -> Iterator[threading.Event]:
+    event = threading.Event()
+    yield event
+    event.set()
 
 
 def level(shot: Shot) -> int:

@@ -18,6 +18,13 @@ from server.live import SourceState
 from tests.server.capture.filmed import grey_image, write_video
 
 
+@pytest.fixture
+def stop() -> Iterator[threading.Event]:
+    event = threading.Event()
+    yield event
+    event.set()
+
+
 class MjpegServer(ThreadingHTTPServer):
     daemon_threads = True
     allow_reuse_address = True
