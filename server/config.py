@@ -85,8 +85,9 @@ class ToolConfig(Section):
 class TrackerConfig(Section):
     """When a marker counts as found."""
 
-    accept_score_ratio: Ratio = 0.75
-    accept_target_score_ratio: Ratio = 0.6
+    accept_score_ratio: Ratio = 0.7
+    accept_target_score_ratio: Ratio = 0.55
+    accept_inner_coverage_ratio: Ratio = 0.6
     fit_error_weight: Ratio = 0.25
 
 

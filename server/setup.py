@@ -1,5 +1,6 @@
 """What stands before the first image: camera, markers, tools, plan and registration, from the settings."""
 
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -13,7 +14,7 @@ from server.marker_file import load_marker_image
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
 from tracker.geometry import Camera, Rigid, Vertebra
-from tracker.marker import MarkerModel
+from tracker.marker import MarkerModel, ScoreSettings
 from tracker.navigation import Absent, AbsentReason, Setup
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
@@ -38,6 +39,7 @@ class Preparation:
         channel: the planned channel, or why there is none.
         camera_from_vertebra: the registration, or why there is none.
         registered_by: how the registration was made, in words; empty when it was not.
+        score_settings: when a marker counts as found.
         theatre: the rehearsal's, None for every other source.
     """
 
@@ -47,6 +49,7 @@ class Preparation:
     channel: Channel | Absent
     camera_from_vertebra: Rigid[Camera, Vertebra] | Absent
     registered_by: str
+    score_settings: ScoreSettings
     theatre: "Theatre | None" = None
 
     @property
@@ -84,7 +87,9 @@ class Preparation:
 
     def tracker_for(self, setup: Setup) -> Tracker:
         """A new tracker of these markers, which knows nothing of images before."""
-        return Tracker(camera=setup.camera, models=self.models)
+        return Tracker(
+            camera=setup.camera, models=self.models, settings=self.score_settings, clock=time.perf_counter
+        )
 
     def _setup(self, camera: CameraModel, *, calibrated: bool) -> Setup:
         return Setup(
@@ -107,6 +112,7 @@ def build_setup(config: Config) -> Preparation:
         MarkerModel.from_image(load_marker_image(marker.image), side_mm=marker.side_mm, name=name)
         for name, marker in config.markers.items()
     )
+    scores = ScoreSettings(**config.tracker.model_dump())
     tools = {name: _tool(name, tool) for name, tool in config.tools.items()}
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
         theatre = _theatre(config)
@@ -117,6 +123,7 @@ def build_setup(config: Config) -> Preparation:
             channel=theatre.channels[0],
             camera_from_vertebra=theatre.camera_from_vertebra,
             registered_by="rehearsal",
+            score_settings=scores,
             theatre=theatre,
         )
     calibration = config.camera.calibration
@@ -127,6 +134,7 @@ def build_setup(config: Config) -> Preparation:
         channel=Absent(reason=AbsentReason.NO_PLAN),
         camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
         registered_by="",
+        score_settings=scores,
     )
 
 
