@@ -21,7 +21,7 @@ def _distort(x, y, lens):
 
 @compiled
 def project_with_derivative(p, lens, derivative):
-    """Pixel (u, v) of a point (3,) in mm of the camera; `derivative` (2, 3) gets its derivative by the point."""
+    """Pixel (u, v) of a point (3,) in camera mm; `derivative` (2, 3) gets its derivative by it."""
     z = p[2]
     x, y = p[0] / z, p[1] / z
     u, v = _distort(x, y, lens)

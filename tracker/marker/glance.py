@@ -19,7 +19,7 @@ def templates_of(models: tuple[MarkerModel, ...]) -> npt.NDArray[np.float32]:
     """
     out = np.empty((len(models), 4, CELLS * CELLS), np.float32)
     for m, model in enumerate(models):
-        small = cv2.resize(model.image, (CELLS, CELLS), interpolation=cv2.INTER_AREA).astype(np.float64)
+        small = cv2.resize(model.square, (CELLS, CELLS), interpolation=cv2.INTER_AREA).astype(np.float64)
         for turn in range(4):
             # np.rot90 turns the picture to the left, so that its right-hand corner comes to the top left.
             flat = np.rot90(small, turn).ravel()

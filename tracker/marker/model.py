@@ -17,7 +17,7 @@ LEAST_CONTRAST_GREY = 40
 LEAST_DARK_BORDER_RATIO = 0.9
 # A shape that looks the same after a quarter or half turn has no top: its pose would be a guess.
 MOST_SYMMETRY = 0.985
-WORKING_SIDE_PX = 480
+WORKING_SIDE_PX = 360
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,13 +27,15 @@ class MarkerModel:
     Attributes:
         name: what the screen calls it.
         side_mm: outer side of the black square.
-        image: (n, n) grey, the black square fills it edge to edge, row 0 on top.
+        image: (h, w) grey, as given; the black square fills it edge to edge, row 0 on top.
+        square: (n, n) grey, the same at the size that its edges are taken from.
         levels: its active edges as they stand out at each size in the image, smallest first.
     """
 
     name: str
     side_mm: float
     image: npt.NDArray[np.uint8]
+    square: npt.NDArray[np.uint8]
     levels: tuple[ActiveEdges, ...]
 
     @classmethod
@@ -64,7 +66,8 @@ class MarkerModel:
         return cls(
             name=name,
             side_mm=float(side_mm),
-            image=square,
+            image=grey.copy(),
+            square=square,
             levels=tuple(active_edges_at(square, side_mm=float(side_mm), level_px=px) for px in LEVELS_PX),
         )
 

@@ -136,7 +136,7 @@ def judged(
     if target < settings.accept_target_score_ratio:
         return Unseen(reason=UnseenReason.TARGET_SCORE_TOO_LOW, best_score_ratio=score)
     corners = found.corners_px - [gradient.left_px, gradient.top_px]
-    if contradiction_of(image, model.image, corners, side_px=side_px_of(corners)).is_other_shape:
+    if contradiction_of(image, model.square, corners, side_px=side_px_of(corners)).is_other_shape:
         return Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=score)
     return Seen(
         camera_from_marker=found.fit.camera_from_marker,

@@ -19,6 +19,7 @@ from server.loop.worker import WorkerLink, WorkerOrder, work
 from server.setup import Preparation
 from tests.server.loop.made import made_image, made_setup
 from tracker.errors import InvalidInput
+from tracker.marker import ScoreSettings
 from tracker.navigation import Setup
 from tracker.pipeline import Tracker
 from tracker.pose import Sighting
@@ -76,6 +77,7 @@ class Prepared(Preparation):
             channel=setup.channel,
             camera_from_vertebra=setup.camera_from_vertebra,
             registered_by="",
+            score_settings=ScoreSettings(),
         )
         object.__setattr__(self, "made", tracker)
 
