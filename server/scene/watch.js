@@ -29,6 +29,41 @@
   // screen in theatre.
   document.hasFocus = () => true;
 
+  // Without a graphics card the processor draws the scene, which then takes a whole core from the video and
+  // the tracker if it may. A dozen pictures a second are enough for it.
+  const drawnByProcessor = (() => {
+    const gl = document.createElement("canvas").getContext("webgl");
+    const names = gl && gl.getExtension("WEBGL_debug_renderer_info");
+    const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+    const lose = gl && gl.getExtension("WEBGL_lose_context");
+    if (lose) lose.loseContext();
+    return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  })();
+  if (drawnByProcessor) {
+    const leastMs = 80;
+    const ownRequest = window.requestAnimationFrame.bind(window);
+    let due = new Map();
+    let handle = 0;
+    let lastAt = -Infinity;
+    const tick = (at) => {
+      if (at - lastAt < leastMs) {
+        ownRequest(tick);
+        return;
+      }
+      lastAt = at;
+      const now = due;
+      due = new Map();
+      for (const callback of now.values()) callback(at);
+    };
+    window.requestAnimationFrame = (callback) => {
+      if (due.size === 0) ownRequest(tick);
+      handle += 1;
+      due.set(handle, callback);
+      return handle;
+    };
+    window.cancelAnimationFrame = (which) => due.delete(which);
+  }
+
   // viser's WebSocket lives in a worker, whose messages tell how the line is.
   const OwnWorker = window.Worker;
   window.Worker = class extends OwnWorker {

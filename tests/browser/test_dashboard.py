@@ -36,12 +36,12 @@ def test_picture_moves_and_numbers_change(theatre: Theatre, watch: Watch) -> Non
     page = watch(theatre).open()
     is_live(page, "video")
     is_live(page, "numbers")
-    canvas = page.locator("canvas")
+    canvas = page.locator("canvas.sharp")
     depth = page.get_by_test_id("reading-depth")
     first_picture, first_depth = canvas.evaluate(DIGEST), depth.inner_text()
     expect(depth).not_to_have_text(first_depth)
     page.wait_for_function(
-        f"first => ({DIGEST})(document.querySelector('canvas')) !== first", arg=first_picture
+        f"first => ({DIGEST})(document.querySelector('canvas.sharp')) !== first", arg=first_picture
     )
     for name in ("entry", "angle", "depth", "toGo"):
         expect(page.get_by_test_id(f"reading-{name}")).to_have_text(re.compile(r"^−?\d+\.\d$"))
@@ -70,7 +70,7 @@ def test_silence_is_said_by_the_page_itself_and_passes(theatre: Theatre, watch: 
     is_live(page, "scene", live=False)
     # The server answers questions: it is not called gone.
     expect(page.get_by_test_id("link-state")).to_contain_text("connected")
-    assert page.locator("canvas").evaluate(BLACK), "an old picture is still on the canvas"
+    assert page.locator("canvas.sharp").evaluate(BLACK), "an old picture is still on the canvas"
     theatre.tell("live")
     is_live(page, "video")
     is_live(page, "numbers")
@@ -90,7 +90,8 @@ def test_burned_in_numbers_of_a_late_picture_are_made_illegible(theatre: Theatre
     is_live(page, "numbers", live=False)
     is_live(page, "video")
     expect(page.get_by_test_id("video-late")).to_be_visible()
-    assert "blur" in page.locator("canvas").evaluate("canvas => getComputedStyle(canvas).filter")
+    expect(page.locator("canvas.sharp")).to_be_hidden()
+    expect(page.locator("canvas.coarse")).to_be_visible()
 
 
 def test_marker_out_of_view_takes_the_numbers_and_leaves_the_video(theatre: Theatre, watch: Watch) -> None:
@@ -168,7 +169,7 @@ def test_picture_is_empty_when_a_hidden_page_comes_back(theatre: Theatre, watch:
     # At once, in the same turn: nothing old may be left for the screen that comes back.
     assert page.get_by_test_id("video").get_attribute("data-live") == "false"
     assert page.get_by_test_id("numbers").get_attribute("data-live") == "false"
-    assert page.locator("canvas").evaluate(BLACK)
+    assert page.locator("canvas.sharp").evaluate(BLACK)
 
 
 def test_speaks_another_language(theatre: Theatre, watch: Watch) -> None:

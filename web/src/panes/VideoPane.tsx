@@ -13,14 +13,15 @@ export function VideoPane(): ReactNode {
   const words = useWords();
   const { live, view } = useLive();
   const canvas = useRef<HTMLCanvasElement>(null);
+  const coarse = useRef<HTMLCanvasElement>(null);
   const stage = useRef<HTMLDivElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
   const painted = useRef(false);
 
   useEffect(() => {
     live.setDraw(async (jpeg, isCurrent) => {
-      if (canvas.current === null) return false;
-      const drawn = await drawPicture(canvas.current, jpeg, isCurrent);
+      if (canvas.current === null || coarse.current === null) return false;
+      const drawn = await drawPicture(canvas.current, coarse.current, jpeg, isCurrent);
       if (drawn) painted.current = true;
       return drawn;
     });
@@ -31,8 +32,9 @@ export function VideoPane(): ReactNode {
     // Numbers are burned into the picture: they go when the page's own numbers go for their age.
     setData(stage.current, "late", String(video.live && !numbers.live && numbers.cause === "old"));
     // Also what was still being decoded when its time was over.
-    if (painted.current && !video.live && canvas.current) {
+    if (painted.current && !video.live && canvas.current && coarse.current) {
       clearPicture(canvas.current);
+      clearPicture(coarse.current);
       painted.current = false;
     }
     const age = video.live ? `${shownNumber(video.ageMs, 0)} ms` : "";
@@ -49,7 +51,15 @@ export function VideoPane(): ReactNode {
       aside={<p className="stamp" data-testid="video-stamp" ref={stamp} />}
     >
       <div className="video-stage" data-testid="video" data-live="false" ref={stage}>
-        <canvas ref={canvas} width={1280} height={720} role="img" aria-label={words.video.alt} />
+        <canvas
+          className="sharp"
+          ref={canvas}
+          width={1280}
+          height={720}
+          role="img"
+          aria-label={words.video.alt}
+        />
+        <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
         <p className="when-late" data-testid="video-late">
           <span aria-hidden="true">▲▲</span> {words.video.late}
         </p>

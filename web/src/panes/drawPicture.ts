@@ -1,8 +1,9 @@
 // From JPEG bytes to the canvas, past React.
 
-/** Draws the picture; false when it is no picture, or its line has gone meanwhile. */
+/** Draws the picture, and coarsely the same; false when it is no picture, or its line has gone meanwhile. */
 export async function drawPicture(
   canvas: HTMLCanvasElement,
+  coarse: HTMLCanvasElement,
   jpeg: Uint8Array<ArrayBuffer>,
   isCurrent: () => boolean,
 ): Promise<boolean> {
@@ -20,6 +21,8 @@ export async function drawPicture(
       canvas.height = bitmap.height;
     }
     context.drawImage(bitmap, 0, 0);
+    // Too coarse to read a number or a line from; much cheaper than a blurring style on a slow machine.
+    coarse.getContext("2d", { alpha: false })?.drawImage(bitmap, 0, 0, coarse.width, coarse.height);
     return true;
   } finally {
     bitmap.close();
