@@ -1,0 +1,138 @@
+"""The real program in a real browser: the rehearsal, tracked, watched, hurt and back.
+
+`COAXIAL_URL=http://127.0.0.1:8000/` lets these tests watch a server that runs already (as `make run` starts
+it) instead of one of their own; what would hurt it is then left out.
+"""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.test_dashboard import DIGEST, is_live
+from tests.browser.theatre import CHECKOUT, SCREENSHOTS, Watched
+
+pytestmark = pytest.mark.browser
+
+NUMBER = re.compile(r"^−?\d+\.\d$")
+# The rehearsal's drill is away from the view for nine of its forty seconds.
+ONE_CYCLE_MS = 60_000
+# A share of the picture: nobody can read it smaller, nobody wants the repository bigger.
+PICTURE = {"width": 1440, "height": 810}
+
+
+class Rehearsal:
+    """`coaxial run` in a process of its own, or the one that `COAXIAL_URL` names."""
+
+    def __init__(self, folder: Path) -> None:
+        self.process: subprocess.Popen[str] | None = None
+        named = os.environ.get("COAXIAL_URL")
+        if named:
+            self.port = urlsplit(named).port or 80
+            return
+        # An empty folder, so that no config.yaml but the built-in settings counts.
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "server", "run", "--port", "0"],
+            cwd=folder,
+            env={**os.environ, "PYTHONPATH": str(CHECKOUT)},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        said = "".join(self.process.stdout.readline() for _ in range(2))
+        address = re.search(r"http://127\.0\.0\.1:(\d+)/", said)
+        assert address, f"the server said no address, but: {said!r}"
+        self.port = int(address[1])
+
+    def tracking_pid(self) -> int:
+        """The process that captures and tracks: the fork server's only child."""
+        assert self.process is not None
+        (forker,) = (pid for pid in children_of(self.process.pid) if children_of(pid))
+        (tracking,) = children_of(forker)
+        return tracking
+
+    def stop(self) -> None:
+        """As Ctrl+C does."""
+        if self.process is None:
+            return
+        self.process.send_signal(signal.SIGINT)
+        _, _ = self.process.communicate(timeout=30)
+        assert self.process.returncode == 0
+
+
+def children_of(pid: int) -> list[int]:
+    """Processes whose parent this is."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
+        except OSError:
+            continue
+        if parent == pid:
+            found.append(int(entry.name))
+    return found
+
+
+@pytest.fixture(scope="module")
+def rehearsal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rehearsal]:
+    server = Rehearsal(tmp_path_factory.mktemp("rehearsal"))
+    yield server
+    server.stop()
+
+
+def shown(page: Page, name: str) -> float:
+    """A number of the page."""
+    return float(page.get_by_test_id(f"reading-{name}").inner_text().replace("−", "-"))
+
+
+def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
+    rehearsal: Rehearsal, watch: Callable[..., Watched]
+) -> None:
+    page = watch(rehearsal, 1920, 1080).open()
+    expect(page.get_by_test_id("scene")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
+    expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
+    expect(page.get_by_test_id("reading-depth")).to_have_text(NUMBER)
+    first_picture = page.locator("canvas.sharp").evaluate(DIGEST)
+    first_depth = page.get_by_test_id("reading-depth").inner_text()
+    page.wait_for_function(
+        f"first => ({DIGEST})(document.querySelector('canvas.sharp')) !== first", arg=first_picture
+    )
+    expect(page.get_by_test_id("reading-depth")).not_to_have_text(first_depth)
+    # In the middle of the drilling: that is the picture which the README shows.
+    page.wait_for_function(
+        """() => {
+            const depth = document.querySelector('[data-testid="reading-depth"]').textContent;
+            const scene = document.querySelector('[data-testid="scene"]').dataset.live;
+            return scene === "true" && Number(depth) > 8 && Number(depth) < 22;
+        }""",
+        timeout=2 * ONE_CYCLE_MS,
+    )
+    SCREENSHOTS.mkdir(exist_ok=True)
+    page.screenshot(path=SCREENSHOTS / "theatre-running.png")
+    page.set_viewport_size({"width": PICTURE["width"], "height": PICTURE["height"]})
+    page.screenshot(path=SCREENSHOTS / "dashboard.png")
+
+
+def test_killed_tracking_takes_the_numbers_and_comes_back_by_itself(
+    rehearsal: Rehearsal, watch: Callable[..., Watched]
+) -> None:
+    if rehearsal.process is None:
+        pytest.skip("the server that COAXIAL_URL names is not ours to hurt")
+    page = watch(rehearsal).open()
+    expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
+    killed = rehearsal.tracking_pid()
+    os.kill(killed, signal.SIGKILL)
+    is_live(page, "video", live=False)
+    is_live(page, "numbers", live=False)
+    is_live(page, "video")
+    expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
+    assert rehearsal.tracking_pid() != killed
