@@ -14,18 +14,30 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.browser.test_dashboard import DIGEST, is_live
 from tests.browser.theatre import CHECKOUT, SCREENSHOTS, Watched
 
 pytestmark = pytest.mark.browser
 
-NUMBER = re.compile(r"^−?\d+\.\d$")
 # The rehearsal's drill is away from the view for nine of its forty seconds.
 ONE_CYCLE_MS = 60_000
 # A share of the picture: nobody can read it smaller, nobody wants the repository bigger.
-PICTURE = {"width": 1440, "height": 810}
+PICTURE: ViewportSize = {"width": 1440, "height": 810}
+
+THREE_DEPTHS = """() => {
+    const text = document.querySelector('[data-testid="reading-depth"]').textContent;
+    window.depths ??= new Set();
+    if (/^\u2212?\\d+\\.\\d$/.test(text)) window.depths.add(text);
+    return window.depths.size >= 3;
+}"""
+DRILLING = """() => {
+    const pane = (name) => document.querySelector(`[data-testid="${name}"]`);
+    const depth = Number(pane("reading-depth").textContent);
+    const live = ["video", "numbers", "scene"].every((name) => pane(name).dataset.live === "true");
+    return live && depth > 6 && depth < 24;
+}"""
 
 
 class Rehearsal:
@@ -89,37 +101,34 @@ def rehearsal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Rehearsal]:
     server.stop()
 
 
-def shown(page: Page, name: str) -> float:
-    """A number of the page."""
-    return float(page.get_by_test_id(f"reading-{name}").inner_text().replace("−", "-"))
-
-
 def test_rehearsal_is_tracked_and_seen_in_picture_numbers_and_scene(
     rehearsal: Rehearsal, watch: Callable[..., Watched]
 ) -> None:
     page = watch(rehearsal, 1920, 1080).open()
     expect(page.get_by_test_id("scene")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
-    expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=ONE_CYCLE_MS)
-    expect(page.get_by_test_id("reading-depth")).to_have_text(NUMBER)
     first_picture = page.locator("canvas.sharp").evaluate(DIGEST)
-    first_depth = page.get_by_test_id("reading-depth").inner_text()
     page.wait_for_function(
         f"first => ({DIGEST})(document.querySelector('canvas.sharp')) !== first", arg=first_picture
     )
-    expect(page.get_by_test_id("reading-depth")).not_to_have_text(first_depth)
-    # In the middle of the drilling: that is the picture which the README shows.
-    page.wait_for_function(
-        """() => {
-            const depth = document.querySelector('[data-testid="reading-depth"]').textContent;
-            const scene = document.querySelector('[data-testid="scene"]').dataset.live;
-            return scene === "true" && Number(depth) > 8 && Number(depth) < 22;
-        }""",
-        timeout=2 * ONE_CYCLE_MS,
-    )
+    page.wait_for_function(THREE_DEPTHS, timeout=2 * ONE_CYCLE_MS)
     SCREENSHOTS.mkdir(exist_ok=True)
-    page.screenshot(path=SCREENSHOTS / "theatre-running.png")
-    page.set_viewport_size({"width": PICTURE["width"], "height": PICTURE["height"]})
-    page.screenshot(path=SCREENSHOTS / "dashboard.png")
+    picture_while_drilling(page, SCREENSHOTS / "theatre-running.png")
+    page.set_viewport_size(PICTURE)
+    picture_while_drilling(page, SCREENSHOTS / "dashboard.png")
+
+
+def picture_while_drilling(page: Page, path: Path) -> None:
+    """A screenshot in the middle of the drilling, with every pane live: the README shows one of them.
+
+    Taking it holds the page up on a slow machine, and what is late then goes; so one that shows that is taken
+    again.
+    """
+    for _ in range(20):
+        page.wait_for_function(DRILLING, timeout=2 * ONE_CYCLE_MS)
+        page.screenshot(path=path)
+        if page.evaluate(DRILLING):
+            return
+    pytest.fail("in 20 screenshots the page was never live before and after")
 
 
 def test_killed_tracking_takes_the_numbers_and_comes_back_by_itself(
