@@ -1,45 +1,19 @@
-"""A real headless browser, and a server process with a feeder that does as it is told."""
+"""A server process with a feeder that does as it is told, and pages that watch it."""
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser
 
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, Watched
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-FLAGS = (
-    "--no-sandbox",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-)
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    """The system's Chromium; `COAXIAL_CHROMIUM` names another one."""
-    named = os.environ.get("COAXIAL_CHROMIUM")
-    path = named or next(filter(None, map(shutil.which, BROWSERS)), None)
-    assert path, f"no browser: set COAXIAL_CHROMIUM, or install one of {', '.join(BROWSERS)}"
-    assert (CHECKOUT / "web" / "dist" / "index.html").is_file(), (
-        "the page is not built: npm run build in web/"
-    )
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, headless=True, args=list(FLAGS))
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture
 def theatre() -> Iterator[Theatre]:
     """A server of its own."""
+    assert (CHECKOUT / "web" / "dist" / "index.html").is_file(), (
+        "the page is not built: npm run build in web/"
+    )
     with Theatre() as started:
         yield started
 

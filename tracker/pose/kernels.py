@@ -7,7 +7,7 @@ from tracker.compiled import compiled
 from tracker.edges.kernels import crossing
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
-PROJECTION_STEP = 1e-3
+LEAST_EDGES = 12
 
 
 @compiled
@@ -165,6 +165,39 @@ def _median_size(values, found):
 
 
 @compiled
+def _moved(rotation, translation, step):
+    """Move the pose by a step, in place; False where that turns the face away or puts it behind."""
+    turn = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
+    if not np.isfinite(turn):
+        return False
+    # A step over half a radian leaves the image far behind: shorten it as a whole.
+    short = 0.5 / turn if turn > 0.5 else 1.0
+    for k in range(3):
+        translation[k] += short * step[k]
+    _turn(rotation, short * step[3:6])
+    facing = (
+        rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
+    )
+    return translation[2] > 1.0 and facing < 0.0
+
+
+@compiled
+def _sums(offset, found, weight, shift, scale, reach):
+    """Robustly weighted sum of squares, and the cost in which a missing edge counts as far off: px^2."""
+    squares, cost = 0.0, 0.0
+    for i in range(len(offset)):
+        if not found[i]:
+            cost += weight[i] * reach * reach
+            continue
+        r = offset[i] - shift
+        cost += weight[i] * min(r * r, reach * reach)
+        z = r / (4.685 * scale)
+        if abs(z) < 1.0:
+            squares += weight[i] * (1.0 - z * z) ** 2 * r * r
+    return squares, cost
+
+
+@compiled
 def refine(
     gx,
     gy,
@@ -183,24 +216,26 @@ def refine(
 ):
     """Gauss-Newton of the pose on the offsets along the normals, searched anew at each of `reaches` px.
 
-    Changes rotation (3, 3) and translation (3,) in place. Returns the matrix (7, 7) of the last step, the
-    scale of its residuals in px, the shift in px, the weighted sum of squared residuals in px^2, the
-    robust cost in px^2, the weights' sum and the number of edges; a number of 0 means that it failed.
+    Changes rotation (3, 3) and translation (3,) in place. Returns the matrix (7, 7) at the end, the shift
+    common to all edges in px, the weighted sum of squared residuals in px^2, the robust cost in px^2, the
+    sum of weights and the number of edges; a number of 0 means that it failed.
     """
     n = len(points)
     pixels, directions = np.empty((n, 2)), np.empty((n, 2))
     found, offset = np.zeros(n, np.bool_), np.zeros(n)
     a, g, step = np.zeros((PARAMETERS, PARAMETERS)), np.zeros(PARAMETERS), np.zeros(PARAMETERS)
-    shift, scale = 0.0, 1.0
-    failed = (a, 0.0, 0.0, 0.0, 0.0, 0.0, 0)
-    for reach in reaches:
+    shift, last = 0.0, len(reaches)
+    failed = (a, 0.0, 0.0, 0.0, 0.0, 0)
+    for turn in range(last + 1):
+        # One look more than steps: what is returned belongs to the pose that is returned.
+        reach = reaches[min(turn, last - 1)]
         if not project_edges(rotation, translation, lens, points, normals, pixels, directions):
             return failed
         count = _residuals(gx, gy, left, top, pixels, directions, strength, least, reach, found, offset)
-        if count < 12:
+        if count < LEAST_EDGES:
             return failed
-        scale = max(_median_size(offset - shift, found), 0.05)
-        _normal_equations(
+        scale = max(_median_size(offset - shift, found), 0.05 if turn < last else 0.02)
+        weights = _normal_equations(
             rotation,
             translation,
             lens,
@@ -215,38 +250,10 @@ def refine(
             a,
             g,
         )
-        if not solve_positive(a, g, step):
+        if turn == last:
+            squares, cost = _sums(offset, found, weight, shift, scale, reach)
+            return a, shift, squares, cost, weights, count
+        if not solve_positive(a, g, step) or not _moved(rotation, translation, step):
             return failed
-        turn = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
-        if not np.isfinite(turn):
-            return failed
-        # A step over half a radian leaves the image far behind: shorten it as a whole.
-        if turn > 0.5:
-            step[:6] *= 0.5 / turn
-        translation += step[:3]
-        _turn(rotation, step[3:6])
         shift += step[6]
-        # A face seen from behind, or a marker behind the camera, is no pose.
-        if translation[2] <= 1.0 or (rotation[:, 2] * translation).sum() >= 0.0:
-            return failed
-    if not project_edges(rotation, translation, lens, points, normals, pixels, directions):
-        return failed
-    count = _residuals(gx, gy, left, top, pixels, directions, strength, least, reaches[-1], found, offset)
-    if count < 12:
-        return failed
-    scale = max(_median_size(offset - shift, found), 0.02)
-    weights = _normal_equations(
-        rotation, translation, lens, points, directions, found, offset, weight, shift, shift_sd, scale, a, g
-    )
-    squares, cost = 0.0, 0.0
-    reach = reaches[-1]
-    for i in range(n):
-        if not found[i]:
-            cost += weight[i] * reach * reach
-            continue
-        r = offset[i] - shift
-        cost += weight[i] * min(r * r, reach * reach)
-        z = r / (4.685 * scale)
-        if abs(z) < 1.0:
-            squares += weight[i] * (1.0 - z * z) ** 2 * r * r
-    return a, scale, shift, squares, cost, weights, count
+    return failed

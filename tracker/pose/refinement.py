@@ -138,7 +138,7 @@ def _refined(
         [first_reach_px, first_reach_px, max(last, first_reach_px / 2.0), last, last, last, last, last]
     )
     straight = active.straight
-    matrix, _, shift, squares, cost, weights, count = refine(
+    matrix, shift, squares, cost, weights, count = refine(
         gradient.x,
         gradient.y,
         float(gradient.left_px),

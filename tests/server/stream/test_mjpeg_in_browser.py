@@ -1,13 +1,11 @@
 """MJPEG in a real browser, which shows a part only when the next one has begun."""
 
-import os
-import shutil
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser
 
 from server.app import AppParts, create_app
 from server.config import Config, LimitsConfig
@@ -17,8 +15,6 @@ from tracker.navigation import NavigationSnapshot
 
 pytestmark = pytest.mark.browser
 
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
-NAMES = ("chromium", "chromium-browser", "google-chrome")
 # Whether the picture is as bright as asked for.
 IS_SHOWN = """bright => {
     const img = document.querySelector('img')
@@ -27,15 +23,6 @@ IS_SHOWN = """bright => {
     canvas.drawImage(img, 0, 0, 1, 1)
     return Math.abs(canvas.getImageData(0, 0, 1, 1).data[0] - bright) < 8
 }"""
-
-
-@pytest.fixture
-def browser() -> Iterator[Browser]:
-    found = os.environ.get("COAXIAL_CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), None)
-    with sync_playwright() as playwright:
-        opened = playwright.chromium.launch(executable_path=found, args=FLAGS)
-        yield opened
-        opened.close()
 
 
 def test_the_browser_shows_an_image_without_waiting_for_the_next(
