@@ -19,11 +19,13 @@ from server.stream.messages import (
 from tests.benchmarks.claims import Claim, Judgement, judge
 from tests.benchmarks.running_server import PATIENCE_S, RunningServer
 from tests.benchmarks.tables import Table, number, pair
+from tests.benchmarks.timing import STAGES as TRACKER_STAGES
 from tracker.geometry import Rigid
 from tracker.rehearsal import Theatre
 
 # The first images after the start wait for loading and settling, and are no steady state.
 SETTLING_S = 2.0
+STAGES = ("waiting", *TRACKER_STAGES, "navigation", "overlay", "encode")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -112,8 +114,8 @@ def pace_table(title: str, heard: Sequence[Heard]) -> Table:
             "messages a second",
             "age when sent ms",
             "age when received ms",
-            "images skipped by the tracker",
-            "messages skipped by this reader",
+            "images that no message carries",
+            "of these skipped by this reader",
         ],
         rows=[
             [
@@ -130,7 +132,8 @@ def pace_table(title: str, heard: Sequence[Heard]) -> Table:
 
 def stage_table(title: str, heard: Sequence[Heard]) -> Table:
     """Time of each stage as the messages tell it."""
-    names = list(dict.fromkeys(name for one in heard for name in one.snapshot.stage_ms))
+    present = {name for one in heard for name in one.snapshot.stage_ms}
+    names = [*(name for name in STAGES if name in present), *sorted(present - set(STAGES))]
     return Table(
         title=title,
         columns=["stage", "ms"],

@@ -87,12 +87,16 @@ def cpu_s(pid: int) -> dict[str, float] | None:
     """Processor seconds so far of the web server and of all its children; None where there is no /proc."""
     if not Path(f"/proc/{pid}/stat").exists():
         return None
+    return {"web": _cpu_s_of(pid), "tracking": sum(map(_cpu_s_of, _descendants(pid)))}
+
+
+def _descendants(pid: int) -> list[int]:
     children = [
         int(child)
         for task in Path(f"/proc/{pid}/task").iterdir()
         for child in (task / "children").read_text(encoding="ascii").split()
     ]
-    return {"web": _cpu_s_of(pid), "tracking": sum(map(_cpu_s_of, children))}
+    return [one for child in children for one in (child, *_descendants(child))]
 
 
 def _cpu_s_of(pid: int) -> float:
