@@ -10,6 +10,7 @@ from tests.benchmarks.asked import Asked
 from tests.benchmarks.machine import machine_line
 from tests.benchmarks.readme import write_section
 from tests.benchmarks.sections import SECTIONS
+from tracker.errors import NavigationError
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -26,7 +27,10 @@ def main(arguments: list[str] | None = None) -> None:
         light=given.light,
     )
     for name in SECTIONS if given.what == "all" else (given.what,):
-        tables = SECTIONS[name](asked)
+        try:
+            tables = SECTIONS[name](asked)
+        except NavigationError as error:
+            sys.exit(f"Error: {error}")
         content = "\n".join([_said_of(asked), *(table.markdown for table in tables)])
         sys.stdout.write(f"## {name}\n\n{content}\n")
         sys.stdout.flush()
