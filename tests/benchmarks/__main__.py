@@ -30,7 +30,8 @@ def main(arguments: list[str] | None = None) -> None:
         try:
             tables = SECTIONS[name](asked)
         except NavigationError as error:
-            sys.exit(f"Error: {error}")
+            sys.stderr.write(f"Error: {error}\n")
+            sys.exit(2)
         content = "\n".join([_said_of(asked), *(table.markdown for table in tables)])
         sys.stdout.write(f"## {name}\n\n{content}\n")
         sys.stdout.flush()
