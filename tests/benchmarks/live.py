@@ -1,0 +1,147 @@
+"""Messages of a running server against the truth of their images."""
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from websockets.sync.client import connect
+
+from server.stream.messages import (
+    DeviationMessage,
+    LiveMessage,
+    MarkerSeenMessage,
+    MarkerUnseenMessage,
+    SnapshotMessage,
+    ToolMessage,
+)
+from tests.benchmarks.claims import Claim, Judgement, judge
+from tests.benchmarks.running_server import PATIENCE_S, RunningServer
+from tests.benchmarks.tables import Table, number, pair
+from tests.benchmarks.timing import STAGES as TRACKER_STAGES
+from tracker.geometry import Rigid
+from tracker.rehearsal import Theatre
+
+# The first images after the start wait for loading and settling, and are no steady state.
+SETTLING_S = 2.0
+STAGES = ("waiting", *TRACKER_STAGES, "navigation", "overlay", "encode")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Heard:
+    """One message, and when it came.
+
+    Attributes:
+        snapshot: what it says.
+        sequence: of the message; a gap is what this reader skipped.
+        latency_ms: from the grab of the image to the message in this reader's hands.
+    """
+
+    snapshot: SnapshotMessage
+    sequence: int
+    latency_ms: float
+
+
+def listen(server: RunningServer, *, seconds: float) -> list[Heard]:
+    """Every message of `/ws/live` with an image, for so long after the first have settled."""
+    heard: list[Heard] = []
+    for one in _messages(server):
+        heard.append(one)
+        if one.snapshot.captured_at_s - heard[0].snapshot.captured_at_s > SETTLING_S + seconds:
+            break
+    start_s = heard[0].snapshot.captured_at_s + SETTLING_S
+    return [one for one in heard if one.snapshot.captured_at_s >= start_s]
+
+
+def _messages(server: RunningServer) -> Iterator[Heard]:
+    with connect(server.socket_address("/ws/live"), proxy=None, compression=None) as socket:
+        while True:
+            text = socket.recv(timeout=PATIENCE_S)
+            came_s = time.monotonic()
+            message = LiveMessage.model_validate_json(text)
+            if message.snapshot is not None:
+                yield Heard(
+                    snapshot=message.snapshot,
+                    sequence=message.sequence,
+                    latency_ms=(came_s - message.snapshot.captured_at_s) * 1e3,
+                )
+
+
+def judge_messages(theatre: Theatre, heard: Sequence[Heard], *, live_rate_hz: float) -> list[Judgement]:
+    """Each message against the truth of the image whose number it carries."""
+    return [
+        judge(theatre, one.snapshot.image_number / live_rate_hz, claim_of_message(one.snapshot))
+        for one in heard
+    ]
+
+
+def claim_of_message(snapshot: SnapshotMessage) -> Claim | str:
+    """What a message says of the drill, or the reason why it says nothing."""
+    sighting = next(marker.sighting for marker in snapshot.markers if marker.name == "drill")
+    tool = next(tool for tool in snapshot.tools if tool.name == "drill")
+    if isinstance(sighting, MarkerUnseenMessage):
+        return sighting.reason.value
+    if not (
+        isinstance(sighting, MarkerSeenMessage)
+        and sighting.camera_from_marker is not None
+        and isinstance(tool.pose, ToolMessage)
+        and isinstance(tool.deviation, DeviationMessage)
+    ):
+        raise RuntimeError("a message has a seen marker without its tool, in a theatre where all is known")
+    pose, deviation = sighting.camera_from_marker, tool.deviation
+    return Claim(
+        camera_from_marker=Rigid(
+            rotation=np.array(pose.rotation), translation_mm=np.array(pose.translation_mm)
+        ),
+        corners_px=np.array(sighting.corners_px),
+        found_by=sighting.found_by,
+        tip_in_camera_mm=np.array(tool.pose.camera_from_tool.translation_mm),
+        entry_offset_mm=math.inf if deviation.entry_offset_mm is None else deviation.entry_offset_mm,
+        angle_deg=deviation.angle_deg,
+        depth_mm=deviation.depth_mm,
+    )
+
+
+def pace_table(title: str, heard: Sequence[Heard]) -> Table:
+    """How old the messages are, and how many images nobody looked at."""
+    first, last = heard[0].snapshot, heard[-1].snapshot
+    spent_s = last.captured_at_s - first.captured_at_s
+    return Table(
+        title=title,
+        columns=[
+            "messages",
+            "messages a second",
+            "age when sent ms",
+            "age when received ms",
+            "images that no message carries",
+            "of these skipped by this reader",
+        ],
+        rows=[
+            [
+                str(len(heard)),
+                number((len(heard) - 1) / spent_s, 1),
+                pair([one.snapshot.age_ms for one in heard], 99.0, 1),
+                pair([one.latency_ms for one in heard], 99.0, 1),
+                str(last.image_number - first.image_number + 1 - len(heard)),
+                str(heard[-1].sequence - heard[0].sequence + 1 - len(heard)),
+            ]
+        ],
+    )
+
+
+def stage_table(title: str, heard: Sequence[Heard]) -> Table:
+    """Time of each stage as the messages tell it."""
+    present = {name for one in heard for name in one.snapshot.stage_ms}
+    names = [*(name for name in STAGES if name in present), *sorted(present - set(STAGES))]
+    return Table(
+        title=title,
+        columns=["stage", "ms"],
+        rows=[
+            [
+                name,
+                pair([one.snapshot.stage_ms[name] for one in heard if name in one.snapshot.stage_ms], 99.0),
+            ]
+            for name in names
+        ],
+    )
