@@ -1,6 +1,7 @@
 """The pose that lays all active edges on the edges of the image, with its covariance."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -63,19 +64,22 @@ def refined_pose(
 
     Where neither the image nor what was expected decides between the two, the covariance spans both.
     """
-    first = _refined(
-        camera, gradient, active, start, contrast=contrast, side_px=side_px, first_reach_px=first_reach_px
-    )
-    seed = first.camera_from_marker if first is not None else start
-    second = _refined(
+    refined_from = partial(
+        _refined,
         camera,
         gradient,
         active,
-        other_solution(seed),
         contrast=contrast,
         side_px=side_px,
         first_reach_px=first_reach_px,
     )
+    first = refined_from(start)
+    second = refined_from(other_solution(first.camera_from_marker if first is not None else start))
+    if second is not None and (first is None or second.cost_px2 < first.cost_px2):
+        # The first may have stopped halfway, and the second then mirrors nothing: the mirror image of what
+        # is taken has always been tried.
+        third = refined_from(other_solution(second.camera_from_marker))
+        first = third if third is not None else first
     if first is None or second is None:
         return first or second
     residual = max(min(first.residual_px, second.residual_px), LEAST_RESIDUAL_PX)
