@@ -40,7 +40,7 @@ def code_image(fields: Sequence[Sequence[int]] = CODE, *, field_px: int = 20) ->
     count = len(fields)
     cells = np.kron(np.array(fields, dtype=np.uint8) * 255, np.ones((field_px, field_px), np.uint8))
     border = count * field_px // 2
-    return np.asarray(cv2.copyMakeBorder(cells, *[border] * 4, cv2.BORDER_CONSTANT, value=(0,)), np.uint8)
+    return np.pad(cells, border)
 
 
 def code_model(
@@ -109,7 +109,7 @@ def rendered(
     for one in prints:
         _draw(picture, camera, one)
     if blur_px > 0.0:
-        picture = cv2.GaussianBlur(picture, (0, 0), blur_px)
+        picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), blur_px), dtype=np.float64)
     picture = picture + np.random.default_rng([seed, 77]).normal(0.0, 1.0, picture.shape) * noise_grey
     return np.asarray(np.clip(np.rint(picture), 0, 255), dtype=np.uint8)
 

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.tracker.scenes import camera_of
+from tests.tracker.scenes import STRAIGHT, camera_of
 from tracker import CameraModel, InvalidInput
 from tracker.camera.kernels import project_with_derivative
 from tracker.camera.lens import lens_numbers
@@ -152,6 +152,6 @@ def test_the_middle_of_the_top_left_pixel_is_zero_zero() -> None:
 
 
 def test_the_lens_of_these_tests_bends() -> None:
-    bent, straight = camera_of(), camera_of(distortion=np.zeros(5))
+    bent, straight = camera_of(), camera_of(distortion=STRAIGHT)
     corner = [[100.0, 80.0, 250.0]]
     assert np.linalg.norm(bent.px_from_camera(corner) - straight.px_from_camera(corner)) > 5.0

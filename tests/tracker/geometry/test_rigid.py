@@ -150,7 +150,9 @@ def test_the_rotation_between_two_directions_takes_one_to_the_other(
 ) -> None:
     rotation = rotation_between(a, b)
     np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-9)
-    np.testing.assert_allclose(rotation @ np.array(a) / np.linalg.norm(a), b / np.linalg.norm(b), atol=1e-6)
+    np.testing.assert_allclose(
+        rotation @ np.array(a) / np.linalg.norm(a), np.array(b) / np.linalg.norm(b), atol=1e-6
+    )
     turned_deg = np.degrees(np.linalg.norm(vector_from_rotation(rotation)))
     assert turned_deg == pytest.approx(angle_between_deg(a, b), abs=1e-4)
 
