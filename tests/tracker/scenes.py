@@ -121,12 +121,14 @@ def _draw(picture: npt.NDArray[np.float64], camera: CameraModel, one: Print) -> 
     right, bottom = np.minimum(np.ceil(paper.max(axis=0)).astype(int) + 4, [width, height])
     if right <= left or bottom <= top:
         return
-    rays = _rays(camera, left, top, right, bottom)
-    directions = np.column_stack([rays, np.ones(len(rays))])
-    normal = one.pose.rotation[:, 2]
-    depth = float(normal @ one.pose.translation_mm) / (directions @ normal)
-    on_plane = one.pose.inverse.move_points(directions * depth[:, None])
-    x, y = on_plane[:, 0] / one.side_mm, on_plane[:, 1] / one.side_mm
+    rx, ry = _rays(camera, left, top, right, bottom).T
+    right_of, up_of, normal = one.pose.rotation.T
+    depth = float(normal @ one.pose.translation_mm) / (rx * normal[0] + ry * normal[1] + normal[2])
+    x, y = (
+        depth / one.side_mm * (rx * axis[0] + ry * axis[1] + axis[2])
+        - float(axis @ one.pose.translation_mm) / one.side_mm
+        for axis in (right_of, up_of)
+    )
     rows, columns = one.picture.shape
     ink = one.picture[
         np.clip(np.floor((0.5 - y) * rows), 0, rows - 1).astype(int),

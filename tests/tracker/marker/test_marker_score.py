@@ -187,8 +187,7 @@ def _neighbours() -> list[tuple[tuple[int, ...], ...]]:
     return out
 
 
-@pytest.mark.parametrize("tilt_deg", [0, 35, 50])
-@pytest.mark.parametrize("side_px", [36, 60, 100])
+@pytest.mark.parametrize(("side_px", "tilt_deg"), [(36, 0), (36, 45), (70, 20)])
 def test_one_flipped_field_is_another_shape(side_px: float, tilt_deg: float) -> None:
     pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=tilt_deg, about_deg=70, roll_deg=12)
     for fields in _neighbours():
@@ -199,10 +198,9 @@ def test_one_flipped_field_is_another_shape(side_px: float, tilt_deg: float) -> 
         assert 0.25 / 36 < inside < 2.0 / 36, fields
 
 
-@pytest.mark.parametrize("tilt_deg", [0, 35, 50])
-@pytest.mark.parametrize("side_px", [24, 36, 60, 100])
+@pytest.mark.parametrize(("side_px", "tilt_deg"), [(24, 0), (36, 50), (60, 35), (90, 10)])
 def test_the_marker_itself_is_not_contradicted(side_px: float, tilt_deg: float) -> None:
-    for seed in range(6):
+    for seed in range(4):
         pose = placed(
             CAMERA, MIDDLE, side_px, tilt_deg=tilt_deg, about_deg=seed * 50, roll_deg=12 + 61 * seed
         )
