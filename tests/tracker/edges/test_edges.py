@@ -272,3 +272,13 @@ def test_of_two_edges_the_nearer_is_the_expected_one() -> None:
     gradient = gradient_of(image)
     assert crossing(gradient.x, gradient.y, 30.0, 30.0, 1.0, 0.0, 6.0)[0] == pytest.approx(-0.5, abs=0.05)
     assert crossing(gradient.x, gradient.y, 34.0, 30.0, 1.0, 0.0, 6.0)[0] == pytest.approx(0.5, abs=0.05)
+
+
+def test_pure_noise_of_full_contrast_has_more_edgels_than_half_its_pixels_and_room_for_all() -> None:
+    """An unplugged analogue camera sends this. Room for half of the pixels was once written past its end."""
+    image = np.random.default_rng(1).integers(0, 256, (360, 480)).astype(np.uint8)
+    edgels = edgels_of(gradient_of(image))
+    assert len(edgels.x) > image.size / 2
+    chains = chains_of(edgels)
+    assert len(chains.order) <= len(edgels.x)
+    np.testing.assert_array_equal(np.sort(edgels.at[edgels.at >= 0]), np.arange(len(edgels.x)))
