@@ -313,15 +313,16 @@ def _fingered(pose: Rigid[Camera, Marker], *, side: int, area_ratio: float, grey
 
 
 @pytest.mark.parametrize("side", range(4))
-def test_a_finger_over_a_twentieth_of_the_marker_does_not_hide_it(side: int) -> None:
+@pytest.mark.parametrize("grey", [40, 120, 185])
+def test_a_finger_over_a_tenth_of_the_marker_does_not_hide_it(side: int, grey: int) -> None:
     pose = _pose(side_px=64)
-    found = seen(_tracker().search(_fingered(pose, side=side, area_ratio=0.05, grey=120))["code"])
+    found = seen(_tracker().search(_fingered(pose, side=side, area_ratio=0.1, grey=grey))["code"])
     assert _off_px(found, pose) < 1.0
 
 
 @pytest.mark.parametrize("side", range(4))
 @pytest.mark.parametrize("grey", [40, 120, 185])
-@pytest.mark.parametrize("area_ratio", [0.1, 0.2, 0.3])
+@pytest.mark.parametrize("area_ratio", [0.15, 0.2, 0.3])
 def test_a_covered_marker_is_where_it_is_or_unseen(side: int, grey: int, area_ratio: float) -> None:
     pose = _pose(side_px=64)
     image = _fingered(pose, side=side, area_ratio=area_ratio, grey=grey)
