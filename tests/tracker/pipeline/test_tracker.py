@@ -482,3 +482,14 @@ def test_warming_up_runs_the_loops_of_a_search_and_of_a_track(monkeypatch: pytes
     monkeypatch.setattr("tracker.warm_up.Tracker", Watched)
     warm_up()
     assert found == ["search", "track", "track"]
+
+
+@pytest.mark.parametrize("side", range(4))
+def test_what_is_inside_must_be_there_whatever_the_outline_says(side: int) -> None:
+    pose = _pose(side_px=64)
+    image = _fingered(pose, side=side, area_ratio=0.1, grey=185)
+    strict = ScoreSettings(accept_inner_coverage_ratio=1.0)
+    sighting = Tracker(camera=CAMERA, models=[MODEL], settings=strict).search(image)["code"]
+    assert isinstance(sighting, Unseen)
+    assert sighting.reason is UnseenReason.SCORE_TOO_LOW
+    assert sighting.best_score_ratio > strict.accept_score_ratio

@@ -19,6 +19,7 @@ from tests.tracker.scenes import (
     seen,
 )
 from tracker import Seen, Tracker, Unseen, UnseenReason
+from tracker.edges import gradient_of
 from tracker.geometry import (
     Array,
     Camera,
@@ -28,7 +29,7 @@ from tracker.geometry import (
     point_covariance_mm2,
     vector_from_rotation,
 )
-from tracker.pose import Prior, other_solution, pose_from_corners, side_px_of
+from tracker.pose import Prior, other_solution, pose_from_corners, refined_pose, side_px_of
 from tracker.rehearsal import Theatre, TheatreSettings
 
 CAMERA = camera_of()
@@ -264,3 +265,21 @@ def _sighting(at_mm: list[float]) -> Seen:
         fit_error_px2=0.0,
         found_by="search",
     )
+
+
+@pytest.mark.parametrize("about_deg", [0, 90, 200])
+def test_from_the_wrong_one_of_both_solutions_the_fit_comes_to_the_right_one(about_deg: float) -> None:
+    pose = facing([20, -15, 180], tilt_deg=40, about_deg=about_deg, roll_deg=15)
+    gradient = gradient_of(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]))
+    fit = refined_pose(
+        CAMERA,
+        gradient,
+        MODEL.level_for(90),
+        other_solution(pose),
+        contrast=500.0,
+        side_px=90.0,
+        first_reach_px=6.0,
+    )
+    assert fit is not None
+    assert fit.doubt_ratio == 0.0
+    assert _turned_deg(fit.camera_from_marker, pose) < 0.5
