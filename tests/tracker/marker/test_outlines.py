@@ -15,14 +15,14 @@ from tests.tracker.scenes import (
 from tracker.edges import gradient_of
 from tracker.geometry import Array
 from tracker.marker import candidates_of, outlines_in, templates_of
-from tracker.marker.outline import quads_of
+from tracker.marker.outline import Quads, quads_of
 
 CAMERA = camera_of((320, 240), focal_px=400.0)
 
 
-def _sides(corners: Array) -> Array:
+def _sides(corners: Array) -> Quads:
     """The four sides as segments (4, 4), clockwise."""
-    return np.hstack([corners, np.roll(corners, -1, axis=0)]).astype(np.float32)
+    return np.asarray(np.hstack([corners, np.roll(corners, -1, axis=0)]), dtype=np.float32)
 
 
 SQUARE = np.array([[50.0, 40.0], [110.0, 45.0], [105.0, 100.0], [48.0, 96.0]])
@@ -40,7 +40,7 @@ def test_four_sides_make_one_outline_with_their_corners() -> None:
 
 @pytest.mark.parametrize("hidden", range(4))
 def test_three_sides_make_one_whose_fourth_is_hidden(hidden: int) -> None:
-    quads = quads_of(np.delete(_sides(SQUARE), hidden, axis=0)).astype(np.float64)
+    quads = quads_of(np.asarray(np.delete(_sides(SQUARE), hidden, axis=0), np.float32)).astype(np.float64)
     assert len(quads) == 1
     assert _nearest_turn(quads[0], SQUARE) < 0.01
 
