@@ -17,6 +17,7 @@ from tracker.marker import (
     ScoreSettings,
     candidates_of,
     outlines_in,
+    refuse_alike,
     templates_of,
 )
 from tracker.pose import (
@@ -68,7 +69,7 @@ class Tracker:
         stage_ms: time of each stage of the last image, by name; empty where no clock was given.
 
     Raises:
-        InvalidInput: MARKER_NAMES_NOT_UNIQUE.
+        InvalidInput: MARKER_NAMES_NOT_UNIQUE, or MARKERS_ALIKE.
     """
 
     def __init__(
@@ -79,19 +80,13 @@ class Tracker:
         settings: ScoreSettings | None = None,
         clock: Callable[[], float] | None = None,
     ) -> None:
-        names = [model.name for model in models]
-        if len(set(names)) != len(names):
-            raise InvalidInput(
-                "MARKER_NAMES_NOT_UNIQUE",
-                f"{len(names)} markers have {len(set(names))} names: {', '.join(sorted(names))}",
-                "Give each marker a name of its own.",
-            )
+        refuse_alike(models)
         self.camera = camera
         self.models = tuple(models)
         self.settings = settings or ScoreSettings()
         self.stage_ms: Mapping[str, float] = {}
         self._templates = templates_of(self.models)
-        self._priors = {name: Prior() for name in names}
+        self._priors = {model.name: Prior() for model in models}
         self._stages = Stages(clock)
 
     def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
@@ -117,6 +112,7 @@ class Tracker:
         missing = [model for model in self.models if model.name not in seen]
         if missing:
             seen.update(self._search(grey, missing))
+        seen = _one_for_each_place(seen)
         for name, prior in self._priors.items():
             prior.learn(seen[name], captured_at_s)
         self.stage_ms = self._stages.taken_ms
@@ -129,7 +125,7 @@ class Tracker:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         self._stages.start()
-        seen = self._search(self._grey(image), self.models)
+        seen = _one_for_each_place(self._search(self._grey(image), self.models))
         self.stage_ms = self._stages.taken_ms
         return seen
 
@@ -211,6 +207,23 @@ class Tracker:
             if fits >= MOST_FITS or _worth(best) > CERTAIN_WORTH:
                 break
         return best
+
+
+def _one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
+    """Where two markers are claimed on one square, the one that fits it better; the other is not there."""
+    kept = dict(sightings)
+    names = sorted(sightings, key=lambda name: _worth(sightings[name]), reverse=True)
+    places: list[Seen] = []
+    for name in names:
+        sighting = sightings[name]
+        if not isinstance(sighting, Seen):
+            continue
+        centre, side = sighting.corners_px.mean(axis=0), side_px_of(sighting.corners_px)
+        if any(np.linalg.norm(other.corners_px.mean(axis=0) - centre) < 0.5 * side for other in places):
+            kept[name] = Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=sighting.score_ratio)
+        else:
+            places.append(sighting)
+    return kept
 
 
 def _worth(sighting: Sighting) -> float:

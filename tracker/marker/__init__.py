@@ -3,8 +3,15 @@
 from tracker.marker.active_edges import ActiveEdges
 from tracker.marker.contradiction import Contradiction, contradiction_of
 from tracker.marker.glance import templates_of
-from tracker.marker.model import MarkerModel
-from tracker.marker.score import Agreement, ScoreSettings, model_agreement, reach_px, target_coverage_ratio
+from tracker.marker.model import MarkerModel, refuse_alike
+from tracker.marker.score import (
+    Agreement,
+    ScoreSettings,
+    edge_crossings,
+    model_agreement,
+    reach_px,
+    target_coverage_ratio,
+)
 from tracker.marker.search import Candidate, Look, candidates_of, outlines_in
 
 __all__ = [
@@ -17,9 +24,11 @@ __all__ = [
     "ScoreSettings",
     "candidates_of",
     "contradiction_of",
+    "edge_crossings",
     "model_agreement",
     "outlines_in",
     "reach_px",
+    "refuse_alike",
     "target_coverage_ratio",
     "templates_of",
 ]

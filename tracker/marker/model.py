@@ -1,6 +1,8 @@
 """The marker that is searched for: any printed square shape, known by its edges."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import cv2
 import numpy as np
@@ -117,10 +119,44 @@ def _working_image(grey: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
     return np.asarray(cv2.resize(grey, (size, size), interpolation=mode), dtype=np.uint8)
 
 
+def refuse_alike(models: Sequence[MarkerModel]) -> None:
+    """Refuse models of which one, however it is turned, looks like another.
+
+    Raises:
+        InvalidInput: MARKERS_ALIKE, or MARKER_NAMES_NOT_UNIQUE.
+    """
+    names = [model.name for model in models]
+    if len(set(names)) != len(names):
+        raise InvalidInput(
+            "MARKER_NAMES_NOT_UNIQUE",
+            f"{len(names)} markers have {len(set(names))} names: {', '.join(sorted(names))}",
+            "Give each marker a name of its own.",
+        )
+    small = [_small(model.square) for model in models]
+    for (a, first), (b, second) in combinations(enumerate(small), 2):
+        alike = max(_correlation(first, np.rot90(second, turns)) for turns in range(4))
+        if alike > MOST_SYMMETRY:
+            raise InvalidInput(
+                "MARKERS_ALIKE",
+                f"markers '{names[a]}' and '{names[b]}' look the same, however they are turned: "
+                f"correlation {alike:.3f}, allowed {MOST_SYMMETRY}",
+                "Use shapes that differ, so that one cannot be taken for the other.",
+                {"names": [names[a], names[b]], "correlation": alike},
+            )
+
+
+def _small(square: npt.NDArray[np.uint8]) -> Array:
+    return cv2.resize(square, (96, 96), interpolation=cv2.INTER_AREA).astype(np.float64)
+
+
+def _correlation(a: Array, b: Array) -> float:
+    return float(np.corrcoef(a.ravel(), b.ravel())[0, 1])
+
+
 def _refuse_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
-    small = cv2.resize(square, (96, 96), interpolation=cv2.INTER_AREA).astype(np.float64)
+    small = _small(square)
     for turns in (1, 2, 3):
-        alike = float(np.corrcoef(small.ravel(), np.rot90(small, turns).ravel())[0, 1])
+        alike = _correlation(small, np.rot90(small, turns))
         if alike > MOST_SYMMETRY:
             raise InvalidInput(
                 "MARKER_SYMMETRIC",

@@ -14,7 +14,7 @@ from tracker.marker.kernels import crossings, explained
 LEAST_RESPONSE_RATIO = 0.35
 # Common edgels lie this near to their model edge: pixels, or this part of the marker's side if that is more
 # (paper bends).
-REACH_PX, REACH_SIDE_RATIO, MOST_REACH_PX = 1.5, 0.03, 5.0
+REACH_PX, REACH_SIDE_RATIO, MOST_REACH_PX = 2.0, 0.04, 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,9 +95,7 @@ def model_agreement(
     The target coverage is left at 1: it needs the edgels, see `with_target`.
     """
     reach = reach_px(side_px)
-    offset, response = crossings(
-        gradient.x, gradient.y, points_px - [gradient.left_px, gradient.top_px], normals_px, reach
-    )
+    offset, response = edge_crossings(gradient, points_px, normals_px, reach_px=reach)
     contrast = contrast_of(response, active)
     found = response >= np.maximum(
         0.6 * gradient.threshold, LEAST_RESPONSE_RATIO * contrast * active.strength_ratio
@@ -113,6 +111,15 @@ def model_agreement(
         normalised_fit_error=min(fit / reach**2, 1.0),
         contrast=contrast,
     )
+
+
+def edge_crossings(
+    gradient: Gradient, points_px: Array, normals_px: Array, *, reach_px: float
+) -> tuple[Array, Array]:
+    """Offsets (n,) in px along the normals to the image's edges, and their strengths (n,), 0 for none."""
+    corner = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
+    offset, response = crossings(gradient.x, gradient.y, points_px - corner, normals_px, reach_px)
+    return np.asarray(offset), np.asarray(response)
 
 
 def contrast_of(response: Array, active: ActiveEdges) -> float:

@@ -15,6 +15,7 @@ from tracker.marker import (
     model_agreement,
     target_coverage_ratio,
 )
+from tracker.pose.corners import measured_corners_px
 from tracker.pose.refinement import Fit, projected_edges, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 
@@ -31,11 +32,13 @@ class Occurrence:
     Attributes:
         fit: the pose.
         corners_px: (4, 2), of the black square at that pose, through the lens.
+        seen_corners_px: (4, 2), as the sides next to each show them.
         agreement: how well the edges agree.
     """
 
     fit: Fit
     corners_px: Array
+    seen_corners_px: Array
     agreement: Agreement
 
 
@@ -83,12 +86,20 @@ def occurrence_near(
     projected = projected_edges(camera, fit.camera_from_marker, active)
     if projected is None:
         return None
+    agreement = model_agreement(
+        gradient, active, *projected, side_px=side_px_of(fitted), shift_px=fit.shift_px
+    )
     return Occurrence(
         fit=fit,
         corners_px=fitted,
-        agreement=model_agreement(
-            gradient, active, *projected, side_px=side_px_of(fitted), shift_px=fit.shift_px
+        seen_corners_px=measured_corners_px(
+            gradient,
+            active,
+            *projected,
+            corners_px=fitted,
+            contrast=agreement.contrast,
         ),
+        agreement=agreement,
     )
 
 
@@ -135,13 +146,17 @@ def judged(
         return Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=score)
     if target < settings.accept_target_score_ratio:
         return Unseen(reason=UnseenReason.TARGET_SCORE_TOO_LOW, best_score_ratio=score)
-    corners = found.corners_px - [gradient.left_px, gradient.top_px]
-    if contradiction_of(image, model.square, corners, side_px=side_px_of(corners)).is_other_shape:
+    # Bent paper lies beside its flat pose. Another shape contradicts wherever its corners are taken to be.
+    window = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
+    if all(
+        contradiction_of(image, model.square, corners - window, side_px=side_px_of(corners)).is_other_shape
+        for corners in (found.corners_px, found.seen_corners_px)
+    ):
         return Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=score)
     return Seen(
         camera_from_marker=found.fit.camera_from_marker,
         pose_covariance=found.fit.covariance,
-        corners_px=found.corners_px,
+        corners_px=found.seen_corners_px,
         score_ratio=score,
         target_score_ratio=target,
         model_coverage_ratio=agreement.model_coverage_ratio,

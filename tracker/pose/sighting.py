@@ -28,7 +28,8 @@ class Seen:
         camera_from_marker: the pose.
         pose_covariance: (6, 6) [mm, rad]; translation first, then rotation as a small left-multiplied
             rotation vector in the camera frame.
-        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the printed face.
+        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the printed face, as the sides
+            next to each show them; where those are hidden, as the pose has them.
         score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
         target_score_ratio: target coverage x the same, 0..1.
         model_coverage_ratio: length of the model's active edges found in the image, 0..1.

@@ -83,8 +83,9 @@ def test_a_rendered_pose_is_recovered(
 
 def test_corners_and_pose_of_one_sighting_are_one() -> None:
     sighting, _ = _scene(50, 1)
+    # Not the same: corners are taken from the sides next to them, which is what bent paper asks for.
     np.testing.assert_allclose(
-        sighting.corners_px, corners_px_of(CAMERA, sighting.camera_from_marker), atol=1e-6
+        sighting.corners_px, corners_px_of(CAMERA, sighting.camera_from_marker), atol=0.15
     )
     assert np.linalg.det(sighting.camera_from_marker.rotation) == pytest.approx(1.0)
 
