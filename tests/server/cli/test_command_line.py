@@ -75,6 +75,14 @@ def test_a_wrong_setting_stops_the_start_with_one_sentence(tmp_path: Path) -> No
     assert result.stdout == ""
 
 
+@pytest.mark.parametrize("once", ["--no-loop", "--once"])
+def test_a_file_can_be_played_once(monkeypatch: pytest.MonkeyPatch, once: str) -> None:
+    taken: list[bool | None] = []
+    monkeypatch.setattr("server.cli.run.run_dashboard", lambda given, **_: taken.append(given.loop))
+    result = CliRunner().invoke(app, ["run", once])
+    assert (result.exit_code, taken) == (0, [False]), result.output
+
+
 def test_a_taken_port_is_told(tmp_path: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
