@@ -188,21 +188,27 @@ def _lines(json_file: str | None) -> Iterator[IO[str] | None]:
         sys.stdout.flush()
         return
     path = Path(json_file)
+    if path.is_dir():
+        raise _not_writable(path, "is a directory")
     part = path.with_name(path.name + ".part")
     try:
         file = part.open("w", encoding="utf-8", buffering=1)
     except OSError as error:
-        raise InvalidInput(
-            "OUTPUT_NOT_WRITABLE",
-            f"{part} cannot be written: {(error.strerror or '').lower()}",
-            "Give a file in a folder that exists and may be written, or - for standard output.",
-            {"file": str(part)},
-        ) from error
+        raise _not_writable(part, (error.strerror or "").lower()) from error
     with file:
         yield file
         file.flush()
         os.fsync(file.fileno())
     part.replace(path)
+
+
+def _not_writable(path: Path, why: str) -> InvalidInput:
+    return InvalidInput(
+        "OUTPUT_NOT_WRITABLE",
+        f"{path} cannot be written: {why}",
+        "Give a file in a folder that exists and may be written, or - for standard output.",
+        {"file": str(path)},
+    )
 
 
 def _count(config: Config, images: int | None) -> int | None:

@@ -167,6 +167,11 @@ def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: P
             "no/o.jsonl",
             id="no-folder",
         ),
+        pytest.param(
+            ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "."],
+            "is a directory",
+            id="a-folder-as-file",
+        ),
     ],
 )
 @pytest.mark.usefixtures("film", "marker")
