@@ -15,8 +15,8 @@ def find_edgels(gx, gy, threshold):
     """Edgels x, y, nx, ny, strength (n,), and the index of each in its pixel (h, w)."""
     height, width = gx.shape
     at = np.full((height, width), -1, np.int32)
-    most = height * width // 2 + 1
-    found = np.empty((5, most), np.float32)
+    # Of pure noise more than half of all pixels are edgels: there must be room for every one.
+    found = np.empty((5, height * width), np.float32)
     n = 0
     for v in range(1, height - 1):
         for u in range(1, width - 1):

@@ -1,0 +1,181 @@
+"""Pictures of flat markers whose truth is known: each pixel is the mean of many rays through the lens."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker import CameraModel, MarkerModel, Seen, Sighting
+from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector
+
+Image8 = npt.NDArray[np.uint8]
+
+BLACK, WHITE = 30.0, 215.0
+RAYS = 6  # a side, in each pixel
+QUIET_RATIO = 0.2
+SIDE_MM = 25.0
+
+# A 3x3 code in the middle half of the square; white is 1. No quarter turn takes it to itself.
+CODE = ((1, 1, 0), (0, 0, 1), (1, 0, 0))
+LENS = (-0.16, 0.04, 0.0004, -0.0003, 0.0)
+STRAIGHT = (0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def camera_of(
+    size_wh_px: tuple[int, int] = (640, 480),
+    *,
+    focal_px: float = 700.0,
+    distortion: Sequence[float] = LENS,
+) -> CameraModel:
+    """A camera whose principal point is a little off the middle."""
+    width, height = size_wh_px
+    matrix = [[focal_px, 0.0, width / 2 + 3.3], [0.0, focal_px * 1.002, height / 2 - 2.7], [0.0, 0.0, 1.0]]
+    return CameraModel(matrix=np.array(matrix), distortion=np.array(distortion), size_wh_px=size_wh_px)
+
+
+def code_image(fields: Sequence[Sequence[int]] = CODE, *, field_px: int = 20) -> Image8:
+    """A black square with these fields, white 1, in its middle half."""
+    count = len(fields)
+    cells = np.kron(np.array(fields, dtype=np.uint8) * 255, np.ones((field_px, field_px), np.uint8))
+    border = count * field_px // 2
+    return np.pad(cells, border)
+
+
+def code_model(
+    fields: Sequence[Sequence[int]] = CODE, *, name: str = "code", side_mm: float = SIDE_MM
+) -> MarkerModel:
+    return MarkerModel.from_image(code_image(fields), side_mm=side_mm, name=name)
+
+
+def facing(
+    at_mm: Sequence[float], *, tilt_deg: float = 0.0, about_deg: float = 0.0, roll_deg: float = 0.0
+) -> Rigid[Camera, Marker]:
+    """A marker that looks at the camera, tilted about a line of the image plane, rolled in its own plane."""
+    about, tilt, roll = np.radians([about_deg, tilt_deg, roll_deg])
+    tilted = rotation_from_vector(np.array([np.cos(about), np.sin(about), 0.0]) * tilt)
+    rolled = rotation_from_vector([0.0, 0.0, roll])
+    return Rigid(
+        rotation=tilted @ np.diag([1.0, -1.0, -1.0]) @ rolled, translation_mm=np.array(at_mm, dtype=float)
+    )
+
+
+def facing_at_px(
+    camera: CameraModel,
+    centre_px: Sequence[float],
+    side_px: float,
+    *,
+    tilt_deg: float = 0.0,
+    about_deg: float = 0.0,
+    roll_deg: float = 0.0,
+) -> Rigid[Camera, Marker]:
+    """The same where its centre is seen at a pixel, about `side_px` wide."""
+    depth_mm = SIDE_MM * float(camera.matrix[0, 0]) / side_px
+    x, y = camera.normalised_from_px([centre_px])[0]
+    return facing(
+        [x * depth_mm, y * depth_mm, depth_mm], tilt_deg=tilt_deg, about_deg=about_deg, roll_deg=roll_deg
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Print:
+    """One printed square in the scene."""
+
+    picture: Image8
+    pose: Rigid[Camera, Marker]
+    side_mm: float = SIDE_MM
+    quiet_ratio: float = QUIET_RATIO
+
+
+def corners_px_of(camera: CameraModel, pose: Rigid[Camera, Marker], side_mm: float = SIDE_MM) -> Array:
+    """Where the four corners are seen: top-left, top-right, bottom-right, bottom-left."""
+    square = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * side_mm
+    return camera.px_from_camera(pose.move_points(square))
+
+
+def rendered(
+    camera: CameraModel,
+    prints: Sequence[Print],
+    *,
+    background: npt.NDArray[np.float64] | float = 170.0,
+    blur_px: float = 0.6,
+    noise_grey: float = 1.5,
+    seed: int = 0,
+) -> Image8:
+    """The grey image (h, w) of these prints: exact area samples, then blur, then the sensor's noise."""
+    width, height = camera.size_wh_px
+    picture = np.broadcast_to(np.asarray(background, dtype=np.float64), (height, width)).copy()
+    for one in prints:
+        _draw(picture, camera, one)
+    if blur_px > 0.0:
+        picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), blur_px), dtype=np.float64)
+    picture = picture + np.random.default_rng([seed, 77]).normal(0.0, 1.0, picture.shape) * noise_grey
+    return np.asarray(np.clip(np.rint(picture), 0, 255), dtype=np.uint8)
+
+
+def _draw(picture: npt.NDArray[np.float64], camera: CameraModel, one: Print) -> None:
+    paper = corners_px_of(camera, one.pose, one.side_mm * (1.0 + 2.0 * one.quiet_ratio))
+    height, width = picture.shape
+    left, top = np.maximum(np.floor(paper.min(axis=0)).astype(int) - 3, 0)
+    right, bottom = np.minimum(np.ceil(paper.max(axis=0)).astype(int) + 4, [width, height])
+    if right <= left or bottom <= top:
+        return
+    rx, ry = _rays(camera, left, top, right, bottom).T
+    right_of, up_of, normal = one.pose.rotation.T
+    depth = float(normal @ one.pose.translation_mm) / (rx * normal[0] + ry * normal[1] + normal[2])
+    x, y = (
+        depth / one.side_mm * (rx * axis[0] + ry * axis[1] + axis[2])
+        - float(axis @ one.pose.translation_mm) / one.side_mm
+        for axis in (right_of, up_of)
+    )
+    rows, columns = one.picture.shape
+    ink = one.picture[
+        np.clip(np.floor((0.5 - y) * rows), 0, rows - 1).astype(int),
+        np.clip(np.floor((x + 0.5) * columns), 0, columns - 1).astype(int),
+    ]
+    far = np.maximum(np.abs(x), np.abs(y))
+    grey = np.where(far <= 0.5, BLACK + (WHITE - BLACK) / 255.0 * ink, WHITE)
+    shape = (bottom - top, RAYS, right - left, RAYS)
+    share = (far <= 0.5 + one.quiet_ratio).astype(float).reshape(shape).mean(axis=(1, 3))
+    paper_grey = np.where(far <= 0.5 + one.quiet_ratio, grey, 0.0).reshape(shape).mean(axis=(1, 3))
+    part = picture[top:bottom, left:right]
+    part *= 1.0 - share
+    part += paper_grey
+
+
+def _rays(camera: CameraModel, left: int, top: int, right: int, bottom: int) -> Array:
+    """Normalised directions (n, 2) of all samples, row after row, of these pixels.
+
+    The lens is asked at the pixels' corners; within a pixel it is straight to a millionth of a pixel.
+    """
+    u, v = np.meshgrid(np.arange(left, right + 1) - 0.5, np.arange(top, bottom + 1) - 0.5)
+    at = camera.normalised_from_px(np.stack([u, v], axis=-1).reshape(-1, 2)).reshape(*u.shape, 2)
+    b = ((np.arange(RAYS) + 0.5) / RAYS)[None, :, None, None]
+    upper, lower = at[:-1, None], at[1:, None]
+    lines = ((1.0 - b) * upper + b * lower).reshape(-1, right - left + 1, 1, 2)
+    a = b.reshape(1, 1, RAYS, 1)
+    return np.asarray((1.0 - a) * lines[:, :-1] + a * lines[:, 1:], dtype=np.float64).reshape(-1, 2)
+
+
+def cluttered(camera: CameraModel, seed: int, *, count: int = 40) -> npt.NDArray[np.float64]:
+    """A background of dark and bright quadrilaterals, bars and discs, none of them a marker."""
+    random = np.random.default_rng([seed, 5])
+    width, height = camera.size_wh_px
+    picture = np.full((height, width), 150.0, dtype=np.float64)
+    for _ in range(count):
+        centre = random.uniform([0, 0], [width, height])
+        angle, size = random.uniform(0, 2 * np.pi), random.uniform(10, 60, 2)
+        box = cv2.boxPoints((tuple(centre), tuple(size), float(np.degrees(angle))))
+        grey = float(random.uniform(20, 235))
+        if random.uniform() < 0.25:
+            cv2.circle(picture, (int(centre[0]), int(centre[1])), int(size[0] / 2), grey, -1, cv2.LINE_AA)
+        else:
+            cv2.fillConvexPoly(picture, np.rint(box).astype(np.int32), grey, cv2.LINE_AA)
+    return picture
+
+
+def seen(sighting: Sighting) -> Seen:
+    """The sighting, which must be one."""
+    assert isinstance(sighting, Seen), sighting
+    return sighting
