@@ -93,6 +93,16 @@ def test_a_taken_port_is_told(tmp_path: Path) -> None:
     assert "--port" in result.stderr
 
 
+def test_an_address_that_is_not_of_this_machine_is_told(tmp_path: Path) -> None:
+    # 192.0.2.1 is kept for documentation: no machine has it.
+    (tmp_path / "config.yaml").write_text("server:\n  host: 192.0.2.1\n", encoding="utf-8")
+    result = coaxial("run", "--port", "0", folder=tmp_path)
+    assert result.returncode == 2
+    assert is_one_sentence_with_remedy(result.stderr)
+    assert "192.0.2.1" in result.stderr
+    assert "server.host" in result.stderr
+
+
 def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path: Path) -> None:
     result = coaxial(
         "track", film, "--marker", marker, "--side-mm", "40", "--json", "out.jsonl", folder=tmp_path
