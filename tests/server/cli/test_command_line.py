@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -9,10 +10,13 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 import pytest
 from typer.testing import CliRunner
 
 from server.cli import app
+from tracker.pipeline import Tracker
+from tracker.pose import Sighting
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -145,6 +149,29 @@ def test_track_can_write_to_standard_output_and_stop_early(film: Path, marker: P
     )
     assert result.returncode == 0, result.stderr
     assert [json.loads(line)["name"] for line in result.stdout.splitlines()] == ["a", "a"]
+
+
+def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
+    film: Path, marker: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    step = Tracker.step
+
+    def step_with_ctrl_c(
+        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float
+    ) -> dict[str, Sighting]:
+        signal.raise_signal(signal.SIGINT)
+        assert signal.getsignal(signal.SIGINT) == signal.SIG_DFL  # a second one ends it at once
+        return step(tracker, image, captured_at_s=captured_at_s)
+
+    monkeypatch.setattr(Tracker, "step", step_with_ctrl_c)
+    lines = tmp_path / "o.jsonl"
+    result = CliRunner().invoke(
+        app, ["track", str(film), "--marker", str(marker), "--side-mm", "4", "--json", str(lines)]
+    )
+    assert result.exit_code == 130, result.output
+    assert "Stopped: 1 images" in result.stderr
+    assert len((tmp_path / "o.jsonl.part").read_text(encoding="utf-8").splitlines()) == 1
+    assert not lines.exists()
 
 
 def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: Path, tmp_path: Path) -> None:
