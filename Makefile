@@ -98,7 +98,7 @@ lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest
 	@UPGRADE="$(UPGRADE)" sh .make/lock
 
 .PHONY: clean
-clean: ## take away everything that was made (cases and state in .coaxial stay)
+clean: ## take away everything that was made
 	rm -rf .venv web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
 

@@ -92,7 +92,7 @@ def run(
     loop: Annotated[
         bool | None,
         typer.Option(
-            "--loop/--once", "/--no-loop", help="A file starts again at its end, or not.", show_default=False
+            "--loop/--no-loop", " /--once", help="A file starts again at its end, or not.", show_default=False
         ),
     ] = None,
     rate: Annotated[

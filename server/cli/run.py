@@ -1,5 +1,6 @@
 """`coaxial run`: the server from start to stop."""
 
+import errno
 import socket
 import sys
 from functools import partial
@@ -15,6 +16,8 @@ from server.errors import ConfigError
 from server.logs import LogSettings, configure_logging
 
 BACKLOG = 128
+PORT_REMEDY = "Stop the program that uses this port, or choose another one with --port or COAXIAL_PORT."
+HOST_REMEDY = "Give an address of this machine as server.host in the settings; 127.0.0.1 is always one."
 log = structlog.get_logger(__name__)
 
 
@@ -85,10 +88,11 @@ def _listener(config: Config) -> socket.socket:
             listener.close()
             raise
     except OSError as error:
+        of_the_host = isinstance(error, socket.gaierror) or error.errno == errno.EADDRNOTAVAIL
         raise ConfigError(
-            "PORT_NOT_AVAILABLE",
+            "HOST_NOT_AVAILABLE" if of_the_host else "PORT_NOT_AVAILABLE",
             f"the server cannot listen on {host}:{port}: {(error.strerror or str(error)).lower()}",
-            "Stop the program that uses this port, or choose another one with --port or COAXIAL_PORT.",
+            HOST_REMEDY if of_the_host else PORT_REMEDY,
             {"host": host, "port": port},
         ) from error
     return listener

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import signal
 import statistics
 import sys
 import threading
@@ -23,6 +24,7 @@ from server.capture.choose import source_from_config
 from server.capture.codecs import open_file
 from server.capture.shot import Shot, Source
 from server.cli.options import Given, config_from_options
+from server.cli.stopping import Stopping
 from server.config import Config
 from server.logs import LogSettings, configure_logging
 from server.setup import Preparation, build_setup
@@ -32,13 +34,14 @@ from tracker.pipeline import Tracker
 from tracker.pose import Seen, Sighting
 
 BAD_INPUT = 2
+STOPPED = 130
 log = structlog.get_logger(__name__)
 
 
 def track_video(
     given: Given, *, json_file: str | None, images: int | None, log_json: bool, debug: bool
 ) -> int:
-    """Track every image, and give the exit status: 0, or 2 when the video was not whole.
+    """Track every image, and give the exit status: 0, 2 when the video was not whole, 130 when stopped.
 
     Raises:
         NavigationError: an option, the video, a marker or the camera file cannot be used.
@@ -52,13 +55,7 @@ def track_video(
             f"'{address.name}' is a {address.kind.value}, which has no end",
             "Give a video file, a folder of images or 'rehearsal'; for a live source use 'coaxial run'.",
         )
-    preparation = build_setup(config)
-    if not preparation.models:
-        raise InvalidInput(
-            "NO_MARKER",
-            "there is no marker to look for",
-            "Give its picture with --marker PNG and its side with --side-mm, or put it into the settings.",
-        )
+    preparation = _with_a_marker(build_setup(config))
     theatre = preparation.theatre
     if theatre is not None:
         cycle = round(theatre.cycle_s * config.rehearsal.rate_hz)
@@ -66,14 +63,20 @@ def track_video(
     renderer = None if theatre is None else theatre.renderer()
     source = source_from_config(config, stop=threading.Event(), renderer=renderer)
     summary = _Summary()
-    source.open()
     try:
-        with _lines(json_file) as lines, _progress(_count(config, images)) as advance:
-            for shot, read_ms in _shots(source, images):
-                for line in summary.lines_of(shot, read_ms, preparation):
-                    if lines is not None:
-                        lines.write(json.dumps(line, allow_nan=False) + "\n")
-                advance()
+        with Stopping().caught() as stopping:
+            # A signal waits for the end of the image: inside a compiled loop it would end in a traceback.
+            stopping.call_when_asked(_let_a_second_one_end_it)
+            source.open()
+            with _lines(json_file) as lines, _progress(_count(config, images)) as advance:
+                for shot, read_ms in _shots(source, images, stopping):
+                    for line in summary.lines_of(shot, read_ms, preparation):
+                        if lines is not None:
+                            lines.write(json.dumps(line, allow_nan=False) + "\n")
+                    advance()
+    except _StoppedError:
+        typer.echo(f"Stopped: {summary.sentence()}", err=True)
+        return STOPPED
     finally:
         source.close()
     typer.echo(summary.sentence(), err=True)
@@ -83,10 +86,30 @@ def track_video(
     return 0
 
 
-def _shots(source: Source, images: int | None) -> Iterator[tuple[Shot, float]]:
+def _with_a_marker(preparation: Preparation) -> Preparation:
+    if not preparation.models:
+        raise InvalidInput(
+            "NO_MARKER",
+            "there is no marker to look for",
+            "Give its picture with --marker PNG and its side with --side-mm, or put it into the settings.",
+        )
+    return preparation
+
+
+class _StoppedError(Exception):
+    """Somebody pressed Ctrl+C: leaves the lines as they are, so that a cut file keeps its .part."""
+
+
+def _let_a_second_one_end_it() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def _shots(source: Source, images: int | None, stopping: Stopping) -> Iterator[tuple[Shot, float]]:
     """Each image of the source, with the time it took to read."""
     count = 0
     while images is None or count < images:
+        if stopping.asked:
+            raise _StoppedError
         started_s = time.monotonic()
         shot = source.read()
         if shot is None:
@@ -188,21 +211,27 @@ def _lines(json_file: str | None) -> Iterator[IO[str] | None]:
         sys.stdout.flush()
         return
     path = Path(json_file)
+    if path.is_dir():
+        raise _not_writable(path, "is a directory")
     part = path.with_name(path.name + ".part")
     try:
         file = part.open("w", encoding="utf-8", buffering=1)
     except OSError as error:
-        raise InvalidInput(
-            "OUTPUT_NOT_WRITABLE",
-            f"{part} cannot be written: {(error.strerror or '').lower()}",
-            "Give a file in a folder that exists and may be written, or - for standard output.",
-            {"file": str(part)},
-        ) from error
+        raise _not_writable(part, (error.strerror or "").lower()) from error
     with file:
         yield file
         file.flush()
         os.fsync(file.fileno())
     part.replace(path)
+
+
+def _not_writable(path: Path, why: str) -> InvalidInput:
+    return InvalidInput(
+        "OUTPUT_NOT_WRITABLE",
+        f"{path} cannot be written: {why}",
+        "Give a file in a folder that exists and may be written, or - for standard output.",
+        {"file": str(path)},
+    )
 
 
 def _count(config: Config, images: int | None) -> int | None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -9,10 +10,13 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 import pytest
 from typer.testing import CliRunner
 
 from server.cli import app
+from tracker.pipeline import Tracker
+from tracker.pose import Sighting
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -75,6 +79,14 @@ def test_a_wrong_setting_stops_the_start_with_one_sentence(tmp_path: Path) -> No
     assert result.stdout == ""
 
 
+@pytest.mark.parametrize("once", ["--no-loop", "--once"])
+def test_a_file_can_be_played_once(monkeypatch: pytest.MonkeyPatch, once: str) -> None:
+    taken: list[bool | None] = []
+    monkeypatch.setattr("server.cli.run.run_dashboard", lambda given, **_: taken.append(given.loop))
+    result = CliRunner().invoke(app, ["run", once])
+    assert (result.exit_code, taken) == (0, [False]), result.output
+
+
 def test_a_taken_port_is_told(tmp_path: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
@@ -83,6 +95,16 @@ def test_a_taken_port_is_told(tmp_path: Path) -> None:
     assert result.returncode == 2
     assert is_one_sentence_with_remedy(result.stderr)
     assert "--port" in result.stderr
+
+
+def test_an_address_that_is_not_of_this_machine_is_told(tmp_path: Path) -> None:
+    # 192.0.2.1 is kept for documentation: no machine has it.
+    (tmp_path / "config.yaml").write_text("server:\n  host: 192.0.2.1\n", encoding="utf-8")
+    result = coaxial("run", "--port", "0", folder=tmp_path)
+    assert result.returncode == 2
+    assert is_one_sentence_with_remedy(result.stderr)
+    assert "192.0.2.1" in result.stderr
+    assert "server.host" in result.stderr
 
 
 def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path: Path) -> None:
@@ -129,6 +151,29 @@ def test_track_can_write_to_standard_output_and_stop_early(film: Path, marker: P
     assert [json.loads(line)["name"] for line in result.stdout.splitlines()] == ["a", "a"]
 
 
+def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
+    film: Path, marker: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    step = Tracker.step
+
+    def step_with_ctrl_c(
+        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float
+    ) -> dict[str, Sighting]:
+        signal.raise_signal(signal.SIGINT)
+        assert signal.getsignal(signal.SIGINT) == signal.SIG_DFL  # a second one ends it at once
+        return step(tracker, image, captured_at_s=captured_at_s)
+
+    monkeypatch.setattr(Tracker, "step", step_with_ctrl_c)
+    lines = tmp_path / "o.jsonl"
+    result = CliRunner().invoke(
+        app, ["track", str(film), "--marker", str(marker), "--side-mm", "4", "--json", str(lines)]
+    )
+    assert result.exit_code == 130, result.output
+    assert "Stopped: 1 images" in result.stderr
+    assert len((tmp_path / "o.jsonl.part").read_text(encoding="utf-8").splitlines()) == 1
+    assert not lines.exists()
+
+
 def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: Path, tmp_path: Path) -> None:
     write_film(film, images=40)
     film.write_bytes(film.read_bytes()[: film.stat().st_size * 6 // 10])
@@ -158,6 +203,11 @@ def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: P
             ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "no/o.jsonl"],
             "no/o.jsonl",
             id="no-folder",
+        ),
+        pytest.param(
+            ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "."],
+            "is a directory",
+            id="a-folder-as-file",
         ),
     ],
 )

@@ -1,5 +1,6 @@
 """The panel says numbers when they are known, and the reason when they are not; never both."""
 
+import dataclasses
 from collections.abc import Callable
 
 import pytest
@@ -8,7 +9,8 @@ from server.live import Instant
 from server.overlay import panel_of
 from server.shown import NOT_KNOWN, shown_number
 from server.stream.messages import DeviationMessage, live_message
-from tracker.navigation import NavigationSnapshot
+from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
+from tracker.pose import Unseen, UnseenReason
 
 SnapshotOf = Callable[..., NavigationSnapshot]
 
@@ -40,6 +42,20 @@ def test_an_unseen_marker_is_told_with_its_reason(snapshot_of: SnapshotOf) -> No
         "marker not seen",
         "drill: too few of its edges",
     )
+
+
+@pytest.mark.parametrize("reason", UnseenReason)
+def test_every_reason_of_an_unseen_marker_has_words(snapshot_of: SnapshotOf, reason: UnseenReason) -> None:
+    snapshot = dataclasses.replace(snapshot_of(seen=False), sightings={"drill": Unseen(reason=reason)})
+    assert panel_of(snapshot).details[-1].startswith("drill: ")
+
+
+@pytest.mark.parametrize("reason", AbsentReason)
+def test_every_reason_for_absent_numbers_has_words(snapshot_of: SnapshotOf, reason: AbsentReason) -> None:
+    snapshot = dataclasses.replace(snapshot_of(), deviations={"drill": Absent(reason=reason)})
+    panel = panel_of(snapshot)
+    assert panel.state
+    assert panel.details
 
 
 def test_the_burned_in_numbers_are_the_numbers_of_the_message(

@@ -120,14 +120,20 @@ export const de: Words = {
     },
     CAMERA_NOT_CALIBRATED: {
       state: "KAMERA NICHT KALIBRIERT",
-      sentence: "Kamera kalibrieren: ohne das sind keine Millimeter bekannt.",
+      sentence: "Mit einer Kameradatei starten (--camera): ohne sie sind keine Millimeter bekannt.",
     },
     TOOL_NOT_DEFINED: {
       state: "WERKZEUG NICHT BESTIMMT",
-      sentence: "Angeben, wo die Bohrerspitze hinter diesem Marker liegt.",
+      sentence: "In config.yaml (tools) angeben, wo die Bohrerspitze hinter ihrem Marker liegt.",
     },
-    NOT_REGISTERED: { state: "NICHT REGISTRIERT", sentence: "Zuerst Plan und Patient registrieren." },
-    NO_PLAN: { state: "KEIN PLAN", sentence: "Zuerst einen Kanal planen." },
+    NOT_REGISTERED: {
+      state: "NICHT REGISTRIERT",
+      sentence: "Plan und Patient kennen einander nicht. Bisher bringt das nur die Probe mit.",
+    },
+    NO_PLAN: {
+      state: "KEIN PLAN",
+      sentence: "Es gibt keinen geplanten Kanal. Bisher bringt nur die Probe einen mit.",
+    },
   },
   unseen: {
     NO_CANDIDATE: "nichts im Bild sieht ihm ähnlich",

@@ -169,14 +169,20 @@ export const en: Words = {
     MARKER_UNSEEN: { state: "MARKER NOT SEEN", sentence: "Bring the marker into view of the camera." },
     CAMERA_NOT_CALIBRATED: {
       state: "CAMERA NOT CALIBRATED",
-      sentence: "Calibrate the camera: without it no millimetres are known.",
+      sentence: "Start with a camera file (--camera): without it no millimetres are known.",
     },
     TOOL_NOT_DEFINED: {
       state: "TOOL NOT DEFINED",
-      sentence: "Say where the drill's tip is behind this marker.",
+      sentence: "Say in config.yaml (tools) where the drill's tip is behind its marker.",
     },
-    NOT_REGISTERED: { state: "NOT REGISTERED", sentence: "Register plan and patient first." },
-    NO_PLAN: { state: "NO PLAN", sentence: "Plan a channel first." },
+    NOT_REGISTERED: {
+      state: "NOT REGISTERED",
+      sentence: "Plan and patient do not know each other. So far only the rehearsal brings that.",
+    },
+    NO_PLAN: {
+      state: "NO PLAN",
+      sentence: "There is no planned channel. So far only the rehearsal brings one.",
+    },
   },
   unseen: {
     NO_CANDIDATE: "nothing in the image looks like it",
