@@ -48,7 +48,11 @@ def source_from_text(text: str | int) -> SourceAddress:
 
 
 def masked(address: str) -> str:
-    """An address with its password, and whatever in its query may be one, replaced by ***."""
+    """An address with its login, and whatever in its query may be a secret, replaced by ***.
+
+    Of a login only a user's name with a password behind it is shown: alone it may be the secret itself. A
+    password with / ? or # in it ends the host's part of the address early; then all before the @ is hidden.
+    """
     try:
         parts = urlsplit(address)
     except ValueError:
@@ -57,8 +61,11 @@ def masked(address: str) -> str:
     if "@" in place:
         login, _, host = place.rpartition("@")
         user, colon, _ = login.partition(":")
-        place = f"{user}{':***' if colon else ''}@{host}"
-    query = re.sub(
-        r"(?i)\b([^=&]*(?:pass|pwd|token|key|secret|auth|sig)[^=&]*)=[^&]*", r"\1=***", parts.query
-    )
-    return parts._replace(netloc=place, query=query).geturl()
+        place = f"{user}:***@{host}" if colon else f"***@{host}"
+    elif "@" in address:
+        return f"{parts.scheme}://***@{_without_secrets(address.rpartition('@')[2])}"
+    return parts._replace(netloc=place, query=_without_secrets(parts.query)).geturl()
+
+
+def _without_secrets(query: str) -> str:
+    return re.sub(r"(?i)\b([^=&]*(?:pass|pwd|token|key|secret|auth|sig)[^=&]*)=[^&]*", r"\1=***", query)

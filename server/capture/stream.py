@@ -97,13 +97,16 @@ class StreamSource:
         try:
             parts = urlsplit(self._address)
             port = parts.port or DEFAULT_PORTS.get(parts.scheme.lower())
-        except ValueError as error:
+        except ValueError:
+            # Not the error's own words, and not the error: they show what stands where the port should,
+            # which is a password when that has / ? or # in it.
             raise CaptureError(
                 "STREAM_ADDRESS_INVALID",
-                f"the stream's address {self.name} cannot be understood: {error}",
-                "Give an address like rtsp://user:password@camera:554/path.",
+                f"the stream's address {self.name} cannot be understood: its host or port is none",
+                "Give an address like rtsp://user:password@camera:554/path, in which / ? # @ of a password "
+                "are written as %2F %3F %23 %40.",
                 {"stream": self.name},
-            ) from error
+            ) from None
         if parts.hostname is None or port is None:
             return
         try:

@@ -145,6 +145,9 @@ def _check_readable(path: Path) -> None:
     reason = ""
     if not path.exists():
         reason = "it does not exist"
+    elif not path.is_file():
+        # Opening a pipe that nobody writes into would wait for ever.
+        reason = "it is a pipe, a socket or a device, not a file"
     else:
         try:
             with path.open("rb") as file:

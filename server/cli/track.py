@@ -2,16 +2,14 @@
 
 import contextlib
 import json
-import os
 import signal
 import statistics
-import sys
 import threading
 import time
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import cv2
 import structlog
@@ -24,6 +22,7 @@ from server.capture.choose import source_from_config
 from server.capture.codecs import open_file
 from server.capture.shot import Shot, Source
 from server.cli.options import Given, config_from_options
+from server.cli.output import lines_to
 from server.cli.stopping import Stopping
 from server.config import Config
 from server.logs import LogSettings, configure_logging
@@ -63,16 +62,17 @@ def track_video(
     renderer = None if theatre is None else theatre.renderer()
     source = source_from_config(config, stop=threading.Event(), renderer=renderer)
     summary = _Summary()
+    inputs = _read_files(given, config)
     try:
         with Stopping().caught() as stopping:
             # A signal waits for the end of the image: inside a compiled loop it would end in a traceback.
             stopping.call_when_asked(_let_a_second_one_end_it)
             source.open()
-            with _lines(json_file) as lines, _progress(_count(config, images)) as advance:
+            with lines_to(json_file, inputs=inputs) as lines, _progress(_count(config, images)) as advance:
                 for shot, read_ms in _shots(source, images, stopping):
                     for line in summary.lines_of(shot, read_ms, preparation):
                         if lines is not None:
-                            lines.write(json.dumps(line, allow_nan=False) + "\n")
+                            lines.write(json.dumps(line, allow_nan=False))
                     advance()
     except _StoppedError:
         typer.echo(f"Stopped: {summary.sentence()}", err=True)
@@ -200,38 +200,10 @@ SEEN_KEYS = (
 )
 
 
-@contextlib.contextmanager
-def _lines(json_file: str | None) -> Iterator[IO[str] | None]:
-    """Where lines go; a file has its name only once it is complete, until then it ends in .part."""
-    if json_file is None:
-        yield None
-        return
-    if json_file == "-":
-        yield sys.stdout
-        sys.stdout.flush()
-        return
-    path = Path(json_file)
-    if path.is_dir():
-        raise _not_writable(path, "is a directory")
-    part = path.with_name(path.name + ".part")
-    try:
-        file = part.open("w", encoding="utf-8", buffering=1)
-    except OSError as error:
-        raise _not_writable(part, (error.strerror or "").lower()) from error
-    with file:
-        yield file
-        file.flush()
-        os.fsync(file.fileno())
-    part.replace(path)
-
-
-def _not_writable(path: Path, why: str) -> InvalidInput:
-    return InvalidInput(
-        "OUTPUT_NOT_WRITABLE",
-        f"{path} cannot be written: {why}",
-        "Give a file in a folder that exists and may be written, or - for standard output.",
-        {"file": str(path)},
-    )
+def _read_files(given: Given, config: Config) -> list[Path]:
+    """What is read, and must not be written over."""
+    files = [Path(str(config.camera.source)), *(marker.image for marker in config.markers.values())]
+    return files + [file for file in (config.camera.calibration, given.config) if file is not None]
 
 
 def _count(config: Config, images: int | None) -> int | None:

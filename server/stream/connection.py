@@ -54,17 +54,30 @@ def line_of(scope: MutableMapping[str, Any]) -> Line | None:
 
 
 class ViewerProtocol(H11Protocol):
-    """uvicorn's HTTP protocol, with short buffers and its line in the state of each request."""
+    """uvicorn's HTTP protocol, with short buffers and its line in the state of each request.
+
+    Attributes:
+        request_within_s: a connection that has not sent its first request by then is cut: each holds a file
+            of the process, and when those run out nobody else is let in.
+    """
+
+    request_within_s = 10.0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # as its base
         """Shorten the buffers, and remember the line."""
         super().connection_made(transport)
         self._line = Line(transport)
+        self.loop.call_later(self.request_within_s, self._end_without_request)
         self.app_state = {**self.app_state, STATE_KEY: self._line}
         transport.set_write_buffer_limits(high=0)
         raw = cast("socket.socket | None", transport.get_extra_info("socket"))
         if raw is not None and hasattr(socket, "TCP_NOTSENT_LOWAT"):
             raw.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)
+
+    def _end_without_request(self) -> None:
+        # A WebSocket has taken the line over: its protocol is another.
+        if cast("object | None", self.cycle) is None and self._line.transport.get_protocol() is self:
+            self._line.cut()
 
     def shutdown(self) -> None:
         """End endless answers at once, let others finish."""

@@ -22,6 +22,11 @@ from server.capture.address import SourceKind, source_from_text
             "https://h/x?user=a&pwd=***&token=***&q=1",
             id="password-in-the-query",
         ),
+        pytest.param("rtsp://secret@cam/live", SourceKind.STREAM, "rtsp://***@cam/live", id="key-as-user"),
+        pytest.param(
+            "rtsp://me:pa/ss@cam/live?key=1", SourceKind.STREAM, "rtsp://***@cam/live?key=***", id="slash"
+        ),
+        pytest.param("rtsp://me:pa#ss@cam/live", SourceKind.STREAM, "rtsp://***@cam/live", id="hash"),
         pytest.param("http://[bad:secret@h/x", SourceKind.STREAM, "http://***", id="not-understood"),
     ],
 )

@@ -1,5 +1,6 @@
 """Video files and folders as sources, whole and broken."""
 
+import os
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -151,3 +152,12 @@ def test_a_path_is_whatever_it_is_when_it_is_opened(tmp_path: Path, stop: thread
         source.open()
     write_images(path, {"1.png": 10})
     assert [shot.number for shot in read_all(source)] == [5]
+
+
+def test_a_pipe_is_told_and_not_waited_for(tmp_path: Path, stop: threading.Event) -> None:
+    pipe = tmp_path / "pipe.avi"
+    os.mkfifo(pipe)
+    with pytest.raises(CaptureError) as caught:
+        video(pipe, stop=stop).open()
+    assert caught.value.code == "VIDEO_FILE_UNREADABLE"
+    assert "a pipe" in caught.value.message

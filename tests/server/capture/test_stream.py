@@ -125,10 +125,13 @@ def test_a_host_that_answers_without_video_is_given_up_by_itself(stop: threading
 
 
 def test_an_address_that_cannot_be_is_told(stop: threading.Event) -> None:
-    source = StreamSource(source_from_text("rtsp://camera:notaport/x"), stop=stop)
+    source = StreamSource(source_from_text("rtsp://me:secret/more@camera:554/x"), stop=stop)
     with pytest.raises(CaptureError) as caught:
         source.open()
     assert caught.value.code == "STREAM_ADDRESS_INVALID"
+    # What stands where the port should is the beginning of the password.
+    assert "secret" not in str(caught.value)
+    assert caught.value.__cause__ is None
 
 
 def test_a_file_keeps_its_first_image_after_a_stream_was_open(

@@ -205,9 +205,17 @@ def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: P
             id="no-folder",
         ),
         pytest.param(
-            ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "."],
-            "is a directory",
-            id="a-folder-as-file",
+            ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "."], "directory", id="into-folder"
+        ),
+        pytest.param(
+            ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "v.avi"],
+            "write over",
+            id="over-the-video",
+        ),
+        pytest.param(
+            ["v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "m one.png"],
+            "write over",
+            id="over-the-marker",
         ),
     ],
 )

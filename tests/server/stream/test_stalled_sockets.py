@@ -1,6 +1,8 @@
 """A WebSocket client that takes nothing is cut off, however it watches."""
 
+import contextlib
 import http.client
+import itertools
 import socket
 import time
 from collections.abc import Callable
@@ -9,6 +11,7 @@ import pytest
 from fastapi import FastAPI
 
 from server.live import Instant, LiveHub, SourceState, SourceStatus, Trouble
+from server.stream.connection import ViewerProtocol
 
 DEADLINE_S = 60.0
 # More than all buffers between the two sides hold.
@@ -56,3 +59,45 @@ def test_a_stalled_client_is_cut_off(
         deadline = time.monotonic() + DEADLINE_S
         while not let_go(port, kind):
             assert time.monotonic() < deadline
+
+
+@pytest.mark.parametrize("beginning", [b"", b"GET / HTTP/1.1\r\nHost: 127."])
+def test_a_connection_without_a_request_is_cut(
+    app: FastAPI, serve: Callable[[FastAPI], int], monkeypatch: pytest.MonkeyPatch, beginning: bytes
+) -> None:
+    monkeypatch.setattr(ViewerProtocol, "request_within_s", 0.05)
+    port = serve(app)
+    with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as silent:
+        silent.sendall(beginning)
+        with contextlib.suppress(ConnectionResetError):
+            assert silent.recv(1) == b""
+
+
+def test_a_socket_outlives_the_wait_for_a_request(
+    hub: LiveHub,
+    app: FastAPI,
+    serve: Callable[[FastAPI], int],
+    live_instant: Callable[..., Instant],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ended: list[bool] = []
+
+    class Watched(ViewerProtocol):
+        def _end_without_request(self) -> None:
+            super()._end_without_request()
+            ended.append(self._line.transport.is_closing())
+
+    monkeypatch.setattr(Watched, "request_within_s", 0.2)
+    monkeypatch.setattr("server.stream.connection.ViewerProtocol", Watched)
+    port = serve(app)
+    hub.publish(live_instant(1))
+    with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as viewer:
+        viewer.sendall(HANDSHAKE.format(kind="live").encode())
+        deadline = time.monotonic() + DEADLINE_S
+        for sequence in itertools.count(2):
+            assert time.monotonic() < deadline
+            assert viewer.recv(65_536)
+            if ended:
+                break
+            hub.publish(live_instant(sequence))
+    assert ended == [False]
