@@ -92,11 +92,12 @@ class TrackerConfig(Section):
 
 
 class LimitsConfig(Section):
-    """From which age on something is old, and says so."""
+    """From which age on something is old, and how unsure a tip may be; past them there are no numbers."""
 
     pose_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 150
     video_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 500
     scene_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 500
+    most_tip_sd_mm: Annotated[float, Field(ge=0.1, le=100.0)] = 3.0
 
 
 class VideoConfig(Section):

@@ -40,6 +40,7 @@ class Preparation:
         camera_from_vertebra: the registration, or why there is none.
         registered_by: how the registration was made, in words; empty when it was not.
         score_settings: when a marker counts as found.
+        most_tip_sd_mm: how unsure a tip may be that is shown.
         theatre: the rehearsal's, None for every other source.
     """
 
@@ -50,6 +51,7 @@ class Preparation:
     camera_from_vertebra: Rigid[Camera, Vertebra] | Absent
     registered_by: str
     score_settings: ScoreSettings
+    most_tip_sd_mm: float
     theatre: "Theatre | None" = None
 
     @property
@@ -99,6 +101,7 @@ class Preparation:
             channel=self.channel,
             camera_from_vertebra=self.camera_from_vertebra,
             registered_by=self.registered_by,
+            most_tip_sd_mm=self.most_tip_sd_mm,
         )
 
 
@@ -124,6 +127,7 @@ def build_setup(config: Config) -> Preparation:
             camera_from_vertebra=theatre.camera_from_vertebra,
             registered_by="rehearsal",
             score_settings=scores,
+            most_tip_sd_mm=config.limits.most_tip_sd_mm,
             theatre=theatre,
         )
     calibration = config.camera.calibration
@@ -135,6 +139,7 @@ def build_setup(config: Config) -> Preparation:
         camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
         registered_by="",
         score_settings=scores,
+        most_tip_sd_mm=config.limits.most_tip_sd_mm,
     )
 
 

@@ -11,6 +11,7 @@ RESEARCH_SOFTWARE = "research software, not a medical device"
 STATE_WORDS = {
     AbsentReason.MARKER_UNSEEN: "NO TRACKING",
     AbsentReason.CAMERA_NOT_CALIBRATED: "CAMERA NOT CALIBRATED",
+    AbsentReason.POSE_UNCERTAIN: "POSE UNCERTAIN",
     AbsentReason.TOOL_NOT_DEFINED: "TOOL NOT DEFINED",
     AbsentReason.NOT_REGISTERED: "NOT REGISTERED",
     AbsentReason.NO_PLAN: "NO PLAN",
@@ -18,6 +19,7 @@ STATE_WORDS = {
 STATE_DETAILS = {
     AbsentReason.MARKER_UNSEEN: "marker not seen",
     AbsentReason.CAMERA_NOT_CALIBRATED: "no millimetres without a camera file",
+    AbsentReason.POSE_UNCERTAIN: "the tip is not sure enough",
     AbsentReason.TOOL_NOT_DEFINED: "where is the tip behind this marker?",
     AbsentReason.NOT_REGISTERED: "plan and patient do not know each other",
     AbsentReason.NO_PLAN: "there is no channel",

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
 from tracker.edges import GreyImage
 from tracker.geometry import Array
@@ -38,7 +39,7 @@ class Contradiction:
     Attributes:
         inside_ratio: area of the contradicting parts that lie wholly inside the square, by its area, 0..1.
         covered_ratio: area of those that reach its border, by its area, 0..1.
-        likeness: correlation of all fields with the model's, the light taken out, -1..1.
+        likeness: correlation of the uncovered fields with the model's, the light taken out, -1..1.
         least_likeness: what is asked of a marker of this size.
     """
 
@@ -64,32 +65,32 @@ def contradiction_of(
     expected = _expected(square, side_px)
     rest = _without_light(seen, expected)
     smooth = cv2.blur(rest, (3, 3), borderType=cv2.BORDER_REPLICATE)
-    inside, covered = 0, 0
+    inside = 0
+    open_to_sight = np.ones((FIELDS, FIELDS), np.bool_)
     for sign in (1.0, -1.0):
         count, labels, stats, _ = cv2.connectedComponentsWithStats(
             (sign * smooth > CONTRADICTION).astype(np.uint8), connectivity=4
         )
-        del labels
-        for left, top, width, height, area in stats[1:count].tolist():
-            at_border = left == 0 or top == 0 or left + width == FIELDS or top + height == FIELDS
-            if at_border:
-                covered += area
+        for label in range(1, count):
+            left, top, width, height, area = (int(v) for v in stats[label])
+            if left == 0 or top == 0 or left + width == FIELDS or top + height == FIELDS:
+                open_to_sight &= labels != label
             else:
                 inside = max(inside, area)
     return Contradiction(
         inside_ratio=inside / FIELDS**2,
-        covered_ratio=covered / FIELDS**2,
-        likeness=_likeness(seen, expected),
+        covered_ratio=1.0 - float(open_to_sight.mean()),
+        likeness=_likeness(seen, expected, open_to_sight),
         least_likeness=float(np.interp(side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS)),
     )
 
 
-def _likeness(seen: Array, expected: Array) -> float:
-    """Correlation of two squares of fields, what a quadratic over the square explains taken out of both."""
-    light = _light()
-    rests = [
-        one - light @ np.linalg.lstsq(light, one, rcond=None)[0] for one in (seen.ravel(), expected.ravel())
-    ]
+def _likeness(seen: Array, expected: Array, open_to_sight: npt.NDArray[np.bool_]) -> float:
+    """Correlation of two squares of fields where nothing lies over them, the light taken out of both."""
+    chosen = open_to_sight.ravel()
+    light = _light()[chosen]
+    fields = (seen.ravel()[chosen], expected.ravel()[chosen])
+    rests = [one - light @ np.linalg.lstsq(light, one, rcond=None)[0] for one in fields]
     sizes = [float(np.linalg.norm(rest)) for rest in rests]
     return float(rests[0] @ rests[1]) / (sizes[0] * sizes[1]) if min(sizes) > 0.0 else 0.0
 

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
 
+import numpy as np
+
 from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Rigid, Tool, Vertebra, point_covariance_mm2
 from tracker.navigation.deviation import Deviation, deviation_from_channel
@@ -21,6 +23,7 @@ class AbsentReason(StrEnum):
 
     MARKER_UNSEEN = "MARKER_UNSEEN"  # the marker is not seen in this image
     CAMERA_NOT_CALIBRATED = "CAMERA_NOT_CALIBRATED"  # found in the picture, but mm are not known
+    POSE_UNCERTAIN = "POSE_UNCERTAIN"  # seen, but the tip could be millimetres away from where it seems
     TOOL_NOT_DEFINED = "TOOL_NOT_DEFINED"  # nobody said where the tip is behind this marker
     NOT_REGISTERED = "NOT_REGISTERED"  # plan and patient are not registered
     NO_PLAN = "NO_PLAN"  # there is no channel
@@ -56,6 +59,7 @@ class Setup:
         tools: by name; each names the marker that it carries.
         channel: the planned channel.
         camera_from_vertebra: the registration, for this camera position.
+        most_tip_sd_mm: a tip that is less sure than this (root of the trace of its covariance) is not placed.
         registered_by: in words, how the registration was made ("rehearsal" when known by the theatre).
     """
 
@@ -65,6 +69,7 @@ class Setup:
     channel: Channel | Absent
     camera_from_vertebra: Rigid[Camera, Vertebra] | Absent
     registered_by: str
+    most_tip_sd_mm: float = 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,11 +109,12 @@ def tool_in_view(setup: Setup, tool: ToolModel, sighting: Sighting) -> ToolInVie
     if not setup.camera_calibrated:
         return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
     tip_in_marker = tool.marker_from_tool.translation_mm
+    covariance = point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, tip_in_marker)
+    # Also where two poses explain the image: the covariance then spans both.
+    if float(np.sqrt(np.trace(covariance))) > setup.most_tip_sd_mm:
+        return Absent(reason=AbsentReason.POSE_UNCERTAIN)
     return ToolInView(
-        camera_from_tool=sighting.camera_from_marker @ tool.marker_from_tool,
-        tip_covariance_mm2=point_covariance_mm2(
-            sighting.camera_from_marker, sighting.pose_covariance, tip_in_marker
-        ),
+        camera_from_tool=sighting.camera_from_marker @ tool.marker_from_tool, tip_covariance_mm2=covariance
     )
 
 

@@ -11,6 +11,7 @@ from tracker.pose.sighting import Seen, Sighting
 LONGEST_AHEAD_S = 0.25
 # Two poses nearer in time than this say nothing about speed.
 LEAST_INTERVAL_S = 1e-3
+MOST_SPEED_MM_S = 1500.0
 
 
 @dataclass(slots=True)
@@ -42,7 +43,10 @@ class Prior:
         self.velocity_mm_s, self.turning_rad_s = np.zeros(3), np.zeros(3)
         if self.pose is not None and LEAST_INTERVAL_S < interval <= LONGEST_AHEAD_S:
             now = sighting.camera_from_marker
-            self.velocity_mm_s = (now.translation_mm - self.pose.translation_mm) / interval
+            velocity = (now.translation_mm - self.pose.translation_mm) / interval
+            # Faster than any hand: it was somewhere else before, and that says nothing of the next image.
+            if float(np.linalg.norm(velocity)) < MOST_SPEED_MM_S:
+                self.velocity_mm_s = velocity
             turned = vector_from_rotation(now.rotation @ self.pose.rotation.T)
             # From one planar solution to the other is no turn of the hand.
             if float(np.linalg.norm(turned)) < np.radians(15.0):

@@ -25,7 +25,10 @@ DECIDED_COST = 18.0
 # What does not average out along a side: the pattern of pixels against a straight edge, blur between edges
 # that are near to each other. Measured on rendered scenes, where the truth is known.
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
+UNDECIDED_COST = 2.0
 EXPECTED_TURN_SD_DEG = 4.0
+# A hand turns a drill by less than this between two images; farther is the other solution.
+FAR_TURN_DEG, NEAR_TURN_DEG = 20.0, 10.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,12 +85,16 @@ def refined_pose(
         first = third if third is not None else first
     if first is None or second is None:
         return first or second
+    # By all edges, not by those few that agree: where most are missing or far off, nothing is decided.
+    mean_px2 = min(first.cost_px2, second.cost_px2) / _weight(active)
     residual = max(min(first.residual_px, second.residual_px), LEAST_RESIDUAL_PX)
-    variance = residual**2 * CORRELATION_LENGTH_PX
+    variance = max(residual**2, mean_px2) * CORRELATION_LENGTH_PX
     costs = [one.cost_px2 + variance * _surprise(one, expected) for one in (first, second)]
     better, worse = (first, second) if costs[0] <= costs[1] else (second, first)
     gap = abs(costs[1] - costs[0]) / variance
     apart = _difference(better.camera_from_marker, worse.camera_from_marker)
+    if expected is not None and _turned_over(better, worse, expected):
+        gap = min(gap, UNDECIDED_COST)
     if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < 1e-3:
         return better
     doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
@@ -99,6 +106,20 @@ def refined_pose(
         shift_px=better.shift_px,
         doubt_ratio=doubt,
     )
+
+
+def _turned_over(better: Fit, worse: Fit, expected: Rigid[Camera, Marker]) -> bool:
+    """Whether the better pose is one that no hand reaches from the expected one, and the worse is at hand."""
+    turns = [
+        float(np.linalg.norm(vector_from_rotation(fit.camera_from_marker.rotation @ expected.rotation.T)))
+        for fit in (better, worse)
+    ]
+    return bool(turns[0] > np.radians(FAR_TURN_DEG) and turns[1] < np.radians(NEAR_TURN_DEG))
+
+
+def _weight(active: ActiveEdges) -> float:
+    """What all edges that take part in a fit weigh together."""
+    return max(float(active.strength_ratio[active.straight].sum()), 1.0)
 
 
 def _surprise(fit: Fit, expected: Rigid[Camera, Marker] | None) -> float:
@@ -160,7 +181,11 @@ def _refined(
     )
     if count == 0 or weights <= PARAMETERS:
         return None
-    variance = max(squares / weights * count / max(count - PARAMETERS, 1), LEAST_RESIDUAL_PX**2)
+    variance = max(
+        squares / weights * count / max(count - PARAMETERS, 1),
+        float(cost) / _weight(active),
+        LEAST_RESIDUAL_PX**2,
+    )
     # Edgels stand a pixel apart at small sizes and farther at large ones.
     spacing = max(float(np.median(active.length_mm)) * side_px / _side_mm(active), 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)

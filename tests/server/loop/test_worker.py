@@ -78,6 +78,7 @@ class Prepared(Preparation):
             camera_from_vertebra=setup.camera_from_vertebra,
             registered_by="",
             score_settings=ScoreSettings(),
+            most_tip_sd_mm=3.0,
         )
         object.__setattr__(self, "made", tracker)
 

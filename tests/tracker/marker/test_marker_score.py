@@ -69,7 +69,7 @@ def test_a_setting_that_is_no_ratio_is_refused_by_name(name: str, value: float) 
 
 
 @pytest.mark.parametrize(
-    ("side_px", "reach"), [(10, 1.5), (50, 1.5), (60, 1.8), (100, 3.0), (160, 4.8), (400, 5.0)]
+    ("side_px", "reach"), [(10, 2.0), (50, 2.0), (60, 2.4), (100, 4.0), (120, 4.8), (400, 5.0)]
 )
 def test_the_reach_grows_with_the_marker_within_its_limits(side_px: float, reach: float) -> None:
     assert reach_px(side_px) == pytest.approx(reach)

@@ -47,7 +47,8 @@ export function NumbersPane(): ReactNode {
             </p>
           ) : (
             <p className="state-bad" data-testid="no-tracking">
-              <span aria-hidden="true">▲▲</span> {words.numbers.none} <Since span={since} />
+              <span aria-hidden="true">▲▲</span>{" "}
+              {isSeen(view.numbers) ? words.numbers.noNumbers : words.numbers.none} <Since span={since} />
             </p>
           )}
           <p className="state-why">
@@ -77,6 +78,16 @@ export function NumbersPane(): ReactNode {
 
 function Since({ span }: { span: RefObject<HTMLSpanElement | null> }): ReactNode {
   return <span className="since" data-testid="untracked-for" ref={span} />;
+}
+
+/** Seen, and still without numbers: a plan, a tool or a calibration is missing. */
+function isSeen(numbers: NumbersVerdict): boolean {
+  return (
+    !numbers.live &&
+    numbers.cause === "unread" &&
+    numbers.unread !== null &&
+    numbers.unread.reason !== "MARKER_UNSEEN"
+  );
 }
 
 function whyWords(numbers: NumbersVerdict, words: Words): string {

@@ -17,6 +17,7 @@ export const de: Words = {
   numbers: {
     title: "Bohrer zum Kanal",
     none: "KEIN TRACKING",
+    noNumbers: "KEINE ZAHLEN",
     tracking: "TRACKING",
     tip: "Spitze ±",
     tipUnknown: "Unsicherheit der Spitze unbekannt",
@@ -121,6 +122,10 @@ export const de: Words = {
     CAMERA_NOT_CALIBRATED: {
       state: "KAMERA NICHT KALIBRIERT",
       sentence: "Mit einer Kameradatei starten (--camera): ohne sie sind keine Millimeter bekannt.",
+    },
+    POSE_UNCERTAIN: {
+      state: "LAGE UNSICHER",
+      sentence: "Die Spitze ist nicht genau genug bekannt. Marker näher, ruhiger oder schräger zeigen.",
     },
     TOOL_NOT_DEFINED: {
       state: "WERKZEUG NICHT BESTIMMT",

@@ -17,6 +17,7 @@ export interface Words {
   numbers: {
     title: string;
     none: string;
+    noNumbers: string;
     tracking: string;
     tip: string;
     tipUnknown: string;
@@ -78,6 +79,7 @@ export const en: Words = {
   numbers: {
     title: "Drill to channel",
     none: "NO TRACKING",
+    noNumbers: "NO NUMBERS",
     tracking: "TRACKING",
     tip: "tip ±",
     tipUnknown: "tip uncertainty not known",
@@ -170,6 +172,10 @@ export const en: Words = {
     CAMERA_NOT_CALIBRATED: {
       state: "CAMERA NOT CALIBRATED",
       sentence: "Start with a camera file (--camera): without it no millimetres are known.",
+    },
+    POSE_UNCERTAIN: {
+      state: "POSE UNCERTAIN",
+      sentence: "The tip is not known well enough. Show the marker nearer, steadier, or more tilted.",
     },
     TOOL_NOT_DEFINED: {
       state: "TOOL NOT DEFINED",
