@@ -123,10 +123,7 @@ export const de: Words = {
       state: "KAMERA NICHT KALIBRIERT",
       sentence: "Mit einer Kameradatei starten (--camera): ohne sie sind keine Millimeter bekannt.",
     },
-    POSE_UNCERTAIN: {
-      state: "LAGE UNSICHER",
-      sentence: "Die Spitze ist nicht genau genug bekannt. Marker näher, ruhiger oder schräger zeigen.",
-    },
+    POSE_UNCERTAIN: { state: "LAGE UNSICHER", sentence: "Den Marker näher, ruhiger, schräger zeigen." },
     TOOL_NOT_DEFINED: {
       state: "WERKZEUG NICHT BESTIMMT",
       sentence: "In config.yaml (tools) angeben, wo die Bohrerspitze hinter ihrem Marker liegt.",

@@ -173,10 +173,7 @@ export const en: Words = {
       state: "CAMERA NOT CALIBRATED",
       sentence: "Start with a camera file (--camera): without it no millimetres are known.",
     },
-    POSE_UNCERTAIN: {
-      state: "POSE UNCERTAIN",
-      sentence: "The tip is not known well enough. Show the marker nearer, steadier, or more tilted.",
-    },
+    POSE_UNCERTAIN: { state: "POSE UNCERTAIN", sentence: "Show the marker nearer, steadier, more tilted." },
     TOOL_NOT_DEFINED: {
       state: "TOOL NOT DEFINED",
       sentence: "Say in config.yaml (tools) where the drill's tip is behind its marker.",
