@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 from tests.benchmarks.claims import ELLIPSOID_95, Error, FalseClaim, Judgement, NoClaim, RightClaim
 from tests.benchmarks.tables import Table, median, number, pair, share
+from tracker.navigation import AbsentReason
 from tracker.rehearsal import Phase
 
 # On the marker, and still worthless: such a pose is tilted the wrong way.
@@ -35,6 +36,15 @@ def missed(judgements: Sequence[Judgement]) -> list[Judgement]:
     return [one for one in judgements if one.in_view and isinstance(one.outcome, NoClaim)]
 
 
+def withheld(judgements: Sequence[Judgement]) -> list[Judgement]:
+    """The images in which the marker was found and its pose was too unsure to place the tip."""
+    return [
+        one
+        for one in judgements
+        if isinstance(one.outcome, NoClaim) and one.outcome.reason == AbsentReason.POSE_UNCERTAIN.value
+    ]
+
+
 def found_table(title: str, groups: Sequence[Group]) -> Table:
     """How often the marker was found, rightly and falsely."""
     rows = []
@@ -49,6 +59,7 @@ def found_table(title: str, groups: Sequence[Group]) -> Table:
                 str(in_view),
                 share(sum(one.in_view for one in right), in_view, 2),
                 str(sum(not one.in_view for one in right)),
+                str(len(withheld(some))),
                 str(len(false_claims(some))),
                 str(sum(error.tip_mm > FAR_TIP_MM for error in errors_of(some))),
                 number(max((error.tip_mm for error in errors_of(some)), default=float("nan"))),
@@ -64,6 +75,7 @@ def found_table(title: str, groups: Sequence[Group]) -> Table:
             "marker in view",
             "found of these",
             "found, partly in view",
+            "withheld as uncertain",
             "false claims",
             f"tip off by over {FAR_TIP_MM:g} mm",
             "largest tip error mm",

@@ -9,6 +9,7 @@ import numpy as np
 from websockets.sync.client import connect
 
 from server.stream.messages import (
+    AbsentMessage,
     DeviationMessage,
     LiveMessage,
     MarkerSeenMessage,
@@ -21,6 +22,7 @@ from tests.benchmarks.running_server import PATIENCE_S, RunningServer
 from tests.benchmarks.tables import Table, number, pair
 from tests.benchmarks.timing import STAGES as TRACKER_STAGES
 from tracker.geometry import Rigid
+from tracker.navigation import AbsentReason
 from tracker.rehearsal import Theatre
 
 # The first images after the start wait for loading and settling, and are no steady state.
@@ -82,6 +84,8 @@ def claim_of_message(snapshot: SnapshotMessage) -> Claim | str:
     tool = next(tool for tool in snapshot.tools if tool.name == "drill")
     if isinstance(sighting, MarkerUnseenMessage):
         return sighting.reason.value
+    if isinstance(tool.pose, AbsentMessage) and tool.pose.reason is AbsentReason.POSE_UNCERTAIN:
+        return tool.pose.reason.value
     if not (
         isinstance(sighting, MarkerSeenMessage)
         and sighting.camera_from_marker is not None

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from tests.benchmarks.claims import Claim, Judgement, judge
 from tracker.errors import InvalidInput
-from tracker.navigation import Absent, Setup, navigate
+from tracker.navigation import Absent, AbsentReason, Setup, navigate
 from tracker.pipeline import Tracker
 from tracker.pose import Seen, Sighting
 from tracker.rehearsal import Theatre
@@ -109,6 +109,8 @@ def claim_of(setup: Setup, image: Image, sighting: Sighting) -> Claim | str:
         skipped_images=0,
     )
     tool, deviation = snapshot.tools["drill"], snapshot.deviations["drill"]
+    if isinstance(tool, Absent) and tool.reason is AbsentReason.POSE_UNCERTAIN:
+        return tool.reason.value
     if isinstance(tool, Absent) or isinstance(deviation, Absent):
         raise InvalidInput(
             "BENCHMARK_SETUP_INCOMPLETE",

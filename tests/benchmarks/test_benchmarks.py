@@ -7,7 +7,7 @@ import pytest
 
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.stream.messages import live_message
-from tests.benchmarks.accuracy import errors_of, false_claims, found_table, groups_by_phase, missed
+from tests.benchmarks.accuracy import errors_of, false_claims, found_table, groups_by_phase, missed, withheld
 from tests.benchmarks.claims import Claim, FalseClaim, NoClaim, RightClaim, judge
 from tests.benchmarks.live import claim_of_message
 from tests.benchmarks.offline import Offline, claim_of, measure_offline, setup_of
@@ -116,6 +116,25 @@ def test_a_claim_beside_the_marker_is_false_and_one_of_its_parts_in_view_is_righ
     assert not out.in_view
     assert isinstance(out.outcome, RightClaim)
     assert isinstance(judge(theatre, 33.0, claim).outcome, FalseClaim)
+
+
+def test_a_pose_too_unsure_to_place_the_tip_counts_as_withheld(theatre: Theatre) -> None:
+    truth = theatre.truth_at(13.0)
+    unsure = Seen(
+        camera_from_marker=truth.camera_from_marker,
+        pose_covariance=np.eye(6) * 100.0,
+        corners_px=truth.corners_px,
+        score_ratio=1.0,
+        target_score_ratio=1.0,
+        model_coverage_ratio=1.0,
+        target_coverage_ratio=1.0,
+        fit_error_px2=0.0,
+        found_by="track",
+    )
+    said = claim_of(setup_of(theatre), np.zeros((720, 1280, 3), np.uint8), unsure)
+    judged = judge(theatre, 13.0, said)
+    assert withheld([judged]) == [judged]
+    assert missed([judged]) == [judged]
 
 
 def test_a_message_makes_the_same_claim_as_the_snapshot_that_it_was_made_from(theatre: Theatre) -> None:

@@ -27,6 +27,7 @@ DECIDED_COST = 18.0
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
 UNDECIDED_COST = 2.0
 EXPECTED_TURN_SD_DEG = 4.0
+MOST_MIRRORINGS = 5
 # A hand turns a drill by less than this between two images; farther is the other solution.
 FAR_TURN_DEG, NEAR_TURN_DEG = 20.0, 10.0
 
@@ -76,13 +77,17 @@ def refined_pose(
         side_px=side_px,
         first_reach_px=first_reach_px,
     )
-    first = refined_from(start)
-    second = refined_from(other_solution(first.camera_from_marker if first is not None else start))
-    if second is not None and (first is None or second.cost_px2 < first.cost_px2):
-        # The first may have stopped halfway, and the second then mirrors nothing: the mirror image of what
-        # is taken has always been tried.
-        third = refined_from(other_solution(second.camera_from_marker))
-        first = third if third is not None else first
+    first, second = refined_from(start), None
+    seed = first.camera_from_marker if first is not None else start
+    # A fit that stopped halfway costs more than the wrong solution well fitted, and its mirror image mirrors
+    # nothing: what is taken stands only after its own mirror image, fitted from it, has lost.
+    for _ in range(MOST_MIRRORINGS):
+        mirrored = refined_from(other_solution(seed))
+        if mirrored is None or (first is not None and mirrored.cost_px2 >= first.cost_px2):
+            second = mirrored or second
+            break
+        first, second = mirrored, first
+        seed = mirrored.camera_from_marker
     if first is None or second is None:
         return first or second
     # By all edges, not by those few that agree: where most are missing or far off, nothing is decided.
