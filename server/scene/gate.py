@@ -1,8 +1,7 @@
-"""What a viewer may do: who is let in, and what it may say."""
+"""What a viewer of the scene may say. Who is let in at all is `server.security.hosts`' to judge."""
 
 from dataclasses import dataclass
 from enum import StrEnum
-from urllib.parse import urlsplit
 
 import msgspec
 
@@ -74,18 +73,3 @@ class Gate:
         except (msgspec.DecodeError, RecursionError):
             return Verdict.UNWANTED
         return Verdict.CAMERA if kind == CAMERA_MESSAGE else Verdict.UNWANTED
-
-
-def comes_from_here(*, origin: str | None, host: str | None) -> bool:
-    """Whether a WebSocket is asked for by a page of this server, or by no page at all.
-
-    A browser always says from which page (`Origin`), and no page can forge it; programs that are no browser
-    leave it out.
-    """
-    if origin is None:
-        return True
-    try:
-        page = urlsplit(origin).netloc
-    except ValueError:
-        return False
-    return host is not None and page.lower() == host.lower()

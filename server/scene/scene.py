@@ -13,9 +13,10 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from server.live import LiveHub
 from server.scene.door import SUBPROTOCOL, Door
-from server.scene.gate import Gate, Verdict, comes_from_here
+from server.scene.gate import Gate, Verdict
 from server.scene.page import make_page
 from server.scene.stage import Stage
+from server.security.hosts import is_same_origin
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
@@ -153,7 +154,8 @@ class Scene:
 
     def _refusal(self, websocket: WebSocket) -> str | None:
         headers = websocket.headers
-        if not comes_from_here(origin=headers.get("origin"), host=headers.get("host")):
+        # Asked here too, so that the scene is as safe in an app without the guard.
+        if not is_same_origin(origin=headers.get("origin"), host=headers.get("host", "")):
             return "from another page"
         if SUBPROTOCOL not in websocket.scope.get("subprotocols", []):
             return f"does not speak {SUBPROTOCOL}"

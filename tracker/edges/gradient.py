@@ -17,7 +17,7 @@ SOBEL_GAIN = 4.0
 NOISE_MEDIANS = 3.0
 # Contrasts under 3 grey levels cannot be told from 8-bit quantisation; a picture full of texture must not
 # raise the threshold over what a marker in dim light has.
-LEAST_THRESHOLD, MOST_THRESHOLD = 12.0, 110.0
+LEAST_THRESHOLD, MOST_THRESHOLD = 3.0 * SOBEL_GAIN, 110.0
 SAMPLE_STRIDE = 7
 
 

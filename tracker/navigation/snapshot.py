@@ -7,7 +7,6 @@ is a value with its reason, never None, 0 or the last pose.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TypeAlias
 
 import numpy as np
 
@@ -99,9 +98,6 @@ class NavigationSnapshot:
     skipped_images: int
 
 
-DeviationOrAbsent: TypeAlias = Deviation | Absent
-
-
 def tool_in_view(setup: Setup, tool: ToolModel, sighting: Sighting) -> ToolInView | Absent:
     """Where the tool is in the camera's frame, or why that is not known."""
     if not isinstance(sighting, Seen):
@@ -118,7 +114,7 @@ def tool_in_view(setup: Setup, tool: ToolModel, sighting: Sighting) -> ToolInVie
     )
 
 
-def tool_deviation(setup: Setup, tool: ToolInView | Absent) -> DeviationOrAbsent:
+def tool_deviation(setup: Setup, tool: ToolInView | Absent) -> Deviation | Absent:
     """The tool's deviation from the channel, or why it is not known."""
     if isinstance(tool, Absent):
         return tool

@@ -41,6 +41,10 @@ def test_a_host_is_known_by_name_or_is_an_address(host: str, known: bool) -> Non
         pytest.param("file://", "localhost:8000", False, id="a-file"),
         pytest.param("http://localhost:99999", "localhost:8000", False, id="no-port-at-all"),
         pytest.param("http://", "", False, id="nothing"),
+        pytest.param("http://theatre:8000", "theatre:8000", True, id="own-page-by-another-name"),
+        pytest.param("http://theatre:8000", "", False, id="no-host"),
+        pytest.param("http://[", "theatre:8000", False, id="no-address-at-all"),
+        pytest.param("", "theatre:8000", False, id="empty-origin"),
     ],
 )
 def test_only_own_pages_open_sockets(origin: str | None, host: str, same: bool) -> None:
