@@ -44,7 +44,7 @@ def project_edges(rotation, translation, lens, points, normals, pixels, directio
 
 
 @compiled
-def _turn(rotation, w):
+def turn(rotation, w):
     """Multiply a rotation vector from the left into a rotation matrix, in place."""
     angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     a, b = 1.0, 0.5
@@ -174,7 +174,7 @@ def _moved(rotation, translation, step):
     short = 0.5 / turn if turn > 0.5 else 1.0
     for k in range(3):
         translation[k] += short * step[k]
-    _turn(rotation, short * step[3:6])
+    turn(rotation, short * step[3:6])
     facing = (
         rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
     )
