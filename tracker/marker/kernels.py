@@ -224,44 +224,25 @@ def square_to_quad(quad, h):
 
 
 @compiled
-def correlate(image, quads, templates):
-    """Correlation (q, m, 4) of what is inside each outline with each template at each turn."""
+def sample_quads(image, quads, cells, ring):
+    """Grey (q, n * n) at n = cells + 2 ring points a side of each outline, `ring` of them beyond."""
     height, width = image.shape
-    count, models, cells = len(quads), templates.shape[0], templates.shape[2]
-    side = int(np.sqrt(cells))
-    out = np.zeros((count, models, 4), np.float32)
-    seen = np.empty(cells, np.float32)
+    count, n = len(quads), cells + 2 * ring
+    out = np.empty((count, n * n), np.float32)
     h = np.empty(8, np.float64)
     for q in range(count):
         square_to_quad(quads[q], h)
-        mean = 0.0
-        for r in range(side):
-            for c in range(side):
-                a, b = (c + 0.5) / side, (r + 0.5) / side
+        for r in range(n):
+            for c in range(n):
+                a, b = (c - ring + 0.5) / cells, (r - ring + 0.5) / cells
                 w = h[6] * a + h[7] * b + 1.0
                 u = min(max((h[0] * a + h[1] * b + h[2]) / w, 0.0), width - 1.001)
                 v = min(max((h[3] * a + h[4] * b + h[5]) / w, 0.0), height - 1.001)
                 iu, iv = int(u), int(v)
-                fu, fv = u - iu, v - iv
-                value = (1 - fv) * ((1 - fu) * image[iv, iu] + fu * image[iv, iu + 1]) + fv * (
-                    (1 - fu) * image[iv + 1, iu] + fu * image[iv + 1, iu + 1]
-                )
-                seen[r * side + c] = value
-                mean += value
-        mean /= cells
-        length = 0.0
-        for i in range(cells):
-            seen[i] -= mean
-            length += seen[i] * seen[i]
-        length = np.sqrt(length)
-        if length < 1.0:
-            continue
-        for m in range(models):
-            for turn in range(4):
-                total = 0.0
-                for i in range(cells):
-                    total += seen[i] * templates[m, turn, i]
-                out[q, m, turn] = total / length
+                fu, fv = np.float32(u - iu), np.float32(v - iv)
+                upper = image[iv, iu] + fu * (np.float32(image[iv, iu + 1]) - image[iv, iu])
+                lower = image[iv + 1, iu] + fu * (np.float32(image[iv + 1, iu + 1]) - image[iv + 1, iu])
+                out[q, r * n + c] = upper + fv * (lower - upper)
     return out
 
 

@@ -1,48 +1,29 @@
-"""Where in an image the marker could be: outlines whose inside looks like it at a glance."""
+"""Where in an image the markers could be: dark squares whose inside looks like them at a glance."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.edges import (
-    Edgels,
-    Gradient,
-    GreyImage,
-    chains_of,
-    edgels_of,
-    gradient_of,
-    joined_segments,
-    segments_of,
-)
+from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
 from tracker.marker.glance import glance
 from tracker.marker.kernels import LEAST_SIDE_PX
 from tracker.marker.outline import Quads, quads_of
+from tracker.regions import dark_mask, noise_grey, quads_of_mask
 
-# At a glance (12x12 cells, corners off by a pixel or two) a marker in sight has 0.6 to 1.
-LEAST_LIKENESS = 0.35
-MOST_CANDIDATES = 10
+# An image over a megapixel is first looked at at half its size.
+MOST_PIXELS_AT_ONCE = 1_000_000
+LEAST_LEVEL_PX = 12
+# At a glance (cells of a twelfth of the side, corners off by a pixel or two) a marker in sight has 0.6 to 1.
+LEAST_LIKENESS = 0.45
+MOST_CANDIDATES = 6
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Look:
-    """What edge finding made of an image, for all models at once.
-
-    Attributes:
-        image: the grey image (h, w).
-        gradient: of the whole image.
-        edgels: of the whole image.
-        quads: (q, 4, 2), outlines that could be a dark square's, clockwise on the screen.
-    """
-
-    image: GreyImage
-    gradient: Gradient
-    edgels: Edgels
-    quads: Quads
+WINDOW_PX = 21
+NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,33 +39,88 @@ class Candidate:
     likeness: float
 
 
-def outlines_in(image: GreyImage, gradient: Gradient) -> Look:
-    """The edges of a grey image and the outlines that they make.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Level:
+    """The image at a half, a quarter of its size, or as it is.
 
-    Outlines are looked for at half the size as well: an edge blurred over four pixels is a clear one there.
+    Attributes:
+        image: (h, w).
+        scale: how many pixels of the whole image one of its pixels is wide.
+        noise_grey: sd of its noise.
     """
-    edgels = edgels_of(gradient)
-    half = np.asarray(cv2.resize(image, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-    coarse = _outlines(edgels_of(gradient_of(half)))
-    quads = np.concatenate([_outlines(edgels), coarse * np.float32(2.0) + np.float32(0.5)])
-    return Look(image=image, gradient=gradient, edgels=edgels, quads=quads)
+
+    image: GreyImage
+    scale: int
+    noise_grey: float
+
+    def full_px(self, quads: Quads) -> Quads:
+        """Points of this level in px of the whole image."""
+        return np.asarray(quads * np.float32(self.scale) + np.float32(0.5 * (self.scale - 1)), np.float32)
 
 
-def _outlines(edgels: Edgels) -> Quads:
+def candidate_rounds(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[list[list[Candidate]]]:
+    """For each model (m, ...) of the templates its next candidates, the likeliest first, at rising cost.
+
+    The first round finds a marker that stands free in ordinary light; the later ones are for what is blurred,
+    partly covered, in the dark, small. Who has found its marker stops asking.
+
+    Args:
+        image: grey (h, w).
+        templates: as `templates_of` makes them.
+    """
+    given: list[list[Candidate]] = [[] for _ in range(len(templates))]
+    for level, quads in _looks(image):
+        fresh: list[list[Candidate]] = [[] for _ in given]
+        if len(quads):
+            likeness = glance(level.image, quads, templates)
+            full = level.full_px(quads)
+            fresh = [_best(full, likeness[:, m], known) for m, known in enumerate(given)]
+            for known, new in zip(given, fresh, strict=True):
+                known.extend(new)
+        yield fresh
+
+
+def _looks(image: GreyImage) -> Iterator[tuple[Level, Quads]]:
+    if min(image.shape) < LEAST_LEVEL_PX:
+        return
+    level = first_level(image)
+    yield level, _by_darkness(level)
+    yield level, _by_edges(level)
+    if min(level.image.shape) < 2 * LEAST_LEVEL_PX:
+        return
+    half = halved(level)
+    yield half, _by_edges(half)
+
+
+def first_level(image: GreyImage) -> Level:
+    """The image at the size at which it is looked at first."""
+    level = Level(image=image, scale=1, noise_grey=0.0)
+    if image.size > MOST_PIXELS_AT_ONCE:
+        return halved(level)
+    return Level(image=image, scale=1, noise_grey=noise_grey(image))
+
+
+def halved(level: Level) -> Level:
+    """The same at half the size: a pixel is the mean of four."""
+    height, width = level.image.shape
+    even = level.image[: height // 2 * 2, : width // 2 * 2]
+    half = np.asarray(cv2.resize(even, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    return Level(image=half, scale=2 * level.scale, noise_grey=noise_grey(half))
+
+
+def _by_darkness(level: Level) -> Quads:
+    darker = max(NOISE_SDS * level.noise_grey, LEAST_DARKER_GREY)
+    return quads_of_mask(dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker))
+
+
+def _by_edges(level: Level) -> Quads:
+    edgels = edgels_of(gradient_of(level.image))
     pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_SIDE_PX)
     return quads_of(np.concatenate([pieces, joined_segments(pieces)]))
 
 
-def candidates_of(look: Look, templates: npt.NDArray[np.float32]) -> list[list[Candidate]]:
-    """For each model (m, 4, cells) its candidates, the likeliest first, at most ten."""
-    if len(look.quads) == 0:
-        return [[] for _ in range(len(templates))]
-    likeness = glance(look.image, look.quads, templates)
-    return [_best(look.quads, likeness[:, m]) for m in range(len(templates))]
-
-
-def _best(quads: Quads, likeness: npt.NDArray[np.float32]) -> list[Candidate]:
-    """The likeliest outlines and turns (q, 4), each outline once."""
+def _best(quads: Quads, likeness: npt.NDArray[np.float32], known: list[Candidate]) -> list[Candidate]:
+    """The likeliest outlines and turns (q, 4) that are not known yet, each once."""
     order = np.argsort(-likeness, axis=None, kind="stable")
     best: list[Candidate] = []
     for flat in order[: 8 * MOST_CANDIDATES]:
@@ -94,6 +130,7 @@ def _best(quads: Quads, likeness: npt.NDArray[np.float32]) -> list[Candidate]:
             break
         corners = np.roll(quads[q].astype(np.float64), turn, axis=0)
         same = SAME_OUTLINE_SIDE_RATIO * float(np.linalg.norm(np.diff(corners, axis=0), axis=1).mean())
-        if all(float(np.abs(corners - other.corners_px).max()) > max(same, 1.0) for other in best):
+        others = (*known, *best)
+        if all(float(np.abs(corners - other.corners_px).max()) > max(same, 1.0) for other in others):
             best.append(Candidate(corners_px=corners, likeness=worth))
     return best
