@@ -5,7 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage
-from tracker.marker.kernels import sample_quads
+from tracker.marker.kernels import even_light, sample_quads
 from tracker.marker.model import MarkerModel
 from tracker.marker.outline import Quads
 
@@ -16,8 +16,10 @@ CELLS, RING = 12, 1
 ROWS = CELLS + 2 * RING
 # The models' pictures as they are, and as a lens out of focus or a hand in motion leaves them.
 BLURS_CELLS = (0.0, 1.2)
-# Half of the darkest picture's contrast at the edge of what 8 bits tell, over all cells.
-LEAST_CONTRAST_GREY = 1.0
+# A cell is judged beside those around it: as many as see the border and the paper at once.
+AROUND_CELLS = 3
+# What differs less than this is even: noise, and folds in the paper.
+LEAST_SD_GREY, LEAST_SD_RATIO = 1.0, 0.1
 
 
 def templates_of(models: tuple[MarkerModel, ...]) -> Float32:
@@ -31,9 +33,8 @@ def templates_of(models: tuple[MarkerModel, ...]) -> Float32:
             small = _small(model, blur)
             for turn in range(4):
                 # np.rot90 turns the picture to the left, so that its right-hand corner comes to the top left.
-                flat = np.rot90(small, turn).ravel()
-                flat = flat - flat.mean()
-                out[m, b, turn] = flat / np.linalg.norm(flat)
+                out[m, b, turn] = np.rot90(small, turn).ravel()
+    even_light(out.reshape(-1, ROWS * ROWS), ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
     return out
 
 
@@ -51,8 +52,6 @@ def glance(image: GreyImage, quads: Quads, templates: Float32) -> Float32:
     """Correlation (q, m, 4) of what is inside each outline with each model at each turn, -1..1."""
     models, blurs, turns, cells = templates.shape
     seen = sample_quads(image, quads, CELLS, RING)
-    seen -= seen.mean(axis=1, keepdims=True)
-    length = np.sqrt((seen * seen).sum(axis=1, keepdims=True))
-    seen /= np.maximum(length, np.float32(LEAST_CONTRAST_GREY * ROWS))
+    even_light(seen, ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
     alike = seen @ templates.reshape(-1, cells).T
     return np.asarray(alike.reshape(len(quads), models, blurs, turns).max(axis=2), dtype=np.float32)

@@ -247,6 +247,46 @@ def sample_quads(image, quads, cells, ring):
 
 
 @compiled
+def even_light(seen, rows, half, floor_grey, floor_ratio):
+    """Make of pictures (q, rows * rows), in place, what they are beside their own surroundings.
+
+    Each cell less the mean of the cells within `half` of it, over their sd: so a shadow's edge or glare over
+    a part of the square leaves the rest of its picture as it is. Then mean 0 and length 1.
+    """
+    total = np.empty((rows + 1, rows + 1), np.float64)
+    square = np.empty((rows + 1, rows + 1), np.float64)
+    total[0, :], total[:, 0], square[0, :], square[:, 0] = 0.0, 0.0, 0.0, 0.0
+    for q in range(len(seen)):
+        cells = seen[q]
+        for r in range(rows):
+            line, line2 = 0.0, 0.0
+            for c in range(rows):
+                value = cells[r * rows + c]
+                line += value
+                line2 += value * value
+                total[r + 1, c + 1], square[r + 1, c + 1] = total[r, c + 1] + line, square[r, c + 1] + line2
+        n = rows * rows
+        mean = total[rows, rows] / n
+        floor = floor_grey**2 + floor_ratio**2 * max(square[rows, rows] / n - mean * mean, 0.0)
+        sum1, sum2 = 0.0, 0.0
+        for r in range(rows):
+            a, b = max(r - half, 0), min(r + half + 1, rows)
+            for c in range(rows):
+                d, e = max(c - half, 0), min(c + half + 1, rows)
+                count = (b - a) * (e - d)
+                local = (total[b, e] - total[a, e] - total[b, d] + total[a, d]) / count
+                spread = (square[b, e] - square[a, e] - square[b, d] + square[a, d]) / count - local * local
+                value = (cells[r * rows + c] - local) / np.sqrt(max(spread, 0.0) + floor)
+                cells[r * rows + c] = value
+                sum1 += value
+                sum2 += value * value
+        mean = sum1 / n
+        length = np.sqrt(max(sum2 - n * mean * mean, 1e-6))
+        for i in range(n):
+            cells[i] = (cells[i] - mean) / length
+
+
+@compiled
 def sample_square(image, corners, fields, samples):
     """Mean grey of fields x fields cells of a square at these corners, samples x samples in each."""
     height, width = image.shape
