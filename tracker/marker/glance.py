@@ -5,7 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage
-from tracker.marker.kernels import even_light, sample_quads
+from tracker.marker.kernels import even_light, peek, sample_quads
 from tracker.marker.model import MarkerModel
 from tracker.marker.outline import Quads
 
@@ -16,6 +16,10 @@ CELLS, RING = 12, 1
 ROWS = CELLS + 2 * RING
 # The models' pictures as they are, and as a lens out of focus or a hand in motion leaves them.
 BLURS_CELLS = (0.0, 1.2)
+# Of thousands of outlines only a first peek is taken.
+PEEK_CELLS = 6
+# How far a cover's edge is from the middle: 1 is the far side.
+COVER_DEPTHS = (0.55, 0.2)
 # A cell is judged beside those around it: as many as see the border and the paper at once.
 AROUND_CELLS = 3
 # What differs less than this is even: noise, and folds in the paper.
@@ -49,9 +53,103 @@ def _small(model: MarkerModel, blur_cells: float) -> npt.NDArray[np.float64]:
 
 
 def glance(image: GreyImage, quads: Quads, templates: Float32) -> Float32:
-    """Correlation (q, m, 4) of what is inside each outline with each model at each turn, -1..1."""
+    """Likeness (q, m, 4) of what is inside each outline to each model at each turn, -1..1."""
     models, blurs, turns, cells = templates.shape
+    alike = _seen(image, quads) @ templates.reshape(-1, cells).T
+    return np.asarray(alike.reshape(len(quads), models, blurs, turns).max(axis=2), dtype=np.float32)
+
+
+def glance_past_cover(image: GreyImage, quads: Quads, templates: Float32) -> Float32:
+    """The same (q, m, 4) where something may have come over the square from any side.
+
+    What is left of it must look the more like the model the less it is: n cells with a correlation r are as
+    likely as n log(1 - r^2).
+    """
+    models, blurs, turns, cells = templates.shape
+    flat = templates.reshape(-1, cells)
+    size = COVERS.sum(axis=1)[:, None]
+    mean = COVERS @ flat.T / size
+    spread = COVERS @ (flat * flat).T - size * mean**2
+    masked = (COVERS[:, None] * flat[None]).reshape(-1, cells)
+    seen = _seen(image, quads)
+    own_mean = (seen @ COVERS.T)[..., None]
+    own_spread = ((seen * seen) @ COVERS.T)[..., None] - own_mean**2 / size
+    shared = (seen @ masked.T).reshape(len(quads), *mean.shape) - own_mean * mean
+    alike = np.maximum(shared, 0.0) ** 2 / np.maximum(own_spread * spread, np.float32(1e-9))
+    # Of 1 - r^2 to the power of the share of cells that is seen.
+    fit = np.log(np.maximum(1.0 - alike, np.float32(1e-4))) * (size / np.float32(cells))
+    best = np.sqrt(1.0 - np.exp(fit.min(axis=1)))
+    return np.asarray(best.reshape(len(quads), models, blurs, turns).max(axis=2), dtype=np.float32)
+
+
+def _seen(image: GreyImage, quads: Quads) -> Float32:
     seen = sample_quads(image, quads, CELLS, RING)
     even_light(seen, ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
-    alike = seen @ templates.reshape(-1, cells).T
-    return np.asarray(alike.reshape(len(quads), models, blurs, turns).max(axis=2), dtype=np.float32)
+    return np.asarray(seen, dtype=np.float32)
+
+
+def _covers() -> Float32:
+    """The cells (k, 196) that are left, 1, when a straight edge has come in from 8 directions, to two depths."""
+    at = np.arange(ROWS) - (ROWS - 1) / 2.0
+    x, y = np.meshgrid(at / CELLS, at / CELLS)
+    left = [np.ones(ROWS * ROWS, np.bool_)]
+    for angle in np.radians(np.arange(0, 360, 45)):
+        toward = (np.cos(angle) * x + np.sin(angle) * y).ravel()
+        reach = 0.5 * (abs(np.cos(angle)) + abs(np.sin(angle)))
+        left += [toward < reach * depth for depth in COVER_DEPTHS]
+    return np.array(left, np.float32)
+
+
+COVERS = _covers()
+
+
+def likely(image: GreyImage, quads: Quads, levels: Float32, templates: Float32, *, most: int) -> Quads:
+    """Of many outlines (q, 4, 2) the `most` that look most like any model at a first peek (8x8 pixels).
+
+    Args:
+        image: grey (h, w).
+        quads: the outlines, parallelograms.
+        levels: (q, 2), the grey of what is dark and light there.
+        templates: of the models.
+        most: how many to keep for each model.
+    """
+    if len(quads) <= most:
+        return quads
+    soft = np.asarray(cv2.blur(image, (3, 3)), dtype=np.uint8)
+    seen = peek(soft, quads, levels, PEEK_CELLS)
+    seen -= seen.mean(axis=1, keepdims=True)
+    seen /= np.sqrt((seen * seen).sum(axis=1, keepdims=True)) + np.float32(1e-3)
+    small = _peek_templates(templates)
+    alike = (seen @ small.reshape(-1, small.shape[-1]).T).reshape(len(quads), len(templates), -1).max(axis=2)
+    kept = np.zeros(len(quads), np.bool_)
+    for m in range(len(templates)):
+        kept[np.argpartition(-alike[:, m], most)[:most]] = True
+    return quads[kept]
+
+
+def _peek_templates(templates: Float32) -> Float32:
+    """The sharp templates (m, 4, n * n) at the size of a peek."""
+    rows, half = PEEK_CELLS + 2, CELLS // PEEK_CELLS
+    out = np.empty((len(templates), 4, rows * rows), np.float32)
+    for m in range(len(templates)):
+        for turn in range(4):
+            # The ring stays a ring: its cells are doubled outwards.
+            wide = np.pad(templates[m, 0, turn].reshape(ROWS, ROWS), half - RING, mode="edge")
+            small = wide.reshape(rows, half, rows, half).mean(axis=(1, 3)).ravel()
+            small = small - small.mean()
+            out[m, turn] = small / np.linalg.norm(small)
+    return out
+
+
+def nudged(quads: Quads, share: float) -> Quads:
+    """Each outline (q, 4, 2) and it with each of its sides moved by +-share: (9 q, 4, 2)."""
+    out = [quads]
+    for k in range(4):
+        a, b = k, (k + 1) % 4
+        before, after = (k + 3) % 4, (k + 2) % 4
+        for sign in (share, -share):
+            moved = quads.copy()
+            moved[:, a] += np.float32(sign) * (quads[:, a] - quads[:, before])
+            moved[:, b] += np.float32(sign) * (quads[:, b] - quads[:, after])
+            out.append(moved)
+    return np.concatenate(out)

@@ -7,6 +7,7 @@ from tracker.edges.kernels import crossing
 
 MOST_SUCCESSORS = 8
 MOST_QUADS = 4000
+MOST_CORNER_QUADS = 12000
 CELL_PX = 16
 MOST_GAP_PX = 30.0
 LEAST_SIDE_PX = 4.0
@@ -158,6 +159,107 @@ def closed_and_open_quads(segments, successors, counts):
                 if ok and _plausible(quad):
                     q += 1
     return quads[:q].copy()
+
+
+@compiled
+def _even_sides(image, p, ax, ay, bx, by, beside, least_step, levels):
+    """Whether two sides that leave the corner p (whole vectors a, b) have all light outside and all dark inside.
+
+    Looked at five places along each, `beside` px off the side; the mean dark and light go into `levels`.
+    """
+    height, width = image.shape
+    dark, light = np.float32(0.0), np.float32(0.0)
+    poor = 0
+    for side in range(2):
+        dx, dy = (ax, ay) if side == 0 else (bx, by)
+        length = np.sqrt(dx * dx + dy * dy)
+        # Inwards is the part of the other side's direction that is square to this one.
+        nx, ny = -dy / length, dx / length
+        if (nx * bx + ny * by if side == 0 else nx * ax + ny * ay) < 0.0:
+            nx, ny = -nx, -ny
+        for k in range(5):
+            t = 0.16 + 0.17 * k
+            x, y = p[0] + t * dx, p[1] + t * dy
+            u, v = int(x + beside * nx + 0.5), int(y + beside * ny + 0.5)
+            uo, vo = int(x - beside * nx + 0.5), int(y - beside * ny + 0.5)
+            if min(u, v, uo, vo) < 0 or max(u, uo) >= width or max(v, vo) >= height:
+                return False
+            inside, outside = np.float32(image[v, u]), np.float32(image[vo, uo])
+            dark += inside
+            light += outside
+            if outside - inside < least_step:
+                poor += 1
+    levels[0], levels[1] = 0.1 * dark, 0.1 * light
+    return poor <= 1 and light - dark > 10.0 * least_step
+
+
+@compiled
+def corner_quads(image, segments, successors, counts, least_side, least_squash, beside, least_step, growth):
+    """Outlines (q, 4, 2) of two sides that meet at a corner and go on nobody knows how far.
+
+    Each of the two is taken for whole in turn and the other's length is tried, from what is seen of it to
+    what tilt allows. Also (q, 2) the dark inside and the light outside the two sides.
+    """
+    n = len(segments)
+    quads, levels = np.empty((MOST_CORNER_QUADS, 4, 2), np.float32), np.empty((MOST_CORNER_QUADS, 2), np.float32)
+    corner, level = np.empty(2, np.float64), np.empty(2, np.float32)
+    q = 0
+    for i in range(n):
+        for a in range(counts[i]):
+            j = successors[i, a]
+            if not _corner(segments[i], segments[j], corner):
+                continue
+            ax, ay = segments[i, 0] - corner[0], segments[i, 1] - corner[1]
+            bx, by = segments[j, 2] - corner[0], segments[j, 3] - corner[1]
+            la, lb = np.sqrt(ax * ax + ay * ay), np.sqrt(bx * bx + by * by)
+            if min(la, lb) < 0.5 * least_side or max(la, lb) < least_side:
+                continue
+            if not _even_sides(image, corner, ax, ay, bx, by, beside, least_step, level):
+                continue
+            cosine = (ax * bx + ay * by) / (la * lb)
+            for whole in range(2):
+                fixed, length = (la, lb) if whole == 0 else (lb, la)
+                step = 0
+                while fixed >= least_side and q < MOST_CORNER_QUADS:
+                    # The squash of the parallelogram of two sides at this angle.
+                    total, area = fixed * fixed + length * length, fixed * length
+                    root = np.sqrt(max(total * total - 4.0 * area * area * (1.0 - cosine * cosine), 0.0))
+                    good = total - root > least_squash * least_squash * (total + root)
+                    if good and length >= 0.5 * least_side and (whole == 0 or step > 0):
+                        sa, sb = (1.0, length / lb) if whole == 0 else (length / la, 1.0)
+                        quad = quads[q]
+                        quad[0, 0], quad[0, 1] = corner[0] + sa * ax, corner[1] + sa * ay
+                        quad[1, 0], quad[1, 1] = corner[0], corner[1]
+                        quad[2, 0], quad[2, 1] = corner[0] + sb * bx, corner[1] + sb * by
+                        quad[3, 0], quad[3, 1] = quad[0, 0] + sb * bx, quad[0, 1] + sb * by
+                        levels[q, 0], levels[q, 1] = level[0], level[1]
+                        q += 1
+                    elif not good and length > fixed:
+                        break
+                    length *= growth
+                    step += 1
+    return quads[:q].copy(), levels[:q].copy()
+
+
+@compiled
+def peek(image, quads, levels, cells):
+    """Pictures (q, n * n) of parallelograms, n = cells + 2: the nearest pixel of each cell, 0 dark to 1 light."""
+    height, width = image.shape
+    count, n = len(quads), cells + 2
+    out = np.empty((count, n * n), np.float32)
+    for q in range(count):
+        ox, oy = quads[q, 0, 0], quads[q, 0, 1]
+        ax, ay = (quads[q, 1, 0] - ox) / cells, (quads[q, 1, 1] - oy) / cells
+        bx, by = (quads[q, 3, 0] - ox) / cells, (quads[q, 3, 1] - oy) / cells
+        dark, scale = levels[q, 0], np.float32(1.0) / max(levels[q, 1] - levels[q, 0], np.float32(1.0))
+        for r in range(n):
+            for c in range(n):
+                u = ox + (c - 0.5) * ax + (r - 0.5) * bx
+                v = oy + (c - 0.5) * ay + (r - 0.5) * by
+                iu, iv = min(max(int(u + 0.5), 0), width - 1), min(max(int(v + 0.5), 0), height - 1)
+                value = (image[iv, iu] - dark) * scale
+                out[q, r * n + c] = min(max(value, np.float32(0.0)), np.float32(1.0))
+    return out
 
 
 @compiled

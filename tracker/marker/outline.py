@@ -5,9 +5,17 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from tracker.marker.kernels import closed_and_open_quads, successors_of
+from tracker.edges import GreyImage
+from tracker.marker.kernels import closed_and_open_quads, corner_quads, successors_of
 
 Quads: TypeAlias = npt.NDArray[np.float32]
+
+LEAST_CORNER_SIDE_PX = 8.0
+LEAST_SQUASH_RATIO = 0.4
+# Off a side, so far that an edge in focus is past.
+BESIDE_PX = 2.0
+# A length that is off by a tenth is near enough to be known at a glance.
+LENGTH_GROWTH = 1.2
 
 
 def quads_of(segments: npt.NDArray[np.float32]) -> Quads:
@@ -20,3 +28,28 @@ def quads_of(segments: npt.NDArray[np.float32]) -> Quads:
         return np.empty((0, 4, 2), np.float32)
     successors, counts = successors_of(segments)
     return np.asarray(closed_and_open_quads(segments, successors, counts), dtype=np.float32)
+
+
+def corner_quads_of(
+    image: GreyImage, segments: npt.NDArray[np.float32], *, least_step_grey: float
+) -> tuple[Quads, npt.NDArray[np.float32]]:
+    """Candidate outlines of which one corner is seen, with what leads to it, and the rest may be covered.
+
+    Returns:
+        outlines (q, 4, 2) in px, clockwise on the screen, and (q, 2) the grey of their dark and light.
+    """
+    if len(segments) < 2:
+        return np.empty((0, 4, 2), np.float32), np.empty((0, 2), np.float32)
+    successors, counts = successors_of(segments)
+    quads, levels = corner_quads(
+        image,
+        segments,
+        successors,
+        counts,
+        LEAST_CORNER_SIDE_PX,
+        LEAST_SQUASH_RATIO,
+        BESIDE_PX,
+        least_step_grey,
+        LENGTH_GROWTH,
+    )
+    return np.asarray(quads, dtype=np.float32), np.asarray(levels, dtype=np.float32)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import cv2
 import numpy as np
@@ -9,9 +10,9 @@ import numpy.typing as npt
 
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
-from tracker.marker.glance import glance
+from tracker.marker.glance import glance, glance_past_cover, likely, nudged
 from tracker.marker.kernels import LEAST_SIDE_PX
-from tracker.marker.outline import Quads, quads_of
+from tracker.marker.outline import Quads, corner_quads_of, quads_of
 from tracker.regions import dark_mask, noise_grey, quads_of_mask
 
 # An image over a megapixel is first looked at at half its size.
@@ -23,7 +24,9 @@ MOST_CANDIDATES = 6
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
 WINDOW_PX = 21
-NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
+NOISE_SDS, LEAST_DARKER_GREY, LEAST_STEP_GREY = 3.0, 3.0, 6.0
+MOST_PEEKED, MOST_NUDGED = 150, 12
+NUDGES = (0.07, 0.035)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,27 +72,31 @@ def candidate_rounds(image: GreyImage, templates: npt.NDArray[np.float32]) -> It
         templates: as `templates_of` makes them.
     """
     given: list[list[Candidate]] = [[] for _ in range(len(templates))]
-    for level, quads in _looks(image):
-        fresh: list[list[Candidate]] = [[] for _ in given]
-        if len(quads):
-            likeness = glance(level.image, quads, templates)
-            full = level.full_px(quads)
-            fresh = [_best(full, likeness[:, m], known) for m, known in enumerate(given)]
-            for known, new in zip(given, fresh, strict=True):
-                known.extend(new)
+    for level, quads, likeness in _looks(image, templates):
+        full = level.full_px(quads)
+        fresh = [_best(full, likeness[:, m], known) for m, known in enumerate(given)]
+        for known, new in zip(given, fresh, strict=True):
+            known.extend(new)
         yield fresh
 
 
-def _looks(image: GreyImage) -> Iterator[tuple[Level, Quads]]:
+Look: TypeAlias = tuple[Level, Quads, npt.NDArray[np.float32]]
+
+
+def _looks(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[Look]:
+    """Outlines (q, 4, 2) in px of a level and their likeness (q, m, 4), look after look."""
     if min(image.shape) < LEAST_LEVEL_PX:
         return
     level = first_level(image)
-    yield level, _by_darkness(level)
-    yield level, _by_edges(level)
+    dark = _by_darkness(level)
+    yield level, dark, glance(level.image, dark, templates)
+    yield _at_corners(level, templates)
     if min(level.image.shape) < 2 * LEAST_LEVEL_PX:
         return
     half = halved(level)
-    yield half, _by_edges(half)
+    dark = _by_darkness(half)
+    yield half, dark, glance(half.image, dark, templates)
+    yield _at_corners(half, templates)
 
 
 def first_level(image: GreyImage) -> Level:
@@ -113,10 +120,28 @@ def _by_darkness(level: Level) -> Quads:
     return quads_of_mask(dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker))
 
 
-def _by_edges(level: Level) -> Quads:
+def _at_corners(level: Level, templates: npt.NDArray[np.float32]) -> Look:
+    """What the level's edges make: whole outlines, and those of which a corner is seen and the rest covered."""
     edgels = edgels_of(gradient_of(level.image))
     pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_SIDE_PX)
-    return quads_of(np.concatenate([pieces, joined_segments(pieces)]))
+    segments = np.concatenate([pieces, joined_segments(pieces)])
+    step = max(NOISE_SDS * level.noise_grey, LEAST_STEP_GREY)
+    corners, levels = corner_quads_of(level.image, segments, least_step_grey=step)
+    quads = likely(level.image, corners, levels, templates, most=MOST_PEEKED)
+    likeness = glance_past_cover(level.image, quads, templates)
+    # The best ones are moved until they sit.
+    for share in NUDGES:
+        quads = nudged(_top(quads, likeness), share)
+        likeness = glance_past_cover(level.image, quads, templates)
+    return level, quads, likeness
+
+
+def _top(quads: Quads, likeness: npt.NDArray[np.float32]) -> Quads:
+    """The likeliest outlines of each model."""
+    if len(quads) <= MOST_NUDGED:
+        return quads
+    best = np.argpartition(-likeness.max(axis=2), MOST_NUDGED, axis=0)[:MOST_NUDGED]
+    return quads[np.unique(best)]
 
 
 def _best(quads: Quads, likeness: npt.NDArray[np.float32], known: list[Candidate]) -> list[Candidate]:
