@@ -5,7 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage
-from tracker.marker.kernels import even_light, peek, sample_quads
+from tracker.marker.kernels import even_light, peek, products, sample_quads
 from tracker.marker.model import MarkerModel
 from tracker.marker.outline import Quads
 
@@ -55,7 +55,7 @@ def _small(model: MarkerModel, blur_cells: float) -> npt.NDArray[np.float64]:
 def glance(image: GreyImage, quads: Quads, templates: Float32) -> Float32:
     """Likeness (q, m, 4) of what is inside each outline to each model at each turn, -1..1."""
     models, blurs, turns, cells = templates.shape
-    alike = _seen(image, quads) @ templates.reshape(-1, cells).T
+    alike = products(_seen(image, quads), np.ascontiguousarray(templates.reshape(-1, cells).T))
     return np.asarray(alike.reshape(len(quads), models, blurs, turns).max(axis=2), dtype=np.float32)
 
 
@@ -68,13 +68,14 @@ def glance_past_cover(image: GreyImage, quads: Quads, templates: Float32) -> Flo
     models, blurs, turns, cells = templates.shape
     flat = templates.reshape(-1, cells)
     size = COVERS.sum(axis=1)[:, None]
-    mean = COVERS @ flat.T / size
-    spread = COVERS @ (flat * flat).T - size * mean**2
+    mean = products(COVERS, np.ascontiguousarray(flat.T)) / size
+    spread = products(COVERS, np.ascontiguousarray((flat * flat).T)) - size * mean**2
     masked = (COVERS[:, None] * flat[None]).reshape(-1, cells)
     seen = _seen(image, quads)
-    own_mean = (seen @ COVERS.T)[..., None]
-    own_spread = ((seen * seen) @ COVERS.T)[..., None] - own_mean**2 / size
-    shared = (seen @ masked.T).reshape(len(quads), *mean.shape) - own_mean * mean
+    # Of each mask: our sum and sum of squares, and our product with each template in it.
+    own_mean = products(seen, np.ascontiguousarray(COVERS.T))[..., None]
+    own_spread = products(seen * seen, np.ascontiguousarray(COVERS.T))[..., None] - own_mean**2 / size
+    shared = products(seen, np.ascontiguousarray(masked.T)).reshape(len(quads), *mean.shape) - own_mean * mean
     alike = np.maximum(shared, 0.0) ** 2 / np.maximum(own_spread * spread, np.float32(1e-9))
     # Of 1 - r^2 to the power of the share of cells that is seen.
     fit = np.log(np.maximum(1.0 - alike, np.float32(1e-4))) * (size / np.float32(cells))
@@ -116,14 +117,12 @@ def likely(image: GreyImage, quads: Quads, levels: Float32, templates: Float32, 
     if len(quads) <= most:
         return quads
     soft = np.asarray(cv2.blur(image, (3, 3)), dtype=np.uint8)
-    seen = peek(soft, quads, levels, PEEK_CELLS)
-    seen -= seen.mean(axis=1, keepdims=True)
-    seen /= np.sqrt((seen * seen).sum(axis=1, keepdims=True)) + np.float32(1e-3)
     small = _peek_templates(templates)
-    alike = (seen @ small.reshape(-1, small.shape[-1]).T).reshape(len(quads), len(templates), -1).max(axis=2)
+    each = peek(soft, quads, levels, PEEK_CELLS, small.reshape(-1, small.shape[-1]))
+    alike = each.reshape(len(templates), -1, len(quads)).max(axis=1)
     kept = np.zeros(len(quads), np.bool_)
     for m in range(len(templates)):
-        kept[np.argpartition(-alike[:, m], most)[:most]] = True
+        kept[np.argpartition(-alike[m], most)[:most]] = True
     return quads[kept]
 
 

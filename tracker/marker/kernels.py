@@ -8,6 +8,7 @@ from tracker.edges.kernels import crossing
 MOST_SUCCESSORS = 8
 MOST_QUADS = 4000
 MOST_CORNER_QUADS = 12000
+BLOCK = 64
 CELL_PX = 16
 MOST_GAP_PX = 30.0
 LEAST_SIDE_PX = 4.0
@@ -242,23 +243,63 @@ def corner_quads(image, segments, successors, counts, least_side, least_squash, 
 
 
 @compiled
-def peek(image, quads, levels, cells):
-    """Pictures (q, n * n) of parallelograms, n = cells + 2: the nearest pixel of each cell, 0 dark to 1 light."""
+def peek(image, quads, levels, cells, templates):
+    """Correlation (t, q) of templates (t, n * n), n = cells + 2, with parallelograms, a pixel a cell.
+
+    What is as dark or light as `levels` (q, 2) say, or more so, counts as 0 and 1.
+    """
     height, width = image.shape
     count, n = len(quads), cells + 2
-    out = np.empty((count, n * n), np.float32)
-    for q in range(count):
-        ox, oy = quads[q, 0, 0], quads[q, 0, 1]
-        ax, ay = (quads[q, 1, 0] - ox) / cells, (quads[q, 1, 1] - oy) / cells
-        bx, by = (quads[q, 3, 0] - ox) / cells, (quads[q, 3, 1] - oy) / cells
-        dark, scale = levels[q, 0], np.float32(1.0) / max(levels[q, 1] - levels[q, 0], np.float32(1.0))
-        for r in range(n):
-            for c in range(n):
-                u = ox + (c - 0.5) * ax + (r - 0.5) * bx
-                v = oy + (c - 0.5) * ay + (r - 0.5) * by
-                iu, iv = min(max(int(u + 0.5), 0), width - 1), min(max(int(v + 0.5), 0), height - 1)
-                value = (image[iv, iu] - dark) * scale
-                out[q, r * n + c] = min(max(value, np.float32(0.0)), np.float32(1.0))
+    size = n * n
+    out = np.empty((len(templates), count), np.float32)
+    # Quads lie side by side in a block, so that the machine works on many at once.
+    block = np.empty((size, BLOCK), np.float32)
+    for start in range(0, count, BLOCK):
+        many = min(BLOCK, count - start)
+        for k in range(many):
+            quad = quads[start + k]
+            ax, ay = (quad[1, 0] - quad[0, 0]) / cells, (quad[1, 1] - quad[0, 1]) / cells
+            bx, by = (quad[3, 0] - quad[0, 0]) / cells, (quad[3, 1] - quad[0, 1]) / cells
+            ox, oy = quad[0, 0] - 0.5 * (ax + bx) + 0.5, quad[0, 1] - 0.5 * (ay + by) + 0.5
+            dark = levels[start + k, 0]
+            scale = np.float32(1.0) / max(levels[start + k, 1] - dark, np.float32(1.0))
+            total, square = np.float32(0.0), np.float32(0.0)
+            for r in range(n):
+                for c in range(n):
+                    u = min(max(int(ox + c * ax + r * bx), 0), width - 1)
+                    v = min(max(int(oy + c * ay + r * by), 0), height - 1)
+                    value = min(max((image[v, u] - dark) * scale, np.float32(0.0)), np.float32(1.0))
+                    block[r * n + c, k] = value
+                    total += value
+                    square += value * value
+            mean = total / size
+            length = np.float32(1.0) / np.sqrt(max(square - size * mean * mean, np.float32(1e-3)))
+            for i in range(size):
+                block[i, k] = (block[i, k] - mean) * length
+        for t in range(len(templates)):
+            line = out[t, start : start + many]
+            line[:] = 0.0
+            for i in range(size):
+                weight = templates[t, i]
+                for k in range(many):
+                    line[k] += weight * block[i, k]
+    return out
+
+
+@compiled
+def products(rows, columns):
+    """The matrix product of rows (n, k) and columns (k, m).
+
+    A library's product would start threads for so little, and wait for them.
+    """
+    out = np.zeros((len(rows), columns.shape[1]), np.float32)
+    for i in range(len(rows)):
+        line = out[i]
+        for k in range(columns.shape[0]):
+            weight = rows[i, k]
+            column = columns[k]
+            for j in range(columns.shape[1]):
+                line[j] += weight * column[j]
     return out
 
 
