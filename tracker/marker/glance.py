@@ -18,6 +18,7 @@ ROWS = CELLS + 2 * RING
 BLURS_CELLS = (0.0, 1.2)
 # Of thousands of outlines only a first peek is taken.
 PEEK_CELLS = 6
+DARK, LIGHT = np.float32(64.0), np.float32(192.0)
 # How far a cover's edge is from the middle: 1 is the far side.
 COVER_DEPTHS = (0.55, 0.2)
 # A cell is judged beside those around it: as many as see the border and the paper at once.
@@ -104,21 +105,20 @@ def _covers() -> Float32:
 COVERS = _covers()
 
 
-def likely(image: GreyImage, quads: Quads, levels: Float32, templates: Float32, *, most: int) -> Quads:
-    """Of many outlines (q, 4, 2) the `most` that look most like any model at a first peek (8x8 pixels).
+def likely(even: GreyImage, quads: Quads, templates: Float32, *, most: int) -> Quads:
+    """Of many outlines (q, 4, 2) those that look most like a model at a first peek of 8x8 pixels.
 
     Args:
-        image: grey (h, w).
+        even: the image in even light (h, w), 128 where it is as bright as around.
         quads: the outlines, parallelograms.
-        levels: (q, 2), the grey of what is dark and light there.
         templates: of the models.
         most: how many to keep for each model.
     """
     if len(quads) <= most:
         return quads
-    soft = np.asarray(cv2.blur(image, (3, 3)), dtype=np.uint8)
+    soft = np.asarray(cv2.blur(even, (3, 3)), dtype=np.uint8)
     small = _peek_templates(templates)
-    each = peek(soft, quads, levels, PEEK_CELLS, small.reshape(-1, small.shape[-1]))
+    each = peek(soft, quads, PEEK_CELLS, small.reshape(-1, small.shape[-1]), DARK, LIGHT)
     alike = each.reshape(len(templates), -1, len(quads)).max(axis=1)
     kept = np.zeros(len(quads), np.bool_)
     for m in range(len(templates)):

@@ -163,10 +163,10 @@ def closed_and_open_quads(segments, successors, counts):
 
 
 @compiled
-def _even_sides(image, p, ax, ay, bx, by, beside, least_step, levels):
+def _even_sides(image, p, ax, ay, bx, by, beside, least_step):
     """Whether two sides that leave the corner p (whole vectors a, b) have all light outside and all dark inside.
 
-    Looked at five places along each, `beside` px off the side; the mean dark and light go into `levels`.
+    Looked at five places along each, `beside` px off the side.
     """
     height, width = image.shape
     dark, light = np.float32(0.0), np.float32(0.0)
@@ -190,7 +190,6 @@ def _even_sides(image, p, ax, ay, bx, by, beside, least_step, levels):
             light += outside
             if outside - inside < least_step:
                 poor += 1
-    levels[0], levels[1] = 0.1 * dark, 0.1 * light
     return poor <= 1 and light - dark > 10.0 * least_step
 
 
@@ -199,11 +198,11 @@ def corner_quads(image, segments, successors, counts, least_side, least_squash, 
     """Outlines (q, 4, 2) of two sides that meet at a corner and go on nobody knows how far.
 
     Each of the two is taken for whole in turn and the other's length is tried, from what is seen of it to
-    what tilt allows. Also (q, 2) the dark inside and the light outside the two sides.
+    what tilt allows.
     """
     n = len(segments)
-    quads, levels = np.empty((MOST_CORNER_QUADS, 4, 2), np.float32), np.empty((MOST_CORNER_QUADS, 2), np.float32)
-    corner, level = np.empty(2, np.float64), np.empty(2, np.float32)
+    quads = np.empty((MOST_CORNER_QUADS, 4, 2), np.float32)
+    corner = np.empty(2, np.float64)
     q = 0
     for i in range(n):
         for a in range(counts[i]):
@@ -215,7 +214,7 @@ def corner_quads(image, segments, successors, counts, least_side, least_squash, 
             la, lb = np.sqrt(ax * ax + ay * ay), np.sqrt(bx * bx + by * by)
             if min(la, lb) < 0.5 * least_side or max(la, lb) < least_side:
                 continue
-            if not _even_sides(image, corner, ax, ay, bx, by, beside, least_step, level):
+            if not _even_sides(image, corner, ax, ay, bx, by, beside, least_step):
                 continue
             cosine = (ax * bx + ay * by) / (la * lb)
             for whole in range(2):
@@ -233,24 +232,23 @@ def corner_quads(image, segments, successors, counts, least_side, least_squash, 
                         quad[1, 0], quad[1, 1] = corner[0], corner[1]
                         quad[2, 0], quad[2, 1] = corner[0] + sb * bx, corner[1] + sb * by
                         quad[3, 0], quad[3, 1] = quad[0, 0] + sb * bx, quad[0, 1] + sb * by
-                        levels[q, 0], levels[q, 1] = level[0], level[1]
                         q += 1
                     elif not good and length > fixed:
                         break
                     length *= growth
                     step += 1
-    return quads[:q].copy(), levels[:q].copy()
+    return quads[:q].copy()
 
 
 @compiled
-def peek(image, quads, levels, cells, templates):
+def peek(image, quads, cells, templates, dark, light):
     """Correlation (t, q) of templates (t, n * n), n = cells + 2, with parallelograms, a pixel a cell.
 
-    What is as dark or light as `levels` (q, 2) say, or more so, counts as 0 and 1.
+    What is as dark or light as these, or more so, counts as 0 and 1.
     """
     height, width = image.shape
     count, n = len(quads), cells + 2
-    size = n * n
+    size, scale = n * n, np.float32(1.0) / (light - dark)
     out = np.empty((len(templates), count), np.float32)
     # Quads lie side by side in a block, so that the machine works on many at once.
     block = np.empty((size, BLOCK), np.float32)
@@ -261,8 +259,6 @@ def peek(image, quads, levels, cells, templates):
             ax, ay = (quad[1, 0] - quad[0, 0]) / cells, (quad[1, 1] - quad[0, 1]) / cells
             bx, by = (quad[3, 0] - quad[0, 0]) / cells, (quad[3, 1] - quad[0, 1]) / cells
             ox, oy = quad[0, 0] - 0.5 * (ax + bx) + 0.5, quad[0, 1] - 0.5 * (ay + by) + 0.5
-            dark = levels[start + k, 0]
-            scale = np.float32(1.0) / max(levels[start + k, 1] - dark, np.float32(1.0))
             total, square = np.float32(0.0), np.float32(0.0)
             for r in range(n):
                 for c in range(n):

@@ -30,18 +30,15 @@ def quads_of(segments: npt.NDArray[np.float32]) -> Quads:
     return np.asarray(closed_and_open_quads(segments, successors, counts), dtype=np.float32)
 
 
-def corner_quads_of(
-    image: GreyImage, segments: npt.NDArray[np.float32], *, least_step_grey: float
-) -> tuple[Quads, npt.NDArray[np.float32]]:
+def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, least_step_grey: float) -> Quads:
     """Candidate outlines of which one corner is seen, with what leads to it, and the rest may be covered.
 
-    Returns:
-        outlines (q, 4, 2) in px, clockwise on the screen, and (q, 2) the grey of their dark and light.
+    Outlines (q, 4, 2) in px, parallelograms, clockwise on the screen.
     """
     if len(segments) < 2:
-        return np.empty((0, 4, 2), np.float32), np.empty((0, 2), np.float32)
+        return np.empty((0, 4, 2), np.float32)
     successors, counts = successors_of(segments)
-    quads, levels = corner_quads(
+    quads = corner_quads(
         image,
         segments,
         successors,
@@ -52,4 +49,4 @@ def corner_quads_of(
         least_step_grey,
         LENGTH_GROWTH,
     )
-    return np.asarray(quads, dtype=np.float32), np.asarray(levels, dtype=np.float32)
+    return np.asarray(quads, dtype=np.float32)

@@ -12,8 +12,8 @@ from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_s
 from tracker.geometry import Array
 from tracker.marker.glance import glance, glance_past_cover, likely, nudged
 from tracker.marker.kernels import LEAST_SIDE_PX
-from tracker.marker.outline import Quads, corner_quads_of, quads_of
-from tracker.regions import dark_mask, noise_grey, quads_of_mask
+from tracker.marker.outline import Quads, corner_quads_of
+from tracker.regions import dark_mask, even_image, noise_grey, quads_of_mask
 
 # An image over a megapixel is first looked at at half its size.
 MOST_PIXELS_AT_ONCE = 1_000_000
@@ -24,8 +24,9 @@ MOST_CANDIDATES = 6
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
 WINDOW_PX = 21
-NOISE_SDS, LEAST_DARKER_GREY, LEAST_STEP_GREY = 3.0, 3.0, 6.0
-MOST_PEEKED, MOST_NUDGED = 150, 12
+NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
+LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
+MOST_PEEKED, MOST_NUDGED = 100, 8
 NUDGES = (0.07, 0.035)
 
 
@@ -90,13 +91,21 @@ def _looks(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[Loo
     level = first_level(image)
     dark = _by_darkness(level)
     yield level, dark, glance(level.image, dark, templates)
-    yield _at_corners(level, templates)
     if min(level.image.shape) < 2 * LEAST_LEVEL_PX:
+        yield _at_corners(level, _edge_segments(level.image), templates)
         return
     half = halved(level)
     dark = _by_darkness(half)
     yield half, dark, glance(half.image, dark, templates)
-    yield _at_corners(half, templates)
+    yield _at_corners(level, _edge_segments(level.image), templates)
+    both = np.concatenate([_edge_segments(half.image), _dark_segments(half)])
+    yield _at_corners(half, both, templates)
+    yield _at_corners(level, _dark_segments(level), templates)
+    if level.scale > 1:
+        # What is small in a large image.
+        whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
+        dark = _by_darkness(whole)
+        yield whole, dark, glance(whole.image, dark, templates)
 
 
 def first_level(image: GreyImage) -> Level:
@@ -116,18 +125,32 @@ def halved(level: Level) -> Level:
 
 
 def _by_darkness(level: Level) -> Quads:
+    return quads_of_mask(_dark_mask(level))
+
+
+def _dark_mask(level: Level) -> npt.NDArray[np.uint8]:
     darker = max(NOISE_SDS * level.noise_grey, LEAST_DARKER_GREY)
-    return quads_of_mask(dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker))
+    return dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker)
 
 
-def _at_corners(level: Level, templates: npt.NDArray[np.float32]) -> Look:
-    """What the level's edges make: whole outlines, and those of which a corner is seen and the rest covered."""
-    edgels = edgels_of(gradient_of(level.image))
+def _edge_segments(image: GreyImage) -> npt.NDArray[np.float32]:
+    edgels = edgels_of(gradient_of(image))
     pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_SIDE_PX)
-    segments = np.concatenate([pieces, joined_segments(pieces)])
-    step = max(NOISE_SDS * level.noise_grey, LEAST_STEP_GREY)
-    corners, levels = corner_quads_of(level.image, segments, least_step_grey=step)
-    quads = likely(level.image, corners, levels, templates, most=MOST_PEEKED)
+    return np.concatenate([pieces, joined_segments(pieces)])
+
+
+def _dark_segments(level: Level) -> npt.NDArray[np.float32]:
+    """The straight pieces of the dark regions' outlines: they stand where edges are too faint to follow."""
+    light = cv2.blur(cv2.bitwise_not(_dark_mask(level)), (3, 3))
+    return _edge_segments(np.asarray(light, dtype=np.uint8))
+
+
+def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: npt.NDArray[np.float32]) -> Look:
+    """Outlines of which a corner is seen, and of the rest as much as is not covered."""
+    step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
+    corners = corner_quads_of(level.image, segments, least_step_grey=step)
+    even = even_image(level.image, window_px=WINDOW_PX, noise_grey=level.noise_grey)
+    quads = likely(even, corners, templates, most=MOST_PEEKED)
     likeness = glance_past_cover(level.image, quads, templates)
     # The best ones are moved until they sit.
     for share in NUDGES:

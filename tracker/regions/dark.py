@@ -12,6 +12,7 @@ LEAST_SIDE_PX = 5.0
 LEAST_EXTENT_PX = 9
 LEAST_SQUASH_RATIO = 0.3
 SAMPLE_STRIDE = 5
+LEAST_LIGHT_GREY = 8.0
 # Median of absolute differences of two pixels, for noise of 1 grey level.
 NOISE_PER_DIFFERENCE = 1.0 / 0.954
 
@@ -38,6 +39,14 @@ def dark_mask(image: GreyImage, *, window_px: int, darker_grey: float) -> npt.ND
         image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window_px, darker_grey
     )
     return np.asarray(mask, dtype=np.uint8)
+
+
+def even_image(image: GreyImage, *, window_px: int, noise_grey: float) -> GreyImage:
+    """The image in even light (h, w): 128 where it is as bright as the mean of the window around."""
+    # In the dark the noise must not be taken for a picture.
+    floor = max(3.0 * noise_grey, LEAST_LIGHT_GREY)
+    own, around = cv2.add(image, floor), cv2.add(cv2.blur(image, (window_px, window_px)), floor)
+    return np.asarray(cv2.divide(own, around, scale=128.0), dtype=np.uint8)
 
 
 def quads_of_mask(mask: npt.NDArray[np.uint8]) -> npt.NDArray[np.float32]:
