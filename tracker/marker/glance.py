@@ -91,7 +91,7 @@ def _seen(image: GreyImage, quads: Quads) -> Float32:
 
 
 def _covers() -> Float32:
-    """The cells (k, 196) that are left, 1, when a straight edge has come in from 8 directions, to two depths."""
+    """The cells (k, 196) that are left, 1, when a straight edge has come in from one of 8 directions."""
     at = np.arange(ROWS) - (ROWS - 1) / 2.0
     x, y = np.meshgrid(at / CELLS, at / CELLS)
     left = [np.ones(ROWS * ROWS, np.bool_)]

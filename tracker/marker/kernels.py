@@ -164,7 +164,7 @@ def closed_and_open_quads(segments, successors, counts):
 
 @compiled
 def _even_sides(image, p, ax, ay, bx, by, beside, least_step):
-    """Whether two sides that leave the corner p (whole vectors a, b) have all light outside and all dark inside.
+    """Whether two sides that leave the corner p (vectors a, b) are all light outside and dark inside.
 
     Looked at five places along each, `beside` px off the side.
     """

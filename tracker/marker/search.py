@@ -18,9 +18,9 @@ from tracker.regions import dark_mask, even_image, noise_grey, quads_of_mask
 # An image over a megapixel is first looked at at half its size.
 MOST_PIXELS_AT_ONCE = 1_000_000
 LEAST_LEVEL_PX = 12
-# At a glance (cells of a twelfth of the side, corners off by a pixel or two) a marker in sight has 0.6 to 1.
-LEAST_LIKENESS = 0.45
-MOST_CANDIDATES = 6
+# At a glance (cells of a twelfth of the side, corners off by a pixel or two) a marker in sight has 0.8 to 1.
+LEAST_LIKENESS = 0.76
+MOST_CANDIDATES = 4
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
 WINDOW_PX = 21
@@ -86,7 +86,7 @@ Look: TypeAlias = tuple[Level, Quads, npt.NDArray[np.float32]]
 
 def _looks(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[Look]:
     """Outlines (q, 4, 2) in px of a level and their likeness (q, m, 4), look after look."""
-    if min(image.shape) < LEAST_LEVEL_PX:
+    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
         return
     level = first_level(image)
     dark = _by_darkness(level)

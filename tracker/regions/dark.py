@@ -45,7 +45,8 @@ def even_image(image: GreyImage, *, window_px: int, noise_grey: float) -> GreyIm
     """The image in even light (h, w): 128 where it is as bright as the mean of the window around."""
     # In the dark the noise must not be taken for a picture.
     floor = max(3.0 * noise_grey, LEAST_LIGHT_GREY)
-    own, around = cv2.add(image, floor), cv2.add(cv2.blur(image, (window_px, window_px)), floor)
+    around = cv2.convertScaleAbs(cv2.blur(image, (window_px, window_px)), beta=floor)
+    own = cv2.convertScaleAbs(image, beta=floor)
     return np.asarray(cv2.divide(own, around, scale=128.0), dtype=np.uint8)
 
 

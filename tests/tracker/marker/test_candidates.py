@@ -73,7 +73,7 @@ def test_each_round_gives_few_and_only_new_ones_the_likeliest_first() -> None:
     given = _rounds(image)
     assert len(given) >= 2
     for candidates in (one[0] for one in given):
-        assert len(candidates) <= 6
+        assert len(candidates) <= 4
         assert all(a.likeness >= b.likeness for a, b in pairwise(candidates))
     every = [candidate.corners_px for one in given for candidate in one[0]]
     for i, a in enumerate(every):
@@ -101,7 +101,7 @@ def test_an_image_gives_the_same_candidates_each_time() -> None:
 def test_a_tiny_image_has_no_candidates(size_wh: tuple[int, int]) -> None:
     noise = np.random.default_rng(3).integers(0, 256, size_wh[::-1]).astype(np.uint8)
     for image in (noise, np.zeros_like(noise), np.full_like(noise, 255)):
-        assert all(len(one[0]) <= 6 for one in _rounds(image))
+        assert all(len(one[0]) <= 4 for one in _rounds(image))
 
 
 @pytest.mark.parametrize("grey", [0, 128, 255])
@@ -132,6 +132,6 @@ def test_no_models_ask_for_nothing() -> None:
 )
 def test_images_full_of_edges_break_nothing(image: Image8) -> None:
     for one in _rounds(image):
-        assert len(one[0]) <= 6
+        assert len(one[0]) <= 4
         for candidate in one[0]:
             assert np.isfinite(candidate.corners_px).all()
