@@ -51,31 +51,30 @@ def successors_of(segments):
     gaps = np.empty((n, MOST_SUCCESSORS), np.float32)
     counts = np.zeros(n, np.int32)
     corner = np.empty(2, np.float32)
+    length, dx, dy = np.empty(n, np.float32), np.empty(n, np.float32), np.empty(n, np.float32)
+    for i in range(n):
+        length[i] = _length(segments[i])
+        dx[i] = (segments[i, 2] - segments[i, 0]) / length[i]
+        dy[i] = (segments[i, 3] - segments[i, 1]) / length[i]
     for i in range(n):
         a = segments[i]
-        la = _length(a)
-        dax, day = (a[2] - a[0]) / la, (a[3] - a[1]) / la
-        reach = min(3.0 + 0.3 * la, MOST_GAP_PX)
+        la, dax, day, au, av = length[i], dx[i], dy[i], a[2], a[3]
+        reach = min(np.float32(3.0) + np.float32(0.3) * la, np.float32(MOST_GAP_PX))
         cu, cv = int(max(a[2], 0.0)) // CELL_PX + 1, int(max(a[3], 0.0)) // CELL_PX + 1
         cells = int(reach) // CELL_PX + 1
         for row in range(max(cv - cells, 0), min(cv + cells + 1, columns)):
             for column in range(max(cu - cells, 0), min(cu + cells + 1, columns)):
                 j = head[row * columns + column]
                 while j >= 0:
-                    b = segments[j]
                     k, j = j, after[j]
-                    if k == i:
-                        continue
-                    lb = _length(b)
-                    limit = min(3.0 + 0.3 * min(la, lb), MOST_GAP_PX)
-                    gap = np.sqrt((b[0] - a[2]) ** 2 + (b[1] - a[3]) ** 2)
-                    if gap > limit:
-                        continue
-                    dbx, dby = (b[2] - b[0]) / lb, (b[3] - b[1]) / lb
-                    turn = dax * dby - day * dbx
                     # A right turn of 15 to 165 degrees: a square seen at 60 degrees of tilt has corners
                     # from 53 to 127, and perspective adds some.
-                    if turn < 0.26 or not _corner(a, b, corner):
+                    if dax * dy[k] - day * dx[k] < np.float32(0.26):
+                        continue
+                    b = segments[k]
+                    limit = min(reach, np.float32(3.0) + np.float32(0.3) * length[k])
+                    gap = (b[0] - au) * (b[0] - au) + (b[1] - av) * (b[1] - av)
+                    if gap > limit * limit or not _corner(a, b, corner):
                         continue
                     if (corner[0] - a[2]) ** 2 + (corner[1] - a[3]) ** 2 > limit * limit:
                         continue

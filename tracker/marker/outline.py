@@ -15,7 +15,7 @@ LEAST_SQUASH_RATIO = 0.4
 # Off a side, so far that an edge in focus is past.
 BESIDE_PX = 2.0
 # A length that is off by a tenth is near enough to be known at a glance.
-LENGTH_GROWTH = 1.2
+LENGTH_GROWTH = 1.25
 
 
 def quads_of(segments: npt.NDArray[np.float32]) -> Quads:

@@ -98,14 +98,14 @@ def _looks(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[Loo
     dark = _by_darkness(half)
     yield half, dark, glance(half.image, dark, templates)
     yield _at_corners(level, _edge_segments(level.image), templates)
-    both = np.concatenate([_edge_segments(half.image), _dark_segments(half)])
-    yield _at_corners(half, both, templates)
-    yield _at_corners(level, _dark_segments(level), templates)
     if level.scale > 1:
         # What is small in a large image.
         whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
         dark = _by_darkness(whole)
         yield whole, dark, glance(whole.image, dark, templates)
+    both = np.concatenate([_edge_segments(half.image), _dark_segments(half)])
+    yield _at_corners(half, both, templates)
+    yield _at_corners(level, _dark_segments(level), templates)
 
 
 def first_level(image: GreyImage) -> Level:
