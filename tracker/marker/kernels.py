@@ -6,7 +6,6 @@ from tracker.compiled import compiled
 from tracker.edges.kernels import crossing
 
 MOST_SUCCESSORS = 8
-MOST_QUADS = 4000
 MOST_CORNER_QUADS = 12000
 BLOCK = 64
 CELL_PX = 16
@@ -92,73 +91,6 @@ def successors_of(segments):
                         m -= 1
                     successors[i, m], gaps[i, m] = k, gap
     return successors, counts
-
-
-@compiled
-def _plausible(quad):
-    """Convex, clockwise, no side under four pixels, none over five times its opposite."""
-    sides = np.empty(4, np.float32)
-    for k in range(4):
-        p, q, r = quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]
-        sides[k] = np.sqrt((q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2)
-        if sides[k] < LEAST_SIDE_PX:
-            return False
-        if (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]) <= 0.0:
-            return False
-    for k in range(2):
-        ratio = sides[k] / sides[k + 2]
-        if ratio > 2.5 or ratio < 0.4:
-            return False
-    ratio = (sides[0] + sides[2]) / (sides[1] + sides[3])
-    return 0.2 < ratio < 5.0
-
-
-@compiled
-def closed_and_open_quads(segments, successors, counts):
-    """Outlines (q, 4, 2) of four segments that close, and of three whose fourth side is missing."""
-    n = len(segments)
-    quads = np.empty((MOST_QUADS, 4, 2), np.float32)
-    q = 0
-    in_closed = np.zeros(n, np.bool_)
-    for i in range(n):
-        for a in range(counts[i]):
-            j = successors[i, a]
-            if j <= i:
-                continue
-            for b in range(counts[j]):
-                k = successors[j, b]
-                if k <= i or k == j:
-                    continue
-                for c in range(counts[k]):
-                    m = successors[k, c]
-                    if m <= i or m in (j, k) or q >= MOST_QUADS:
-                        continue
-                    for d in range(counts[m]):
-                        if successors[m, d] != i:
-                            continue
-                        quad = quads[q]
-                        ok = _corner(segments[m], segments[i], quad[0])
-                        ok = ok and _corner(segments[i], segments[j], quad[1])
-                        ok = ok and _corner(segments[j], segments[k], quad[2])
-                        ok = ok and _corner(segments[k], segments[m], quad[3])
-                        if ok and _plausible(quad):
-                            q += 1
-                            in_closed[i] = in_closed[j] = in_closed[k] = in_closed[m] = True
-                        break
-    for i in range(n):
-        for a in range(counts[i]):
-            j = successors[i, a]
-            for b in range(counts[j]):
-                k = successors[j, b]
-                if k == i or q >= MOST_QUADS or (in_closed[i] and in_closed[j] and in_closed[k]):
-                    continue
-                quad = quads[q]
-                quad[0, 0], quad[0, 1] = segments[i, 0], segments[i, 1]
-                quad[3, 0], quad[3, 1] = segments[k, 2], segments[k, 3]
-                ok = _corner(segments[i], segments[j], quad[1]) and _corner(segments[j], segments[k], quad[2])
-                if ok and _plausible(quad):
-                    q += 1
-    return quads[:q].copy()
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""Outlines: four straight edges that could be the border of a dark square."""
+"""Outlines: where a dark square could be of which no more than a corner is seen."""
 
 from typing import TypeAlias
 
@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage
-from tracker.marker.kernels import closed_and_open_quads, corner_quads, successors_of
+from tracker.marker.kernels import corner_quads, successors_of
 
 Quads: TypeAlias = npt.NDArray[np.float32]
 
@@ -16,18 +16,6 @@ LEAST_SQUASH_RATIO = 0.4
 BESIDE_PX = 2.0
 # A length that is off by a tenth is near enough to be known at a glance.
 LENGTH_GROWTH = 1.25
-
-
-def quads_of(segments: npt.NDArray[np.float32]) -> Quads:
-    """Candidate outlines (q, 4, 2) in px, corners clockwise on the screen, from segments (s, 4).
-
-    Four segments that follow one another with a right turn at each corner make a closed outline; three of
-    them make one whose fourth side is hidden.
-    """
-    if len(segments) < 3:
-        return np.empty((0, 4, 2), np.float32)
-    successors, counts = successors_of(segments)
-    return np.asarray(closed_and_open_quads(segments, successors, counts), dtype=np.float32)
 
 
 def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, least_step_grey: float) -> Quads:

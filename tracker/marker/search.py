@@ -26,7 +26,9 @@ SAME_OUTLINE_SIDE_RATIO = 0.06
 WINDOW_PX = 21
 NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
-MOST_PEEKED, MOST_NUDGED = 100, 8
+# Of many models each has its share, so that they cost little more than one.
+MOST_PEEKED, LEAST_PEEKED = 100, 40
+MOST_NUDGED, LEAST_NUDGED = 8, 4
 NUDGES = (0.07, 0.035)
 
 
@@ -150,7 +152,8 @@ def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: npt.
     step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
     corners = corner_quads_of(level.image, segments, least_step_grey=step)
     even = even_image(level.image, window_px=WINDOW_PX, noise_grey=level.noise_grey)
-    quads = likely(even, corners, templates, most=MOST_PEEKED)
+    most = max(MOST_PEEKED // len(templates), LEAST_PEEKED)
+    quads = likely(even, corners, templates, most=most)
     likeness = glance_past_cover(level.image, quads, templates)
     # The best ones are moved until they sit.
     for share in NUDGES:
@@ -161,9 +164,10 @@ def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: npt.
 
 def _top(quads: Quads, likeness: npt.NDArray[np.float32]) -> Quads:
     """The likeliest outlines of each model."""
-    if len(quads) <= MOST_NUDGED:
+    most = max(MOST_NUDGED // likeness.shape[1], LEAST_NUDGED)
+    if len(quads) <= most:
         return quads
-    best = np.argpartition(-likeness.max(axis=2), MOST_NUDGED, axis=0)[:MOST_NUDGED]
+    best = np.argpartition(-likeness.max(axis=2), most, axis=0)[:most]
     return quads[np.unique(best)]
 
 

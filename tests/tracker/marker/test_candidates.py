@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import cv2
 import numpy as np
 import pytest
 
@@ -55,6 +56,39 @@ def test_the_first_candidate_of_the_first_round_is_the_marker_with_its_own_top(
     first = next(candidate_rounds(image, templates_of((MODEL,))))[0][0]
     assert _off_px(first, corners) < max(1.5, 0.03 * side_px)
     assert first.likeness > 0.7
+
+
+def _found_in(image: Image8, corners: Array, side_px: float) -> int | None:
+    """The round that gives the marker, near enough for a fit to start from."""
+    for k, one in enumerate(_rounds(image)):
+        if any(_off_px(candidate, corners) < max(2.5, 0.1 * side_px) for candidate in one[0]):
+            return k
+    return None
+
+
+@pytest.mark.parametrize("from_deg", range(0, 360, 45))
+@pytest.mark.parametrize("grey", [20, 140])
+def test_a_finger_over_a_part_of_it_does_not_hide_it(from_deg: int, grey: int) -> None:
+    image, corners = _scene(40, tilt_deg=20, roll_deg=25)
+    toward = np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
+    tip = corners.mean(axis=0) + 30.0 * toward
+    ends = np.rint([tip, tip + 300.0 * toward]).astype(int).tolist()
+    covered = cv2.line(image.copy(), ends[0], ends[1], grey, 30, cv2.LINE_AA)
+    assert _found_in(np.asarray(covered, np.uint8), corners, 40) is not None
+
+
+@pytest.mark.parametrize("roll_deg", range(0, 360, 60))
+def test_a_shadow_s_edge_across_it_does_not_hide_it(roll_deg: int) -> None:
+    image, corners = _scene(40, roll_deg=roll_deg)
+    ramp = 1.0 - 0.8 / (1.0 + np.exp(-(np.arange(480) - corners[:, 0].mean()) / 4.0))
+    assert _found_in(np.asarray(image * ramp, np.uint8), corners, 40) is not None
+
+
+@pytest.mark.parametrize(("side_px", "blur_px"), [(27, 2.0), (60, 4.0)])
+def test_a_lens_out_of_focus_does_not_hide_it(side_px: float, blur_px: float) -> None:
+    for roll_deg in range(0, 360, 60):
+        image, corners = _scene(side_px, roll_deg=roll_deg, blur_px=blur_px, seed=roll_deg)
+        assert _found_in(image, corners, side_px) is not None, roll_deg
 
 
 def test_what_an_image_over_a_megapixel_shows_is_told_in_its_own_pixels() -> None:
