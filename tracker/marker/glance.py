@@ -7,7 +7,7 @@ import numpy.typing as npt
 from tracker.edges import GreyImage
 from tracker.marker.kernels import even_light, peek, products, sample_quads
 from tracker.marker.model import MarkerModel
-from tracker.marker.outline import Quads
+from tracker.outlines import Quads
 
 Float32 = npt.NDArray[np.float32]
 

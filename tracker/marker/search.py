@@ -11,8 +11,7 @@ import numpy.typing as npt
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
 from tracker.marker.glance import glance, glance_past_cover, likely, nudged
-from tracker.marker.kernels import LEAST_SIDE_PX
-from tracker.marker.outline import Quads, corner_quads_of
+from tracker.outlines import Quads, corner_quads_of
 from tracker.regions import dark_mask, even_image, noise_grey, quads_of_mask
 
 # An image over a megapixel is first looked at at half its size.
@@ -24,6 +23,7 @@ MOST_CANDIDATES = 4
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
 WINDOW_PX = 21
+LEAST_PIECE_PX = 4.0
 NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
 # Of many models each has its share, so that they cost little more than one.
@@ -137,7 +137,7 @@ def _dark_mask(level: Level) -> npt.NDArray[np.uint8]:
 
 def _edge_segments(image: GreyImage) -> npt.NDArray[np.float32]:
     edgels = edgels_of(gradient_of(image))
-    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_SIDE_PX)
+    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_PIECE_PX)
     return np.concatenate([pieces, joined_segments(pieces)])
 
 

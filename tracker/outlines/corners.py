@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage
-from tracker.marker.kernels import corner_quads, successors_of
+from tracker.outlines.kernels import corner_quads, successors_of
 
 Quads: TypeAlias = npt.NDArray[np.float32]
 

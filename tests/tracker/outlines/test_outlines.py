@@ -6,7 +6,7 @@ import pytest
 
 from tests.tracker.scenes import Image8
 from tracker.geometry import Array
-from tracker.marker.outline import Quads, corner_quads_of
+from tracker.outlines import Quads, corner_quads_of
 
 SQUARE = np.array([[50.0, 40.0], [110.0, 45.0], [105.0, 100.0], [46.0, 96.0]])
 
