@@ -17,8 +17,13 @@ from tests.tracker.scenes import (
     facing_at_px,
     rendered,
 )
+from tracker.edges import kernels as edges_loops
 from tracker.geometry import Array
 from tracker.marker import Candidate, MarkerModel, candidate_rounds, templates_of
+from tracker.marker import kernels as marker_loops
+from tracker.outlines import kernels as outlines_loops
+from tracker.regions import kernels as regions_loops
+from tracker.warm_up import warm_up
 
 CAMERA = camera_of((480, 360), focal_px=500.0)
 OTHER = ((1, 0, 1), (1, 0, 0), (0, 1, 0))
@@ -169,3 +174,19 @@ def test_images_full_of_edges_break_nothing(image: Image8) -> None:
         assert len(one[0]) <= 4
         for candidate in one[0]:
             assert np.isfinite(candidate.corners_px).all()
+
+
+def test_after_the_warm_up_a_search_compiles_nothing() -> None:
+    def versions() -> dict[str, int]:
+        return {
+            f"{room.__name__}.{name}": len(loop.signatures)
+            for room in (edges_loops, marker_loops, outlines_loops, regions_loops)
+            for name, loop in vars(room).items()
+            if hasattr(loop, "signatures")
+        }
+
+    warm_up()
+    before = versions()
+    for count in (1, 2):
+        _rounds(_scene(40, roll_deg=30)[0], (MODEL, code_model(OTHER, name="other"))[:count])
+    assert versions() == before
