@@ -96,10 +96,10 @@ def _looks(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[Loo
     if min(level.image.shape) < 2 * LEAST_LEVEL_PX:
         yield _at_corners(level, _edge_segments(level.image), templates)
         return
+    yield _at_corners(level, _edge_segments(level.image), templates)
     half = halved(level)
     dark = _by_darkness(half)
     yield half, dark, glance(half.image, dark, templates)
-    yield _at_corners(level, _edge_segments(level.image), templates)
     if level.scale > 1:
         # What is small in a large image.
         whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
