@@ -7,16 +7,14 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.camera import CameraModel
-from tracker.edges import GreyImage, edgels_of, gradient_of
+from tracker.edges import Edgels, Gradient, GreyImage, edgels_of, gradient_of
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.marker import (
     Candidate,
-    Look,
     MarkerModel,
     ScoreSettings,
-    candidates_of,
-    outlines_in,
+    candidate_rounds,
     refuse_alike,
     templates_of,
 )
@@ -174,31 +172,41 @@ class Tracker:
 
     def _search(self, grey: GreyImage, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
         gradient = gradient_of(grey)
+        edgels = edgels_of(gradient)
         self._stages.end("gradient")
-        look = outlines_in(grey, gradient)
-        self._stages.end("edges")
+        best: dict[str, Sighting] = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
         which = [self.models.index(model) for model in models]
-        candidates = candidates_of(look, self._templates[which])
-        self._stages.end("candidates")
-        return {
-            model.name: self._search_one(look, model, own)
-            for model, own in zip(models, candidates, strict=True)
-        }
+        for candidates in candidate_rounds(grey, self._templates[which]):
+            self._stages.end("candidates")
+            for model, own in zip(models, candidates, strict=True):
+                if _worth(best[model.name]) <= CERTAIN_WORTH:
+                    found = self._search_one(grey, gradient, edgels, model, own)
+                    best[model.name] = max(best[model.name], found, key=_worth)
+            if all(_worth(sighting) > CERTAIN_WORTH for sighting in best.values()):
+                break
+        return best
 
-    def _search_one(self, look: Look, model: MarkerModel, candidates: list[Candidate]) -> Sighting:
+    def _search_one(
+        self,
+        grey: GreyImage,
+        gradient: Gradient,
+        edgels: Edgels,
+        model: MarkerModel,
+        candidates: list[Candidate],
+    ) -> Sighting:
         best: Sighting = Unseen(reason=UnseenReason.NO_CANDIDATE)
         fits = 0
         for candidate in candidates:
             start = pose_from_corners(self.camera, candidate.corners_px, side_mm=model.side_mm)
             if start is None:
                 continue
-            found = occurrence_near(self.camera, model, look.gradient, start, first_reach_px=SEARCH_REACH_PX)
+            found = occurrence_near(self.camera, model, gradient, start, first_reach_px=SEARCH_REACH_PX)
             self._stages.end("fit")
             if found is None:
                 continue
-            found = with_target(self.camera, model, look.gradient, look.edgels, found)
+            found = with_target(self.camera, model, gradient, edgels, found)
             sighting = judged(
-                found, self.settings, model=model, image=look.image, gradient=look.gradient, found_by="search"
+                found, self.settings, model=model, image=grey, gradient=gradient, found_by="search"
             )
             self._stages.end("score")
             best = max(best, sighting, key=_worth)

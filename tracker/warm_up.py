@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.marker import MarkerModel
+from tracker.marker import MarkerModel, candidate_rounds, templates_of
 from tracker.pipeline import Tracker
 
 SIDE_PX = 64
@@ -22,8 +22,14 @@ def warm_up() -> None:
         distortion=np.zeros(5),
         size_wh_px=(320, 240),
     )
-    tracker = Tracker(camera=camera, models=[MarkerModel.from_image(marker, side_mm=25.0, name="warm-up")])
+    model = MarkerModel.from_image(marker, side_mm=25.0, name="warm-up")
+    tracker = Tracker(camera=camera, models=[model])
     tracker.search(image)
+    # A search stops at the first round that finds it; here every round must run, with more outlines than
+    # are looked at closely.
+    image[150:230, 20:300] = np.tile(np.kron([[200, 200], [200, 20]], np.ones((10, 10))), (4, 14))
+    for _ in candidate_rounds(image, templates_of((model,))):
+        pass
     for at_s in (0.0, 0.03, 0.06):
         tracker.step(image, captured_at_s=at_s)
 

@@ -77,7 +77,6 @@ def test_every_stage_of_both_ways_is_timed(measured: Offline) -> None:
     assert set(measured.timed[0].search_stage_ms) >= {
         "grey",
         "gradient",
-        "edges",
         "candidates",
         "fit",
         "score",

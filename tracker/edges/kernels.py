@@ -5,6 +5,7 @@ import numpy as np
 from tracker.compiled import compiled
 
 MOST_STEPS = 64
+DIAGONAL = np.float32(1.4142135)
 # A peak at the end of the reach must be this much stronger than one in the middle to be preferred: of two
 # edges side by side the expected one is the nearer.
 END_WORTH = 0.6
@@ -18,14 +19,12 @@ def find_edgels(gx, gy, threshold):
     # Of pure noise more than half of all pixels are edgels: there must be room for every one.
     found = np.empty((5, height * width), np.float32)
     n = 0
+    least = np.int32(threshold)
     for v in range(1, height - 1):
         for u in range(1, width - 1):
             a, b = gx[v, u], gy[v, u]
             abs_a, abs_b = abs(a), abs(b)
-            if abs_a + abs_b < threshold:
-                continue
-            strength = np.sqrt(np.float32(a) * np.float32(a) + np.float32(b) * np.float32(b))
-            if strength < threshold:
+            if abs_a + abs_b < least:
                 continue
             # Compared along the axis that the gradient is nearer to: one edgel for each row of a steep
             # edge, for each column of a flat one, so that chains have neither gaps nor doubles.
@@ -37,12 +36,16 @@ def find_edgels(gx, gy, threshold):
                 before, here, after = sign * gy[v - 1, u], sign * b, sign * gy[v + 1, u]
             if not (here > before and here >= after):
                 continue
+            fa, fb = np.float32(a), np.float32(b)
+            strength = np.sqrt(fa * fa + fb * fb)
+            if strength < threshold:
+                continue
             shift = np.float32(0.5) * np.float32(before - after) / np.float32(before - 2 * here + after)
             if abs_a >= abs_b:
                 found[0, n], found[1, n] = u + shift, v
             else:
                 found[0, n], found[1, n] = u, v + shift
-            found[2, n], found[3, n], found[4, n] = a / strength, b / strength, strength
+            found[2, n], found[3, n], found[4, n] = fa / strength, fb / strength, strength
             at[v, u] = n
             n += 1
     kept = found[:, :n].copy()
@@ -69,7 +72,8 @@ def link(nx, ny, strength, at):
                     j = at[v + dv, u + du]
                     if j < 0 or j == i:
                         continue
-                    ahead = (du * dx + dv * dy) / np.sqrt(np.float32(du * du + dv * dv))
+                    far = DIAGONAL if du != 0 and dv != 0 else np.float32(1.0)
+                    ahead = (np.float32(du) * dx + np.float32(dv) * dy) / far
                     alike = nx[i] * nx[j] + ny[i] * ny[j]
                     # Within 67 degrees ahead, and turning by at most 53: a chain may round a blurred
                     # corner, but never jumps to the other side of a line.

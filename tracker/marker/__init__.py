@@ -12,21 +12,19 @@ from tracker.marker.score import (
     reach_px,
     target_coverage_ratio,
 )
-from tracker.marker.search import Candidate, Look, candidates_of, outlines_in
+from tracker.marker.search import Candidate, candidate_rounds
 
 __all__ = [
     "ActiveEdges",
     "Agreement",
     "Candidate",
     "Contradiction",
-    "Look",
     "MarkerModel",
     "ScoreSettings",
-    "candidates_of",
+    "candidate_rounds",
     "contradiction_of",
     "edge_crossings",
     "model_agreement",
-    "outlines_in",
     "reach_px",
     "refuse_alike",
     "target_coverage_ratio",

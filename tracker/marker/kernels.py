@@ -5,159 +5,66 @@ import numpy as np
 from tracker.compiled import compiled
 from tracker.edges.kernels import crossing
 
-MOST_SUCCESSORS = 8
-MOST_QUADS = 4000
-CELL_PX = 16
-MOST_GAP_PX = 30.0
-LEAST_SIDE_PX = 4.0
+BLOCK = 64
 
 
 @compiled
-def _length(s):
-    return np.sqrt((s[2] - s[0]) ** 2 + (s[3] - s[1]) ** 2)
+def peek(image, quads, cells, templates, dark, light):
+    """Correlation (t, q) of templates (t, n * n), n = cells + 2, with parallelograms, a pixel a cell.
+
+    What is as dark or light as these, or more so, counts as 0 and 1.
+    """
+    height, width = image.shape
+    count, n = len(quads), cells + 2
+    size, scale = n * n, np.float32(1.0) / (light - dark)
+    out = np.empty((len(templates), count), np.float32)
+    # Quads lie side by side in a block, so that the machine works on many at once.
+    block = np.empty((size, BLOCK), np.float32)
+    for start in range(0, count, BLOCK):
+        many = min(BLOCK, count - start)
+        for k in range(many):
+            quad = quads[start + k]
+            ax, ay = (quad[1, 0] - quad[0, 0]) / cells, (quad[1, 1] - quad[0, 1]) / cells
+            bx, by = (quad[3, 0] - quad[0, 0]) / cells, (quad[3, 1] - quad[0, 1]) / cells
+            ox, oy = quad[0, 0] - 0.5 * (ax + bx) + 0.5, quad[0, 1] - 0.5 * (ay + by) + 0.5
+            total, square = np.float32(0.0), np.float32(0.0)
+            for r in range(n):
+                for c in range(n):
+                    u = min(max(int(ox + c * ax + r * bx), 0), width - 1)
+                    v = min(max(int(oy + c * ay + r * by), 0), height - 1)
+                    value = min(max((image[v, u] - dark) * scale, np.float32(0.0)), np.float32(1.0))
+                    block[r * n + c, k] = value
+                    total += value
+                    square += value * value
+            mean = total / size
+            length = np.float32(1.0) / np.sqrt(max(square - size * mean * mean, np.float32(1e-3)))
+            for i in range(size):
+                block[i, k] = (block[i, k] - mean) * length
+        for t in range(len(templates)):
+            line = out[t, start : start + many]
+            line[:] = 0.0
+            for i in range(size):
+                weight = templates[t, i]
+                for k in range(many):
+                    line[k] += weight * block[i, k]
+    return out
 
 
 @compiled
-def _corner(a, b, out):
-    """Where the lines of two segments meet; False when they are nearly parallel."""
-    dax, day = a[2] - a[0], a[3] - a[1]
-    dbx, dby = b[2] - b[0], b[3] - b[1]
-    cross = dax * dby - day * dbx
-    if abs(cross) < 1e-6:
-        return False
-    t = ((b[0] - a[0]) * dby - (b[1] - a[1]) * dbx) / cross
-    out[0], out[1] = a[0] + t * dax, a[1] + t * day
-    return True
+def products(rows, columns):
+    """The matrix product of rows (n, k) and columns (k, m).
 
-
-@compiled
-def successors_of(segments):
-    """For each segment those that may follow it round a corner, nearest first."""
-    n = len(segments)
-    columns = int(segments[:, :].max() / CELL_PX) + 3
-    head = np.full(columns * columns, -1, np.int32)
-    after = np.full(n, -1, np.int32)
-    for j in range(n):
-        cell = (
-            (int(max(segments[j, 1], 0.0)) // CELL_PX + 1) * columns
-            + int(max(segments[j, 0], 0.0)) // CELL_PX
-            + 1
-        )
-        after[j] = head[cell]
-        head[cell] = j
-    successors = np.full((n, MOST_SUCCESSORS), -1, np.int32)
-    gaps = np.empty((n, MOST_SUCCESSORS), np.float32)
-    counts = np.zeros(n, np.int32)
-    corner = np.empty(2, np.float32)
-    for i in range(n):
-        a = segments[i]
-        la = _length(a)
-        dax, day = (a[2] - a[0]) / la, (a[3] - a[1]) / la
-        reach = min(3.0 + 0.3 * la, MOST_GAP_PX)
-        cu, cv = int(max(a[2], 0.0)) // CELL_PX + 1, int(max(a[3], 0.0)) // CELL_PX + 1
-        cells = int(reach) // CELL_PX + 1
-        for row in range(max(cv - cells, 0), min(cv + cells + 1, columns)):
-            for column in range(max(cu - cells, 0), min(cu + cells + 1, columns)):
-                j = head[row * columns + column]
-                while j >= 0:
-                    b = segments[j]
-                    k, j = j, after[j]
-                    if k == i:
-                        continue
-                    lb = _length(b)
-                    limit = min(3.0 + 0.3 * min(la, lb), MOST_GAP_PX)
-                    gap = np.sqrt((b[0] - a[2]) ** 2 + (b[1] - a[3]) ** 2)
-                    if gap > limit:
-                        continue
-                    dbx, dby = (b[2] - b[0]) / lb, (b[3] - b[1]) / lb
-                    turn = dax * dby - day * dbx
-                    # A right turn of 15 to 165 degrees: a square seen at 60 degrees of tilt has corners
-                    # from 53 to 127, and perspective adds some.
-                    if turn < 0.26 or not _corner(a, b, corner):
-                        continue
-                    if (corner[0] - a[2]) ** 2 + (corner[1] - a[3]) ** 2 > limit * limit:
-                        continue
-                    if (corner[0] - b[0]) ** 2 + (corner[1] - b[1]) ** 2 > limit * limit:
-                        continue
-                    m = counts[i]
-                    if m < MOST_SUCCESSORS:
-                        counts[i] += 1
-                    elif gap < gaps[i, m - 1]:
-                        m -= 1
-                    else:
-                        continue
-                    while m > 0 and gaps[i, m - 1] > gap:
-                        successors[i, m], gaps[i, m] = successors[i, m - 1], gaps[i, m - 1]
-                        m -= 1
-                    successors[i, m], gaps[i, m] = k, gap
-    return successors, counts
-
-
-@compiled
-def _plausible(quad):
-    """Convex, clockwise, no side under four pixels, none over five times its opposite."""
-    sides = np.empty(4, np.float32)
-    for k in range(4):
-        p, q, r = quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]
-        sides[k] = np.sqrt((q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2)
-        if sides[k] < LEAST_SIDE_PX:
-            return False
-        if (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]) <= 0.0:
-            return False
-    for k in range(2):
-        ratio = sides[k] / sides[k + 2]
-        if ratio > 2.5 or ratio < 0.4:
-            return False
-    ratio = (sides[0] + sides[2]) / (sides[1] + sides[3])
-    return 0.2 < ratio < 5.0
-
-
-@compiled
-def closed_and_open_quads(segments, successors, counts):
-    """Outlines (q, 4, 2) of four segments that close, and of three whose fourth side is missing."""
-    n = len(segments)
-    quads = np.empty((MOST_QUADS, 4, 2), np.float32)
-    q = 0
-    in_closed = np.zeros(n, np.bool_)
-    for i in range(n):
-        for a in range(counts[i]):
-            j = successors[i, a]
-            if j <= i:
-                continue
-            for b in range(counts[j]):
-                k = successors[j, b]
-                if k <= i or k == j:
-                    continue
-                for c in range(counts[k]):
-                    m = successors[k, c]
-                    if m <= i or m in (j, k) or q >= MOST_QUADS:
-                        continue
-                    for d in range(counts[m]):
-                        if successors[m, d] != i:
-                            continue
-                        quad = quads[q]
-                        ok = _corner(segments[m], segments[i], quad[0])
-                        ok = ok and _corner(segments[i], segments[j], quad[1])
-                        ok = ok and _corner(segments[j], segments[k], quad[2])
-                        ok = ok and _corner(segments[k], segments[m], quad[3])
-                        if ok and _plausible(quad):
-                            q += 1
-                            in_closed[i] = in_closed[j] = in_closed[k] = in_closed[m] = True
-                        break
-    for i in range(n):
-        for a in range(counts[i]):
-            j = successors[i, a]
-            for b in range(counts[j]):
-                k = successors[j, b]
-                if k == i or q >= MOST_QUADS or (in_closed[i] and in_closed[j] and in_closed[k]):
-                    continue
-                quad = quads[q]
-                quad[0, 0], quad[0, 1] = segments[i, 0], segments[i, 1]
-                quad[3, 0], quad[3, 1] = segments[k, 2], segments[k, 3]
-                ok = _corner(segments[i], segments[j], quad[1]) and _corner(segments[j], segments[k], quad[2])
-                if ok and _plausible(quad):
-                    q += 1
-    return quads[:q].copy()
+    A library's product would start threads for so little, and wait for them.
+    """
+    out = np.zeros((len(rows), columns.shape[1]), np.float32)
+    for i in range(len(rows)):
+        line = out[i]
+        for k in range(columns.shape[0]):
+            weight = rows[i, k]
+            column = columns[k]
+            for j in range(columns.shape[1]):
+                line[j] += weight * column[j]
+    return out
 
 
 @compiled
@@ -224,45 +131,66 @@ def square_to_quad(quad, h):
 
 
 @compiled
-def correlate(image, quads, templates):
-    """Correlation (q, m, 4) of what is inside each outline with each template at each turn."""
+def sample_quads(image, quads, cells, ring):
+    """Grey (q, n * n) at n = cells + 2 ring points a side of each outline, `ring` of them beyond."""
     height, width = image.shape
-    count, models, cells = len(quads), templates.shape[0], templates.shape[2]
-    side = int(np.sqrt(cells))
-    out = np.zeros((count, models, 4), np.float32)
-    seen = np.empty(cells, np.float32)
+    count, n = len(quads), cells + 2 * ring
+    out = np.empty((count, n * n), np.float32)
     h = np.empty(8, np.float64)
     for q in range(count):
         square_to_quad(quads[q], h)
-        mean = 0.0
-        for r in range(side):
-            for c in range(side):
-                a, b = (c + 0.5) / side, (r + 0.5) / side
+        for r in range(n):
+            for c in range(n):
+                a, b = (c - ring + 0.5) / cells, (r - ring + 0.5) / cells
                 w = h[6] * a + h[7] * b + 1.0
                 u = min(max((h[0] * a + h[1] * b + h[2]) / w, 0.0), width - 1.001)
                 v = min(max((h[3] * a + h[4] * b + h[5]) / w, 0.0), height - 1.001)
                 iu, iv = int(u), int(v)
-                fu, fv = u - iu, v - iv
-                value = (1 - fv) * ((1 - fu) * image[iv, iu] + fu * image[iv, iu + 1]) + fv * (
-                    (1 - fu) * image[iv + 1, iu] + fu * image[iv + 1, iu + 1]
-                )
-                seen[r * side + c] = value
-                mean += value
-        mean /= cells
-        length = 0.0
-        for i in range(cells):
-            seen[i] -= mean
-            length += seen[i] * seen[i]
-        length = np.sqrt(length)
-        if length < 1.0:
-            continue
-        for m in range(models):
-            for turn in range(4):
-                total = 0.0
-                for i in range(cells):
-                    total += seen[i] * templates[m, turn, i]
-                out[q, m, turn] = total / length
+                fu, fv = np.float32(u - iu), np.float32(v - iv)
+                upper = image[iv, iu] + fu * (np.float32(image[iv, iu + 1]) - image[iv, iu])
+                lower = image[iv + 1, iu] + fu * (np.float32(image[iv + 1, iu + 1]) - image[iv + 1, iu])
+                out[q, r * n + c] = upper + fv * (lower - upper)
     return out
+
+
+@compiled
+def even_light(seen, rows, half, floor_grey, floor_ratio):
+    """Make of pictures (q, rows * rows), in place, what they are beside their own surroundings.
+
+    Each cell less the mean of the cells within `half` of it, over their sd: so a shadow's edge or glare over
+    a part of the square leaves the rest of its picture as it is. Then mean 0 and length 1.
+    """
+    total = np.empty((rows + 1, rows + 1), np.float64)
+    square = np.empty((rows + 1, rows + 1), np.float64)
+    total[0, :], total[:, 0], square[0, :], square[:, 0] = 0.0, 0.0, 0.0, 0.0
+    for q in range(len(seen)):
+        cells = seen[q]
+        for r in range(rows):
+            line, line2 = 0.0, 0.0
+            for c in range(rows):
+                value = cells[r * rows + c]
+                line += value
+                line2 += value * value
+                total[r + 1, c + 1], square[r + 1, c + 1] = total[r, c + 1] + line, square[r, c + 1] + line2
+        n = rows * rows
+        mean = total[rows, rows] / n
+        floor = floor_grey**2 + floor_ratio**2 * max(square[rows, rows] / n - mean * mean, 0.0)
+        sum1, sum2 = 0.0, 0.0
+        for r in range(rows):
+            a, b = max(r - half, 0), min(r + half + 1, rows)
+            for c in range(rows):
+                d, e = max(c - half, 0), min(c + half + 1, rows)
+                count = (b - a) * (e - d)
+                local = (total[b, e] - total[a, e] - total[b, d] + total[a, d]) / count
+                spread = (square[b, e] - square[a, e] - square[b, d] + square[a, d]) / count - local * local
+                value = (cells[r * rows + c] - local) / np.sqrt(max(spread, 0.0) + floor)
+                cells[r * rows + c] = value
+                sum1 += value
+                sum2 += value * value
+        mean = sum1 / n
+        length = np.sqrt(max(sum2 - n * mean * mean, 1e-6))
+        for i in range(n):
+            cells[i] = (cells[i] - mean) / length
 
 
 @compiled

@@ -1,48 +1,35 @@
-"""Where in an image the marker could be: outlines whose inside looks like it at a glance."""
+"""Where in an image the markers could be: dark squares whose inside looks like them at a glance."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.edges import (
-    Edgels,
-    Gradient,
-    GreyImage,
-    chains_of,
-    edgels_of,
-    gradient_of,
-    joined_segments,
-    segments_of,
-)
+from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
-from tracker.marker.glance import glance
-from tracker.marker.kernels import LEAST_SIDE_PX
-from tracker.marker.outline import Quads, quads_of
+from tracker.marker.glance import glance, glance_past_cover, likely, nudged
+from tracker.outlines import Quads, corner_quads_of
+from tracker.regions import dark_mask, even_image, noise_grey, quads_of_mask
 
-# At a glance (12x12 cells, corners off by a pixel or two) a marker in sight has 0.6 to 1.
-LEAST_LIKENESS = 0.35
-MOST_CANDIDATES = 10
+# An image over a megapixel is first looked at at half its size.
+MOST_PIXELS_AT_ONCE = 1_000_000
+LEAST_LEVEL_PX = 12
+# At a glance (cells of a twelfth of the side, corners off by a pixel or two) a marker in sight has 0.8 to 1.
+LEAST_LIKENESS = 0.76
+MOST_CANDIDATES = 4
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Look:
-    """What edge finding made of an image, for all models at once.
-
-    Attributes:
-        image: the grey image (h, w).
-        gradient: of the whole image.
-        edgels: of the whole image.
-        quads: (q, 4, 2), outlines that could be a dark square's, clockwise on the screen.
-    """
-
-    image: GreyImage
-    gradient: Gradient
-    edgels: Edgels
-    quads: Quads
+WINDOW_PX = 21
+LEAST_PIECE_PX = 4.0
+NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
+LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
+# Of many models each has its share, so that they cost little more than one.
+MOST_PEEKED, LEAST_PEEKED = 100, 40
+MOST_NUDGED, LEAST_NUDGED = 8, 4
+NUDGES = (0.07, 0.035)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,33 +45,134 @@ class Candidate:
     likeness: float
 
 
-def outlines_in(image: GreyImage, gradient: Gradient) -> Look:
-    """The edges of a grey image and the outlines that they make.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Level:
+    """The image at a half, a quarter of its size, or as it is.
 
-    Outlines are looked for at half the size as well: an edge blurred over four pixels is a clear one there.
+    Attributes:
+        image: (h, w).
+        scale: how many pixels of the whole image one of its pixels is wide.
+        noise_grey: sd of its noise.
     """
-    edgels = edgels_of(gradient)
-    half = np.asarray(cv2.resize(image, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-    coarse = _outlines(edgels_of(gradient_of(half)))
-    quads = np.concatenate([_outlines(edgels), coarse * np.float32(2.0) + np.float32(0.5)])
-    return Look(image=image, gradient=gradient, edgels=edgels, quads=quads)
+
+    image: GreyImage
+    scale: int
+    noise_grey: float
+
+    def full_px(self, quads: Quads) -> Quads:
+        """Points of this level in px of the whole image."""
+        return np.asarray(quads * np.float32(self.scale) + np.float32(0.5 * (self.scale - 1)), np.float32)
 
 
-def _outlines(edgels: Edgels) -> Quads:
-    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_SIDE_PX)
-    return quads_of(np.concatenate([pieces, joined_segments(pieces)]))
+def candidate_rounds(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[list[list[Candidate]]]:
+    """For each model (m, ...) of the templates its next candidates, the likeliest first, at rising cost.
+
+    The first round finds a marker that stands free in ordinary light; the later ones are for what is blurred,
+    partly covered, in the dark, small. Who has found its marker stops asking.
+
+    Args:
+        image: grey (h, w).
+        templates: as `templates_of` makes them.
+    """
+    given: list[list[Candidate]] = [[] for _ in range(len(templates))]
+    for level, quads, likeness in _looks(image, templates):
+        full = level.full_px(quads)
+        fresh = [_best(full, likeness[:, m], known) for m, known in enumerate(given)]
+        for known, new in zip(given, fresh, strict=True):
+            known.extend(new)
+        yield fresh
 
 
-def candidates_of(look: Look, templates: npt.NDArray[np.float32]) -> list[list[Candidate]]:
-    """For each model (m, 4, cells) its candidates, the likeliest first, at most ten."""
-    if len(look.quads) == 0:
-        return [[] for _ in range(len(templates))]
-    likeness = glance(look.image, look.quads, templates)
-    return [_best(look.quads, likeness[:, m]) for m in range(len(templates))]
+Look: TypeAlias = tuple[Level, Quads, npt.NDArray[np.float32]]
 
 
-def _best(quads: Quads, likeness: npt.NDArray[np.float32]) -> list[Candidate]:
-    """The likeliest outlines and turns (q, 4), each outline once."""
+def _looks(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[Look]:
+    """Outlines (q, 4, 2) in px of a level and their likeness (q, m, 4), look after look."""
+    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
+        return
+    level = first_level(image)
+    dark = _by_darkness(level)
+    yield level, dark, glance(level.image, dark, templates)
+    if min(level.image.shape) < 2 * LEAST_LEVEL_PX:
+        yield _at_corners(level, _edge_segments(level.image), templates)
+        return
+    yield _at_corners(level, _edge_segments(level.image), templates)
+    half = halved(level)
+    dark = _by_darkness(half)
+    yield half, dark, glance(half.image, dark, templates)
+    if level.scale > 1:
+        # What is small in a large image.
+        whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
+        dark = _by_darkness(whole)
+        yield whole, dark, glance(whole.image, dark, templates)
+    both = np.concatenate([_edge_segments(half.image), _dark_segments(half)])
+    yield _at_corners(half, both, templates)
+    yield _at_corners(level, _dark_segments(level), templates)
+
+
+def first_level(image: GreyImage) -> Level:
+    """The image at the size at which it is looked at first."""
+    level = Level(image=image, scale=1, noise_grey=0.0)
+    if image.size > MOST_PIXELS_AT_ONCE:
+        return halved(level)
+    return Level(image=image, scale=1, noise_grey=noise_grey(image))
+
+
+def halved(level: Level) -> Level:
+    """The same at half the size: a pixel is the mean of four."""
+    height, width = level.image.shape
+    even = level.image[: height // 2 * 2, : width // 2 * 2]
+    half = np.asarray(cv2.resize(even, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    return Level(image=half, scale=2 * level.scale, noise_grey=noise_grey(half))
+
+
+def _by_darkness(level: Level) -> Quads:
+    return quads_of_mask(_dark_mask(level))
+
+
+def _dark_mask(level: Level) -> npt.NDArray[np.uint8]:
+    darker = max(NOISE_SDS * level.noise_grey, LEAST_DARKER_GREY)
+    return dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker)
+
+
+def _edge_segments(image: GreyImage) -> npt.NDArray[np.float32]:
+    edgels = edgels_of(gradient_of(image))
+    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_PIECE_PX)
+    return np.concatenate([pieces, joined_segments(pieces)])
+
+
+def _dark_segments(level: Level) -> npt.NDArray[np.float32]:
+    """The straight pieces of the dark regions' outlines: they stand where edges are too faint to follow."""
+    light = cv2.blur(cv2.bitwise_not(_dark_mask(level)), (3, 3))
+    return _edge_segments(np.asarray(light, dtype=np.uint8))
+
+
+def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: npt.NDArray[np.float32]) -> Look:
+    """Outlines of which a corner is seen, and of the rest as much as is not covered."""
+    step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
+    corners = corner_quads_of(level.image, segments, least_step_grey=step)
+    even = even_image(level.image, window_px=WINDOW_PX, noise_grey=level.noise_grey)
+    most = max(MOST_PEEKED // len(templates), LEAST_PEEKED)
+    quads = likely(even, corners, templates, most=most)
+    likeness = glance_past_cover(level.image, quads, templates)
+    # The best ones are moved until they sit.
+    for share in NUDGES:
+        quads = nudged(_top(quads, likeness), share)
+        likeness = glance_past_cover(level.image, quads, templates)
+    return level, quads, likeness
+
+
+def _top(quads: Quads, likeness: npt.NDArray[np.float32]) -> Quads:
+    """The likeliest outlines of each model."""
+    most = max(MOST_NUDGED // likeness.shape[1], LEAST_NUDGED)
+    if len(quads) <= most:
+        return quads
+    best = np.argpartition(-likeness.max(axis=2), most, axis=0)[:most]
+    return quads[np.unique(best)]
+
+
+def _best(quads: Quads, likeness: npt.NDArray[np.float32], known: list[Candidate]) -> list[Candidate]:
+    """The likeliest outlines and turns (q, 4) that are not known yet, each once."""
     order = np.argsort(-likeness, axis=None, kind="stable")
     best: list[Candidate] = []
     for flat in order[: 8 * MOST_CANDIDATES]:
@@ -94,6 +182,7 @@ def _best(quads: Quads, likeness: npt.NDArray[np.float32]) -> list[Candidate]:
             break
         corners = np.roll(quads[q].astype(np.float64), turn, axis=0)
         same = SAME_OUTLINE_SIDE_RATIO * float(np.linalg.norm(np.diff(corners, axis=0), axis=1).mean())
-        if all(float(np.abs(corners - other.corners_px).max()) > max(same, 1.0) for other in best):
+        others = (*known, *best)
+        if all(float(np.abs(corners - other.corners_px).max()) > max(same, 1.0) for other in others):
             best.append(Candidate(corners_px=corners, likeness=worth))
     return best

@@ -1,0 +1,192 @@
+"""Candidates: where in an image a marker could be, found without knowing anything before."""
+
+from itertools import pairwise
+
+import cv2
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import (
+    Image8,
+    Print,
+    camera_of,
+    cluttered,
+    code_image,
+    code_model,
+    corners_px_of,
+    facing_at_px,
+    rendered,
+)
+from tracker.edges import kernels as edges_loops
+from tracker.geometry import Array
+from tracker.marker import Candidate, MarkerModel, candidate_rounds, templates_of
+from tracker.marker import kernels as marker_loops
+from tracker.outlines import kernels as outlines_loops
+from tracker.regions import kernels as regions_loops
+from tracker.warm_up import warm_up
+
+CAMERA = camera_of((480, 360), focal_px=500.0)
+OTHER = ((1, 0, 1), (1, 0, 0), (0, 1, 0))
+MODEL = code_model()
+
+
+def _rounds(image: Image8, models: tuple[MarkerModel, ...] = (MODEL,)) -> list[list[list[Candidate]]]:
+    return list(candidate_rounds(image, templates_of(models)))
+
+
+def _scene(
+    side_px: float, *, tilt_deg: float = 0.0, roll_deg: float = 0.0, blur_px: float = 0.6, seed: int = 0
+) -> tuple[Image8, Array]:
+    pose = facing_at_px(CAMERA, (230.0, 175.0), side_px, tilt_deg=tilt_deg, about_deg=20, roll_deg=roll_deg)
+    image = rendered(
+        CAMERA,
+        [Print(picture=code_image(), pose=pose)],
+        background=cluttered(CAMERA, seed),
+        blur_px=blur_px,
+        seed=seed,
+    )
+    return image, corners_px_of(CAMERA, pose)
+
+
+def _off_px(candidate: Candidate, corners: Array) -> float:
+    return float(np.abs(candidate.corners_px - corners).max())
+
+
+@pytest.mark.parametrize("roll_deg", range(0, 360, 45))
+@pytest.mark.parametrize(("side_px", "tilt_deg"), [(16, 0), (27, 55), (40, 20), (90, 60), (200, 30)])
+def test_the_first_candidate_of_the_first_round_is_the_marker_with_its_own_top(
+    side_px: float, tilt_deg: float, roll_deg: int
+) -> None:
+    image, corners = _scene(side_px, tilt_deg=tilt_deg, roll_deg=roll_deg, seed=roll_deg)
+    first = next(candidate_rounds(image, templates_of((MODEL,))))[0][0]
+    assert _off_px(first, corners) < max(1.5, 0.03 * side_px)
+    assert first.likeness > 0.7
+
+
+def _found_in(image: Image8, corners: Array, side_px: float) -> int | None:
+    """The round that gives the marker, near enough for a fit to start from."""
+    for k, one in enumerate(_rounds(image)):
+        if any(_off_px(candidate, corners) < max(2.5, 0.1 * side_px) for candidate in one[0]):
+            return k
+    return None
+
+
+@pytest.mark.parametrize("from_deg", range(0, 360, 45))
+@pytest.mark.parametrize("grey", [20, 140])
+def test_a_finger_over_a_part_of_it_does_not_hide_it(from_deg: int, grey: int) -> None:
+    image, corners = _scene(40, tilt_deg=20, roll_deg=25)
+    toward = np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
+    tip = corners.mean(axis=0) + 30.0 * toward
+    ends = np.rint([tip, tip + 300.0 * toward]).astype(int).tolist()
+    covered = cv2.line(image.copy(), ends[0], ends[1], grey, 30, cv2.LINE_AA)
+    assert _found_in(np.asarray(covered, np.uint8), corners, 40) is not None
+
+
+@pytest.mark.parametrize("roll_deg", range(0, 360, 60))
+def test_a_shadow_s_edge_across_it_does_not_hide_it(roll_deg: int) -> None:
+    image, corners = _scene(40, roll_deg=roll_deg)
+    ramp = 1.0 - 0.8 / (1.0 + np.exp(-(np.arange(480) - corners[:, 0].mean()) / 4.0))
+    assert _found_in(np.asarray(image * ramp, np.uint8), corners, 40) is not None
+
+
+@pytest.mark.parametrize(("side_px", "blur_px"), [(27, 2.0), (60, 4.0)])
+def test_a_lens_out_of_focus_does_not_hide_it(side_px: float, blur_px: float) -> None:
+    for roll_deg in range(0, 360, 60):
+        image, corners = _scene(side_px, roll_deg=roll_deg, blur_px=blur_px, seed=roll_deg)
+        assert _found_in(image, corners, side_px) is not None, roll_deg
+
+
+def test_what_an_image_over_a_megapixel_shows_is_told_in_its_own_pixels() -> None:
+    """A half-size pixel's middle lies between four: half a pixel off would be seen here."""
+    camera = camera_of((1400, 1000), focal_px=1400.0)
+    pose = facing_at_px(camera, (900.0, 400.0), 80, tilt_deg=30, roll_deg=70)
+    image = rendered(camera, [Print(picture=code_image(), pose=pose)])
+    corners = corners_px_of(camera, pose)
+    first = next(candidate_rounds(image, templates_of((MODEL,))))[0][0]
+    assert np.abs(first.corners_px.mean(axis=0) - corners.mean(axis=0)).max() < 0.4
+    assert _off_px(first, corners) < 1.5
+
+
+def test_each_round_gives_few_and_only_new_ones_the_likeliest_first() -> None:
+    image, _ = _scene(40, roll_deg=30)
+    given = _rounds(image)
+    assert len(given) >= 2
+    for candidates in (one[0] for one in given):
+        assert len(candidates) <= 4
+        assert all(a.likeness >= b.likeness for a, b in pairwise(candidates))
+    every = [candidate.corners_px for one in given for candidate in one[0]]
+    for i, a in enumerate(every):
+        assert all(np.abs(a - b).max() > 1.0 for b in every[:i])
+
+
+def test_several_models_have_each_their_own_first() -> None:
+    places = ((120.0, 120.0), (330.0, 220.0))
+    fields = (code_image(), code_image(OTHER))
+    poses = [facing_at_px(CAMERA, place, 40, roll_deg=100) for place in places]
+    image = rendered(CAMERA, [Print(picture=one, pose=pose) for one, pose in zip(fields, poses, strict=True)])
+    first = next(candidate_rounds(image, templates_of((MODEL, code_model(OTHER, name="other")))))
+    for candidates, pose in zip(first, poses, strict=True):
+        assert _off_px(candidates[0], corners_px_of(CAMERA, pose)) < 1.5
+
+
+def test_an_image_gives_the_same_candidates_each_time() -> None:
+    image, _ = _scene(30, roll_deg=20)
+    once, again = _rounds(image), _rounds(image)
+    for a, b in zip(once, again, strict=True):
+        assert [c.likeness for c in a[0]] == [c.likeness for c in b[0]]
+
+
+@pytest.mark.parametrize("size_wh", [(1, 1), (2, 3), (7, 5), (30, 12), (33, 257)])
+def test_a_tiny_image_has_no_candidates(size_wh: tuple[int, int]) -> None:
+    noise = np.random.default_rng(3).integers(0, 256, size_wh[::-1]).astype(np.uint8)
+    for image in (noise, np.zeros_like(noise), np.full_like(noise, 255)):
+        assert all(len(one[0]) <= 4 for one in _rounds(image))
+
+
+@pytest.mark.parametrize("grey", [0, 128, 255])
+def test_an_even_image_has_none(grey: int) -> None:
+    assert all(one == [[]] for one in _rounds(np.full((360, 480), grey, np.uint8)))
+
+
+def test_no_models_ask_for_nothing() -> None:
+    assert all(one == [] for one in _rounds(_scene(40)[0], ()))
+
+
+@pytest.mark.parametrize(
+    "image",
+    [
+        pytest.param(np.random.default_rng(1).integers(0, 256, (360, 480)).astype(np.uint8), id="noise"),
+        pytest.param(
+            (np.indices((360, 480)).sum(axis=0) % 2 * 255).astype(np.uint8), id="chessboard of pixels"
+        ),
+        pytest.param(
+            np.kron(np.indices((36, 48)).sum(axis=0) % 2 * 255, np.ones((10, 10))).astype(np.uint8),
+            id="chessboard",
+        ),
+        pytest.param(
+            np.kron(np.tile([[255, 255], [255, 0]], (18, 24)), np.ones((10, 10))).astype(np.uint8),
+            id="squares without end",
+        ),
+    ],
+)
+def test_images_full_of_edges_break_nothing(image: Image8) -> None:
+    for one in _rounds(image):
+        assert len(one[0]) <= 4
+        for candidate in one[0]:
+            assert np.isfinite(candidate.corners_px).all()
+
+
+def test_after_the_warm_up_a_search_compiles_nothing() -> None:
+    def versions() -> dict[str, int]:
+        return {
+            f"{room.__name__}.{name}": len(loop.signatures)
+            for room in (edges_loops, marker_loops, outlines_loops, regions_loops)
+            for name, loop in vars(room).items()
+            if hasattr(loop, "signatures")
+        }
+
+    warm_up()
+    before = versions()
+    for count in (1, 2):
+        _rounds(_scene(40, roll_deg=30)[0], (MODEL, code_model(OTHER, name="other"))[:count])
+    assert versions() == before

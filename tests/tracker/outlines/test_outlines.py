@@ -1,0 +1,65 @@
+"""Outlines: where a dark square could be of which a corner is seen."""
+
+import cv2
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import Image8
+from tracker.geometry import Array
+from tracker.outlines import Quads, corner_quads_of
+
+SQUARE = np.array([[50.0, 40.0], [110.0, 45.0], [105.0, 100.0], [46.0, 96.0]])
+
+
+def _picture(*, paper: int = 220, ink: int = 30) -> Image8:
+    picture = np.full((150, 160), paper, np.uint8)
+    return np.asarray(cv2.fillConvexPoly(picture, np.rint(SQUARE).astype(np.int32), ink), dtype=np.uint8)
+
+
+def _sides(corners: Array) -> Quads:
+    """The four sides as segments (4, 4), clockwise."""
+    return np.asarray(np.hstack([corners, np.roll(corners, -1, axis=0)]), dtype=np.float32)
+
+
+def _nearest_px(quads: Quads) -> float:
+    """How far the best of the outlines is off, whatever its first corner."""
+    if len(quads) == 0:
+        return float("inf")
+    turned = [np.abs(np.roll(quads.astype(np.float64), k, axis=1) - SQUARE) for k in range(4)]
+    return float(min(one.max(axis=(1, 2)).min() for one in turned))
+
+
+@pytest.mark.parametrize("corner", range(4))
+@pytest.mark.parametrize(("first_seen", "second_seen"), [(1.0, 1.0), (0.5, 1.0), (1.0, 0.4)])
+def test_two_sides_at_a_corner_are_enough_when_one_is_whole(
+    corner: int, first_seen: float, second_seen: float
+) -> None:
+    """Of the other as much may be hidden as there is: its length is tried."""
+    a, b = _sides(SQUARE)[[corner, (corner + 1) % 4]].astype(np.float64)
+    a[:2], b[2:] = a[2:] + first_seen * (a[:2] - a[2:]), b[:2] + second_seen * (b[2:] - b[:2])
+    quads = corner_quads_of(_picture(), np.array([a, b], np.float32), least_step_grey=20.0)
+    # A tenth of the side between two lengths, and what perspective adds to a parallelogram.
+    assert _nearest_px(quads) < 9.0
+
+
+def test_without_a_step_from_paper_to_ink_there_is_no_corner() -> None:
+    even = _picture(paper=100, ink=95)
+    assert len(corner_quads_of(even, _sides(SQUARE), least_step_grey=20.0)) == 0
+    assert len(corner_quads_of(even, _sides(SQUARE), least_step_grey=2.0)) > 0
+
+
+def test_a_bright_square_has_no_corner() -> None:
+    negative = _picture(paper=30, ink=220)
+    assert len(corner_quads_of(negative, _sides(SQUARE[::-1]), least_step_grey=20.0)) == 0
+    assert len(corner_quads_of(negative, _sides(SQUARE), least_step_grey=20.0)) == 0
+
+
+def test_no_outline_is_tilted_more_than_a_marker_can_be() -> None:
+    for quad in corner_quads_of(_picture(), _sides(SQUARE), least_step_grey=20.0).astype(np.float64):
+        halves = np.linalg.svd(np.array([quad[1] - quad[0], quad[3] - quad[0]]), compute_uv=False)
+        assert halves[1] / halves[0] > 0.35
+
+
+@pytest.mark.parametrize("count", [0, 1])
+def test_fewer_than_two_sides_make_none(count: int) -> None:
+    assert corner_quads_of(_picture(), _sides(SQUARE)[:count], least_step_grey=5.0).shape == (0, 4, 2)

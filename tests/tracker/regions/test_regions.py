@@ -1,0 +1,95 @@
+"""Dark regions: four corners of a dark square on light, nothing of what is round or cut."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from tests.tracker.scenes import Image8, Print, camera_of, code_image, corners_px_of, facing_at_px, rendered
+from tracker.geometry import Array
+from tracker.regions import dark_mask, even_image, noise_grey, quads_of_mask
+
+CAMERA = camera_of((320, 240), focal_px=400.0)
+
+
+def _quads(image: Image8) -> npt.NDArray[np.float64]:
+    return quads_of_mask(dark_mask(image, window_px=21, darker_grey=8.0)).astype(np.float64)
+
+
+def _nearest_px(quads: Array, corners: Array) -> float:
+    off = [np.abs(np.roll(quads, k, axis=1) - corners).max(axis=(1, 2)).min() for k in range(4)]
+    return float(min(off))
+
+
+@pytest.mark.parametrize("roll_deg", range(0, 90, 15))
+@pytest.mark.parametrize(("side_px", "tilt_deg"), [(14, 0), (30, 50), (60, 20), (150, 40)])
+@pytest.mark.parametrize("blur_px", [0.6, 1.5])
+def test_a_dark_square_has_its_corners(
+    roll_deg: int, side_px: float, tilt_deg: float, blur_px: float
+) -> None:
+    pose = facing_at_px(CAMERA, (160.0, 120.0), side_px, tilt_deg=tilt_deg, roll_deg=roll_deg)
+    image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)], blur_px=blur_px)
+    assert _nearest_px(_quads(image), corners_px_of(CAMERA, pose)) < max(1.3, 0.04 * side_px)
+
+
+def test_its_middle_is_not_shifted() -> None:
+    """Half a pixel beyond the outermost dark pixel on all sides alike."""
+    for roll_deg in range(0, 90, 10):
+        pose = facing_at_px(CAMERA, (160.3, 119.6), 60, roll_deg=roll_deg)
+        image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)], noise_grey=0.5)
+        corners = corners_px_of(CAMERA, pose)
+        quads = _quads(image)
+        best = min(quads, key=lambda quad: _nearest_px(quad[None], corners))
+        assert np.abs(best.mean(axis=0) - corners.mean(axis=0)).max() < 0.35
+
+
+def test_corners_are_clockwise_on_the_screen() -> None:
+    pose = facing_at_px(CAMERA, (160.0, 120.0), 50, roll_deg=20)
+    for quad in _quads(rendered(CAMERA, [Print(picture=code_image(), pose=pose)])):
+        along, down = quad[1] - quad[0], quad[3] - quad[0]
+        assert along[0] * down[1] - along[1] * down[0] > 0.0
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        pytest.param(lambda p: cv2.circle(p, (80, 60), 25, 30, -1), id="disc"),
+        pytest.param(lambda p: cv2.line(p, (20, 20), (130, 90), 30, 2), id="line"),
+        pytest.param(
+            lambda p: cv2.fillPoly(p, [np.array([[80, 20], [110, 90], [50, 90]], np.int32)], 30),
+            id="triangle",
+        ),
+        pytest.param(lambda p: cv2.rectangle(p, (-5, 40), (60, 90), 30, -1), id="cut by the image's border"),
+        pytest.param(lambda p: p, id="nothing"),
+    ],
+)
+def test_what_is_no_dark_square_has_none(shape: object) -> None:
+    assert callable(shape)
+    picture = np.asarray(shape(np.full((120, 160), 200, np.uint8)), dtype=np.uint8)
+    soft = np.asarray(cv2.GaussianBlur(picture, (0, 0), 0.8), dtype=np.uint8)
+    assert len(_quads(soft)) == 0
+
+
+@pytest.mark.parametrize("noise", [0.0, 1.0, 3.0, 16.0])
+def test_the_noise_is_measured(noise: float) -> None:
+    random = np.random.default_rng(2)
+    image = np.asarray(np.clip(np.rint(128 + random.normal(0, noise, (240, 320))), 0, 255), np.uint8)
+    assert noise_grey(image) == pytest.approx(noise, rel=0.15, abs=0.3)
+
+
+def test_a_shadow_vanishes_in_even_light() -> None:
+    """Ink and paper look the same on both sides of a shadow that takes half of the light."""
+    tile = np.kron(np.indices((12, 16)).sum(axis=0) % 2 * 160 + 40, np.ones((10, 10)))
+    tile[:, 80:] *= 0.5
+    even = even_image(tile.astype(np.uint8), window_px=41, noise_grey=0.0).astype(float)
+    lit, shaded = even[30:90, 20:50], even[30:90, 110:140]
+    for share in (10, 90):
+        assert np.percentile(lit, share) == pytest.approx(np.percentile(shaded, share), rel=0.15)
+
+
+@pytest.mark.parametrize("period_px", [1, 2, 3, 8])
+def test_a_picture_full_of_runs_fits_the_room(period_px: int) -> None:
+    board = np.indices((91, 133)).sum(axis=0) // period_px % 2 * 255
+    assert np.isfinite(quads_of_mask(board.astype(np.uint8))).all()
+    assert np.isfinite(quads_of_mask(np.full((91, 133), 255, np.uint8))).all()
+    assert len(quads_of_mask(np.zeros((91, 133), np.uint8))) == 0

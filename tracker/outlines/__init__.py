@@ -1,0 +1,5 @@
+"""Outlines: where a dark square could be of which a corner is seen."""
+
+from tracker.outlines.corners import Quads, corner_quads_of
+
+__all__ = ["Quads", "corner_quads_of"]

@@ -1,0 +1,168 @@
+"""The compiled loops of the outlines; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+
+MOST_SUCCESSORS = 8
+MOST_CORNER_QUADS = 12000
+CELL_PX = 16
+MOST_GAP_PX = 30.0
+
+
+@compiled
+def _length(s):
+    return np.sqrt((s[2] - s[0]) ** 2 + (s[3] - s[1]) ** 2)
+
+
+@compiled
+def _corner(a, b, out):
+    """Where the lines of two segments meet; False when they are nearly parallel."""
+    dax, day = a[2] - a[0], a[3] - a[1]
+    dbx, dby = b[2] - b[0], b[3] - b[1]
+    cross = dax * dby - day * dbx
+    if abs(cross) < 1e-6:
+        return False
+    t = ((b[0] - a[0]) * dby - (b[1] - a[1]) * dbx) / cross
+    out[0], out[1] = a[0] + t * dax, a[1] + t * day
+    return True
+
+
+@compiled
+def successors_of(segments):
+    """For each segment those that may follow it round a corner, nearest first."""
+    n = len(segments)
+    columns = int(segments[:, :].max() / CELL_PX) + 3
+    head = np.full(columns * columns, -1, np.int32)
+    after = np.full(n, -1, np.int32)
+    for j in range(n):
+        cell = (
+            (int(max(segments[j, 1], 0.0)) // CELL_PX + 1) * columns
+            + int(max(segments[j, 0], 0.0)) // CELL_PX
+            + 1
+        )
+        after[j] = head[cell]
+        head[cell] = j
+    successors = np.full((n, MOST_SUCCESSORS), -1, np.int32)
+    gaps = np.empty((n, MOST_SUCCESSORS), np.float32)
+    counts = np.zeros(n, np.int32)
+    corner = np.empty(2, np.float32)
+    length, dx, dy = np.empty(n, np.float32), np.empty(n, np.float32), np.empty(n, np.float32)
+    for i in range(n):
+        length[i] = _length(segments[i])
+        dx[i] = (segments[i, 2] - segments[i, 0]) / length[i]
+        dy[i] = (segments[i, 3] - segments[i, 1]) / length[i]
+    for i in range(n):
+        a = segments[i]
+        la, dax, day, au, av = length[i], dx[i], dy[i], a[2], a[3]
+        reach = min(np.float32(3.0) + np.float32(0.3) * la, np.float32(MOST_GAP_PX))
+        cu, cv = int(max(a[2], 0.0)) // CELL_PX + 1, int(max(a[3], 0.0)) // CELL_PX + 1
+        cells = int(reach) // CELL_PX + 1
+        for row in range(max(cv - cells, 0), min(cv + cells + 1, columns)):
+            for column in range(max(cu - cells, 0), min(cu + cells + 1, columns)):
+                j = head[row * columns + column]
+                while j >= 0:
+                    k, j = j, after[j]
+                    # A right turn of 15 to 165 degrees: a square seen at 60 degrees of tilt has corners
+                    # from 53 to 127, and perspective adds some.
+                    if dax * dy[k] - day * dx[k] < np.float32(0.26):
+                        continue
+                    b = segments[k]
+                    limit = min(reach, np.float32(3.0) + np.float32(0.3) * length[k])
+                    gap = (b[0] - au) * (b[0] - au) + (b[1] - av) * (b[1] - av)
+                    if gap > limit * limit or not _corner(a, b, corner):
+                        continue
+                    if (corner[0] - a[2]) ** 2 + (corner[1] - a[3]) ** 2 > limit * limit:
+                        continue
+                    if (corner[0] - b[0]) ** 2 + (corner[1] - b[1]) ** 2 > limit * limit:
+                        continue
+                    m = counts[i]
+                    if m < MOST_SUCCESSORS:
+                        counts[i] += 1
+                    elif gap < gaps[i, m - 1]:
+                        m -= 1
+                    else:
+                        continue
+                    while m > 0 and gaps[i, m - 1] > gap:
+                        successors[i, m], gaps[i, m] = successors[i, m - 1], gaps[i, m - 1]
+                        m -= 1
+                    successors[i, m], gaps[i, m] = k, gap
+    return successors, counts
+
+
+@compiled
+def _even_sides(image, p, ax, ay, bx, by, beside, least_step):
+    """Whether two sides that leave the corner p (vectors a, b) are all light outside and dark inside.
+
+    Looked at five places along each, `beside` px off the side.
+    """
+    height, width = image.shape
+    dark, light = np.float32(0.0), np.float32(0.0)
+    poor = 0
+    for side in range(2):
+        dx, dy = (ax, ay) if side == 0 else (bx, by)
+        length = np.sqrt(dx * dx + dy * dy)
+        # Inwards is the part of the other side's direction that is square to this one.
+        nx, ny = -dy / length, dx / length
+        if (nx * bx + ny * by if side == 0 else nx * ax + ny * ay) < 0.0:
+            nx, ny = -nx, -ny
+        for k in range(5):
+            t = 0.16 + 0.17 * k
+            x, y = p[0] + t * dx, p[1] + t * dy
+            u, v = int(x + beside * nx + 0.5), int(y + beside * ny + 0.5)
+            uo, vo = int(x - beside * nx + 0.5), int(y - beside * ny + 0.5)
+            if min(u, v, uo, vo) < 0 or max(u, uo) >= width or max(v, vo) >= height:
+                return False
+            inside, outside = np.float32(image[v, u]), np.float32(image[vo, uo])
+            dark += inside
+            light += outside
+            if outside - inside < least_step:
+                poor += 1
+    return poor <= 1 and light - dark > 10.0 * least_step
+
+
+@compiled
+def corner_quads(image, segments, successors, counts, least_side, least_squash, beside, least_step, growth):
+    """Outlines (q, 4, 2) of two sides that meet at a corner and go on nobody knows how far.
+
+    Each of the two is taken for whole in turn and the other's length is tried, from what is seen of it to
+    what tilt allows.
+    """
+    n = len(segments)
+    quads = np.empty((MOST_CORNER_QUADS, 4, 2), np.float32)
+    corner = np.empty(2, np.float64)
+    q = 0
+    for i in range(n):
+        for a in range(counts[i]):
+            j = successors[i, a]
+            if not _corner(segments[i], segments[j], corner):
+                continue
+            ax, ay = segments[i, 0] - corner[0], segments[i, 1] - corner[1]
+            bx, by = segments[j, 2] - corner[0], segments[j, 3] - corner[1]
+            la, lb = np.sqrt(ax * ax + ay * ay), np.sqrt(bx * bx + by * by)
+            if min(la, lb) < 0.5 * least_side or max(la, lb) < least_side:
+                continue
+            if not _even_sides(image, corner, ax, ay, bx, by, beside, least_step):
+                continue
+            cosine = (ax * bx + ay * by) / (la * lb)
+            for whole in range(2):
+                fixed, length = (la, lb) if whole == 0 else (lb, la)
+                step = 0
+                while fixed >= least_side and q < MOST_CORNER_QUADS:
+                    # The squash of the parallelogram of two sides at this angle.
+                    total, area = fixed * fixed + length * length, fixed * length
+                    root = np.sqrt(max(total * total - 4.0 * area * area * (1.0 - cosine * cosine), 0.0))
+                    good = total - root > least_squash * least_squash * (total + root)
+                    if good and length >= 0.5 * least_side and (whole == 0 or step > 0):
+                        sa, sb = (1.0, length / lb) if whole == 0 else (length / la, 1.0)
+                        quad = quads[q]
+                        quad[0, 0], quad[0, 1] = corner[0] + sa * ax, corner[1] + sa * ay
+                        quad[1, 0], quad[1, 1] = corner[0], corner[1]
+                        quad[2, 0], quad[2, 1] = corner[0] + sb * bx, corner[1] + sb * by
+                        quad[3, 0], quad[3, 1] = quad[0, 0] + sb * bx, quad[0, 1] + sb * by
+                        q += 1
+                    elif not good and length > fixed:
+                        break
+                    length *= growth
+                    step += 1
+    return quads[:q].copy()

@@ -1,0 +1,61 @@
+"""Dark regions of an image and the quadrilaterals that they fill."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.edges import GreyImage
+from tracker.regions.kernels import find_runs, region_quads, regions_of
+
+# Sides and tilt down to which a square is looked for: at 70 degrees of tilt it is a third as high as wide.
+LEAST_SIDE_PX = 5.0
+LEAST_EXTENT_PX = 9
+LEAST_SQUASH_RATIO = 0.3
+SAMPLE_STRIDE = 5
+LEAST_LIGHT_GREY = 8.0
+# Median of absolute differences of two pixels, for noise of 1 grey level.
+NOISE_PER_DIFFERENCE = 1.0 / 0.954
+
+
+def noise_grey(image: GreyImage) -> float:
+    """The sd of the image's noise in grey levels, from neighbours on a sparse grid."""
+    some = image[::SAMPLE_STRIDE, :-1:SAMPLE_STRIDE].astype(np.int16)
+    next_to = image[::SAMPLE_STRIDE, 1::SAMPLE_STRIDE].astype(np.int16)
+    apart = np.abs(some - next_to[:, : some.shape[1]])
+    if apart.size == 0:
+        return 0.0
+    # The median of whole numbers, to a fraction: it stands within its own level by the share below it.
+    counts = np.bincount(apart.ravel(), minlength=2)
+    below = np.cumsum(counts)
+    level = int(np.searchsorted(below, below[-1] / 2.0))
+    before = float(below[level - 1]) if level else 0.0
+    inside = (below[-1] / 2.0 - before) / counts[level]
+    return float(NOISE_PER_DIFFERENCE * max(level - 0.5 + inside, 0.0))
+
+
+def dark_mask(image: GreyImage, *, window_px: int, darker_grey: float) -> npt.NDArray[np.uint8]:
+    """Where (h, w, 0 or 255) the image is darker by so much than the mean of the window around."""
+    mask = cv2.adaptiveThreshold(
+        image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window_px, darker_grey
+    )
+    return np.asarray(mask, dtype=np.uint8)
+
+
+def even_image(image: GreyImage, *, window_px: int, noise_grey: float) -> GreyImage:
+    """The image in even light (h, w): 128 where it is as bright as the mean of the window around."""
+    # In the dark the noise must not be taken for a picture.
+    floor = max(3.0 * noise_grey, LEAST_LIGHT_GREY)
+    around = cv2.convertScaleAbs(cv2.blur(image, (window_px, window_px)), beta=floor)
+    own = cv2.convertScaleAbs(image, beta=floor)
+    return np.asarray(cv2.divide(own, around, scale=128.0), dtype=np.uint8)
+
+
+def quads_of_mask(mask: npt.NDArray[np.uint8]) -> npt.NDArray[np.float32]:
+    """Quadrilaterals (q, 4, 2) in px of the mask's regions, corners clockwise on the screen."""
+    height, width = mask.shape
+    row, first, last, parent = find_runs(mask)
+    box, head, after = regions_of(
+        row, first, last, parent, np.array([width, height]), LEAST_EXTENT_PX, max(height, width)
+    )
+    quads = region_quads(row, first, last, after, box, head, LEAST_SIDE_PX, LEAST_SQUASH_RATIO)
+    return np.asarray(quads, dtype=np.float32)

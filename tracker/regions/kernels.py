@@ -1,0 +1,303 @@
+"""The compiled loops of the dark regions; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+
+# Of a side, the part that blur at the corners leaves straight.
+STRAIGHT_FROM, STRAIGHT_TO = 0.14, 0.86
+# How far a region's outline may run off its own four sides, beside a pixel.
+MOST_OFF_SIDE_RATIO = 0.14
+# A parallelogram's hull is itself, an ellipse's is 1.57 times its largest quadrilateral.
+MOST_ROUND = 1.4
+LEAST_FILLED = 0.62
+
+
+@compiled
+def _root(parent, i):
+    while parent[i] != i:
+        parent[i] = parent[parent[i]]
+        i = parent[i]
+    return i
+
+
+@compiled
+def find_runs(mask):
+    """Runs of a mask: row, first and last column (n,), and for each the first run of its region."""
+    height, width = mask.shape
+    most = height * (width // 2 + 1)
+    row, first, last = np.empty(most, np.int32), np.empty(most, np.int32), np.empty(most, np.int32)
+    parent = np.empty(most, np.int32)
+    n, above, above_end = 0, 0, 0
+    for v in range(height):
+        begin, line, u = n, mask[v], 0
+        k = above
+        while u < width:
+            if line[u] == 0:
+                u += 1
+                continue
+            start = u
+            while u < width and line[u] != 0:
+                u += 1
+            row[n], first[n], last[n], parent[n] = v, start, u - 1, n
+            # Eight neighbours: a run above joins when it reaches over the diagonal.
+            while k < above_end and last[k] < start - 1:
+                k += 1
+            j = k
+            while j < above_end and first[j] <= u:
+                a, b = _root(parent, j), _root(parent, n)
+                if a < b:
+                    parent[b] = a
+                elif b < a:
+                    parent[a] = b
+                j += 1
+            n += 1
+        above, above_end = begin, n
+    for i in range(n):
+        parent[i] = parent[parent[i]]
+    return row[:n], first[:n], last[:n], parent[:n]
+
+
+@compiled
+def regions_of(row, first, last, parent, size_wh, least, most):
+    """Boxes (r, 4: left, top, right, bottom) of regions of plausible size inside the image.
+
+    Also the runs of each: `head` (r,) is the first and `after` (n,) the next one, -1 at the end.
+    """
+    n = row.size
+    box = np.empty((n, 4), np.int32)
+    after, tail = np.full(n, -1, np.int32), np.empty(n, np.int32)
+    for i in range(n):
+        k = parent[i]
+        if k == i:
+            box[k, 0], box[k, 1], box[k, 2], box[k, 3] = first[i], row[i], last[i], row[i]
+        else:
+            box[k, 0], box[k, 2] = min(box[k, 0], first[i]), max(box[k, 2], last[i])
+            box[k, 3] = row[i]
+            after[tail[k]] = i
+        tail[k] = i
+    head = np.empty(n, np.int32)
+    r = 0
+    for i in range(n):
+        if parent[i] != i:
+            continue
+        wide, high = box[i, 2] - box[i, 0] + 1, box[i, 3] - box[i, 1] + 1
+        if max(wide, high) < least or min(wide, high) < 0.4 * least or max(wide, high) > most:
+            continue
+        if box[i, 0] < 1 or box[i, 1] < 1 or box[i, 2] > size_wh[0] - 2 or box[i, 3] > size_wh[1] - 2:
+            continue
+        head[r] = i
+        box[r] = box[i]
+        r += 1
+    return box[:r].copy(), head[:r].copy(), after
+
+
+@compiled
+def _outline(first, last, row, after, i, box, extremes):
+    """Extremes of a region: left and right in each row, top and bottom in each column; its filled area."""
+    left, top = box[0], box[1]
+    for y in range(box[3] - top + 1):
+        extremes[0, y], extremes[1, y] = 1 << 30, -1
+    for x in range(box[2] - left + 1):
+        extremes[2, x], extremes[3, x] = 1 << 30, -1
+    while i >= 0:
+        y = row[i] - top
+        extremes[0, y], extremes[1, y] = min(extremes[0, y], first[i]), max(extremes[1, y], last[i])
+        for x in range(first[i] - left, last[i] - left + 1):
+            extremes[2, x] = min(extremes[2, x], row[i])
+            extremes[3, x] = row[i]
+        i = after[i]
+    filled = 0
+    for y in range(box[3] - top + 1):
+        filled += extremes[1, y] - extremes[0, y] + 1
+    return filled
+
+
+@compiled
+def _hull(extremes, top, rows, hull):
+    """The convex hull, clockwise on the screen, of a region's rows: the number of its corners."""
+    n = 0
+    for y in range(rows):  # down the right side
+        x = extremes[1, y] + 0.5
+        while (
+            n > 1
+            and (hull[n - 1, 0] - hull[n - 2, 0]) * (y + top - hull[n - 2, 1])
+            - (hull[n - 1, 1] - hull[n - 2, 1]) * (x - hull[n - 2, 0])
+            <= 0.0
+        ):
+            n -= 1
+        hull[n, 0], hull[n, 1] = x, y + top
+        n += 1
+    base = n
+    for y in range(rows - 1, -1, -1):  # up the left side
+        x = extremes[0, y] - 0.5
+        while (
+            n > base + 1
+            and (hull[n - 1, 0] - hull[n - 2, 0]) * (y + top - hull[n - 2, 1])
+            - (hull[n - 1, 1] - hull[n - 2, 1]) * (x - hull[n - 2, 0])
+            <= 0.0
+        ):
+            n -= 1
+        hull[n, 0], hull[n, 1] = x, y + top
+        n += 1
+    return n
+
+
+@compiled
+def _farthest(hull, n, nx, ny):
+    best, far = 0, -1e30
+    for i in range(n):
+        d = hull[i, 0] * nx + hull[i, 1] * ny
+        if d > far:
+            far, best = d, i
+    return best
+
+
+@compiled
+def _largest_quad(hull, n, quad):
+    """About the largest quadrilateral of hull corners: each diagonal asks for the farthest from it."""
+    cx, cy = hull[:n, 0].mean(), hull[:n, 1].mean()
+    a, far = 0, -1.0
+    for i in range(n):
+        d = (hull[i, 0] - cx) ** 2 + (hull[i, 1] - cy) ** 2
+        if d > far:
+            far, a = d, i
+    c, far = 0, -1.0
+    for i in range(n):
+        d = (hull[i, 0] - hull[a, 0]) ** 2 + (hull[i, 1] - hull[a, 1]) ** 2
+        if d > far:
+            far, c = d, i
+    b = d = 0
+    for _ in range(4):
+        nx, ny = -(hull[c, 1] - hull[a, 1]), hull[c, 0] - hull[a, 0]
+        b, d = _farthest(hull, n, -nx, -ny), _farthest(hull, n, nx, ny)
+        mx, my = -(hull[d, 1] - hull[b, 1]), hull[d, 0] - hull[b, 0]
+        na, nc = _farthest(hull, n, mx, my), _farthest(hull, n, -mx, -my)
+        if na == a and nc == c:
+            break
+        a, c = na, nc
+    quad[0], quad[1], quad[2], quad[3] = hull[a], hull[b], hull[c], hull[d]
+
+
+@compiled
+def _area(points, n):
+    total = 0.0
+    for i in range(n):
+        j = (i + 1) % n
+        total += points[i, 0] * points[j, 1] - points[j, 0] * points[i, 1]
+    return 0.5 * total
+
+
+@compiled
+def _fit_side(extremes, box, p, q, line):
+    """The straight line (a point, a direction) through the outline between two corners.
+
+    Returns the number of its points, 0 where there are too few.
+    """
+    dx, dy = q[0] - p[0], q[1] - p[1]
+    flat = abs(dx) > abs(dy)
+    along, across = (0, 1) if flat else (1, 0)
+    which = (2 if dx > 0 else 3) if flat else (1 if dy > 0 else 0)
+    # Half a pixel beyond the outermost dark pixel.
+    beyond = 0.5 if which in (1, 3) else -0.5
+    length = dx if flat else dy
+    slope = (dy / dx) if flat else (dx / dy)
+    lo, hi = p[along] + STRAIGHT_FROM * length, p[along] + STRAIGHT_TO * length
+    if lo > hi:
+        lo, hi = hi, lo
+    start, end = max(int(np.ceil(lo)), box[along]), min(int(hi), box[along + 2])
+    limit = 1.2 + MOST_OFF_SIDE_RATIO * np.sqrt(dx * dx + dy * dy)
+    offset = p[across] - slope * p[along]
+    used = 0
+    for _ in range(3):
+        n, sx, sy, sxx, sxy, srr = 0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for k in range(start, end + 1):
+            y = extremes[which, k - box[along]] + beyond
+            r = y - offset - slope * k
+            if abs(r) > limit:
+                continue
+            t = k - start
+            n += 1
+            sx += t
+            sy += y
+            sxx += t * t
+            sxy += t * y
+            srr += r * r
+        det = n * sxx - sx * sx
+        if n < 3 or det <= 0.0:
+            return 0
+        slope = (n * sxy - sx * sy) / det
+        offset = (sy - slope * sx) / n - slope * start
+        limit = min(limit, max(0.8, 1.8 * np.sqrt(srr / n)))
+        used = n
+    if used < 0.5 * (end - start + 1):
+        return 0
+    line[along], line[across] = 0.0, offset
+    line[2 + along], line[2 + across] = 1.0, slope
+    return used
+
+
+@compiled
+def _meet(a, b, out):
+    """Where two lines (point, direction) cross; False when they are nearly parallel."""
+    cross = a[2] * b[3] - a[3] * b[2]
+    if abs(cross) < 1e-3:
+        return False
+    t = ((b[0] - a[0]) * b[3] - (b[1] - a[1]) * b[2]) / cross
+    out[0], out[1] = a[0] + t * a[2], a[1] + t * a[3]
+    return True
+
+
+@compiled
+def could_be_square(quad, least_side, least_squash):
+    """Whether four corners, clockwise on the screen, could be a tilted square's."""
+    for k in range(4):
+        p, q, r = quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]
+        if (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0]) <= 0.0:
+            return False
+        o = quad[(k + 3) % 4]
+        side = np.sqrt((q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2)
+        opposite = np.sqrt((r[0] - o[0]) ** 2 + (r[1] - o[1]) ** 2)
+        if side < least_side or side > 2.0 * opposite:
+            return False
+    # Singular values of the parallelogram's half sides: their ratio is the cosine of the tilt.
+    ax, ay = (
+        quad[1, 0] + quad[2, 0] - quad[0, 0] - quad[3, 0],
+        quad[1, 1] + quad[2, 1] - quad[0, 1] - quad[3, 1],
+    )
+    bx, by = (
+        quad[2, 0] + quad[3, 0] - quad[0, 0] - quad[1, 0],
+        quad[2, 1] + quad[3, 1] - quad[0, 1] - quad[1, 1],
+    )
+    total, area = ax * ax + ay * ay + bx * bx + by * by, abs(ax * by - ay * bx)
+    root = np.sqrt(max(total * total - 4.0 * area * area, 0.0))
+    return total - root > least_squash * least_squash * (total + root)
+
+
+@compiled
+def region_quads(row, first, last, after, box, head, least_side, least_squash):
+    """Corners (q, 4, 2), clockwise on the screen, of the regions whose outline has four straight sides."""
+    count = len(head)
+    most = 0
+    for i in range(count):
+        most = max(most, box[i, 2] - box[i, 0] + 1, box[i, 3] - box[i, 1] + 1)
+    extremes = np.empty((4, most + 1), np.int32)
+    hull = np.empty((2 * most + 2, 2), np.float64)
+    rough, lines = np.empty((4, 2), np.float64), np.empty((4, 4), np.float64)
+    quads = np.empty((count, 4, 2), np.float64)
+    n = 0
+    for i in range(count):
+        filled = _outline(first, last, row, after, head[i], box[i], extremes)
+        size = _hull(extremes, box[i, 1], box[i, 3] - box[i, 1] + 1, hull)
+        _largest_quad(hull, size, rough)
+        area, whole = _area(rough, 4), _area(hull, size)
+        if area <= 0.0 or whole > MOST_ROUND * area or filled < LEAST_FILLED * whole:
+            continue
+        ok = True
+        for k in range(4):
+            ok = ok and _fit_side(extremes, box[i], rough[k], rough[(k + 1) % 4], lines[k]) > 0
+        for k in range(4):
+            ok = ok and _meet(lines[(k + 3) % 4], lines[k], quads[n, k])
+        if ok and could_be_square(quads[n], least_side, least_squash):
+            n += 1
+    return quads[:n].copy()
