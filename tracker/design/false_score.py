@@ -1,0 +1,125 @@
+"""The paper's score of a marker's edges where the marker is not: over a background, and over itself turned."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+
+from tracker.design.likeness import TURNS, likeliest_places, turned_rows
+from tracker.design.places import Places, flattened
+from tracker.edges import GreyImage, gradient_of
+from tracker.geometry import Array
+from tracker.marker import MarkerModel, ScoreSettings, contradiction_of, model_agreement
+
+# The size at which turns are compared: that of a 25 mm marker at arm's length in a plain camera.
+SIDE_PX = 27
+BLUR_PX = 0.6
+# White paper around a square, in sides.
+MARGIN_RATIO = 0.25
+# Of the squares of a background, so many are scored; the others look less like the marker.
+SCORED_PLACES = 24
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FalseScore:
+    """A score where the marker is not.
+
+    Attributes:
+        score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
+        inner_coverage_ratio: coverage of the edges inside the square alone, 0..1.
+        accepted: whether both reach what the tracker accepts, and no part inside is dark for bright.
+    """
+
+    score_ratio: float
+    inner_coverage_ratio: float
+    accepted: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImitatingPlace:
+    """A square of the background, and how far the marker's edges are there.
+
+    Attributes:
+        image_index: of the image that it is in.
+        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the marker laid on it.
+        score: its false score.
+        likeness: correlation of its inside with the marker, -1..1.
+    """
+
+    image_index: int
+    corners_px: Array
+    score: FalseScore
+    likeness: float
+
+
+def score_at(
+    image: GreyImage, corners_px: Array, model: MarkerModel, settings: ScoreSettings, *, threshold: float
+) -> FalseScore:
+    """The score of a model laid on four corners (4, 2) of an image, without any fit.
+
+    `threshold` is the gradient that is taken for noise, as in `tracker.edges.Gradient`.
+    """
+    x, y = corners_px[:, 0], corners_px[:, 1]
+    side_px = float(np.sqrt(0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))))
+    active = model.level_for(side_px)
+    level = active.level_px
+    finer = max(1, round(side_px / level))
+    margin = int(MARGIN_RATIO * level)
+    fine = flattened(image, corners_px, side_px=level * finer, margin_px=margin * finer)
+    whole = level + 2 * margin
+    seen = fine if finer == 1 else cv2.resize(fine, (whole, whole), interpolation=cv2.INTER_AREA)
+    gradient = replace(gradient_of(np.asarray(seen, dtype=np.uint8)), threshold=threshold)
+    scale = level / model.side_mm
+    points = margin + level / 2.0 - 0.5 + active.points_mm * [scale, -scale]
+    agreement = model_agreement(gradient, active, points, active.normals * [1.0, -1.0], side_px=float(level))
+    score, inner = agreement.score_ratio(settings), agreement.inner_coverage_ratio
+    accepted = (
+        score >= settings.accept_score_ratio
+        and inner >= settings.accept_inner_coverage_ratio
+        and not contradiction_of(image, model.square, corners_px, side_px=side_px).is_other_shape
+    )
+    return FalseScore(score_ratio=score, inner_coverage_ratio=inner, accepted=accepted)
+
+
+def own_false_scores(model: MarkerModel, settings: ScoreSettings) -> tuple[FalseScore, FalseScore]:
+    """The best score over the marker's own quarter turns, and over its mirror image at all turns."""
+    turned = [_over(np.rot90(model.square, turn), model, settings) for turn in range(1, TURNS)]
+    mirrored = [_over(np.rot90(model.square[:, ::-1], turn), model, settings) for turn in range(TURNS)]
+    return _best(turned), _best(mirrored)
+
+
+def imitating_places(
+    images: Sequence[GreyImage], places: Places, model: MarkerModel, settings: ScoreSettings
+) -> list[ImitatingPlace]:
+    """The places of a background that look most like the marker, the best score first."""
+    found = []
+    for index, turn, likeness in likeliest_places(turned_rows(model.square), places, count=SCORED_PLACES):
+        image_index = int(places.image_index[index])
+        corners = np.roll(places.corners_px[index], turn, axis=0)
+        image = images[image_index]
+        score = score_at(image, corners, model, settings, threshold=gradient_of(image).threshold)
+        found.append(
+            ImitatingPlace(image_index=image_index, corners_px=corners, score=score, likeness=likeness)
+        )
+    return sorted(found, key=_rank, reverse=True)
+
+
+def _rank(place: ImitatingPlace) -> tuple[bool, float]:
+    return place.score.accepted, place.score.score_ratio
+
+
+def _over(square: GreyImage, model: MarkerModel, settings: ScoreSettings) -> FalseScore:
+    """The score of a model over a printed square (n, n) that is `SIDE_PX` wide in the image."""
+    paper = int(np.percentile(model.square, 98))
+    margin = SIDE_PX // 2
+    small = cv2.resize(np.ascontiguousarray(square), (SIDE_PX, SIDE_PX), interpolation=cv2.INTER_AREA)
+    printed = cv2.copyMakeBorder(small, *(margin,) * 4, cv2.BORDER_CONSTANT, value=(paper,))
+    seen = np.asarray(cv2.GaussianBlur(printed, (0, 0), BLUR_PX), dtype=np.uint8)
+    low, high = margin - 0.5, margin + SIDE_PX - 0.5
+    corners = np.array([[low, low], [high, low], [high, high], [low, high]])
+    return score_at(seen, corners, model, settings, threshold=gradient_of(seen).threshold)
+
+
+def _best(scores: list[FalseScore]) -> FalseScore:
+    return max(scores, key=lambda one: (one.accepted, one.score_ratio))
