@@ -1,4 +1,4 @@
-"""The best of many proposed shapes, in three sieves: cheap likeness, scores and precision, the tracker itself."""
+"""The best of many proposed shapes, in three sieves: likeness, then score and precision, then the tracker."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +13,7 @@ from tracker.design.shape import Shape, picture_of
 from tracker.marker import MarkerModel, ScoreSettings
 
 GLANCE_PX, MODEL_PX = 100, 800
-SCORED, SEARCHED = 32, 4
+SCORED, SEARCHED = 40, 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +42,7 @@ def best_design(
 ) -> Design:
     """The shape that nothing imitates, of those whose edges tell the pose best.
 
-    By likeness 32 are kept, by precision the better half of these, and by score four, which the tracker
+    By likeness 40 are kept, by precision the better half of these, and by score twelve, which the tracker
     searches for in every image. `advance` is called after each image of the background.
     """
     scored = [
@@ -52,10 +52,7 @@ def best_design(
     precise = sorted(scored, key=lambda one: one.judgement.precision.tilt_sd_deg)[: -(-len(scored) // 2)]
     finalists = sorted(precise, key=_merit)[:SEARCHED]
     if background is not None:
-        found = [
-            searched([one.model], background, settings, advance=advance)
-            for one in finalists
-        ]
+        found = [searched([one.model], background, settings, advance=advance) for one in finalists]
         finalists = [
             replace(one, judgement=replace(one.judgement, search=own[name]))
             for one, own in zip(finalists, found, strict=True)

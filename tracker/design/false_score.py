@@ -1,4 +1,4 @@
-"""The paper's score of a marker's edges where the marker is not: over a background, and over itself turned."""
+"""The paper's score of a marker's edges where the marker is not: over a background, or itself turned."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from tracker.design.likeness import TURNS, likeliest_places, turned_rows
 from tracker.design.places import Places, flattened
 from tracker.edges import GreyImage, gradient_of
 from tracker.geometry import Array
-from tracker.marker import MarkerModel, ScoreSettings, contradiction_of, model_agreement
+from tracker.marker import MarkerModel, ScoreSettings, model_agreement
 
 # The size at which turns are compared: that of a 25 mm marker at arm's length in a plain camera.
 SIDE_PX = 27
@@ -28,7 +28,8 @@ class FalseScore:
     Attributes:
         score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
         inner_coverage_ratio: coverage of the edges inside the square alone, 0..1.
-        accepted: whether both reach what the tracker accepts, and no part inside is dark for bright.
+        accepted: whether both reach what the tracker accepts. It may still refuse what is dark for bright
+            inside; but then that test alone stands between a thing and the marker.
     """
 
     score_ratio: float
@@ -74,12 +75,11 @@ def score_at(
     points = margin + level / 2.0 - 0.5 + active.points_mm * [scale, -scale]
     agreement = model_agreement(gradient, active, points, active.normals * [1.0, -1.0], side_px=float(level))
     score, inner = agreement.score_ratio(settings), agreement.inner_coverage_ratio
-    accepted = (
-        score >= settings.accept_score_ratio
-        and inner >= settings.accept_inner_coverage_ratio
-        and not contradiction_of(image, model.square, corners_px, side_px=side_px).is_other_shape
+    return FalseScore(
+        score_ratio=score,
+        inner_coverage_ratio=inner,
+        accepted=score >= settings.accept_score_ratio and inner >= settings.accept_inner_coverage_ratio,
     )
-    return FalseScore(score_ratio=score, inner_coverage_ratio=inner, accepted=accepted)
 
 
 def own_false_scores(model: MarkerModel, settings: ScoreSettings) -> tuple[FalseScore, FalseScore]:

@@ -43,7 +43,7 @@ class Judgement:
 
     @property
     def unique(self) -> bool:
-        """Whether nothing would be taken for it: not turned, not mirrored, nowhere in the background."""
+        """Whether nothing reaches acceptance: itself turned or mirrored, or anything in the background."""
         return not (
             self.search.claims
             or self.turned.accepted

@@ -27,7 +27,7 @@ def own_likeness(square: GreyImage) -> float:
 
 
 def background_likeness(rows: Cells32, places: Places) -> npt.NDArray[np.float32]:
-    """The best correlation of each marker (m, 4, cells) with any of the places (m,), -1 where there is none."""
+    """The best correlation of each marker (m, 4, cells) with any of the places (m,), -1 without places."""
     if len(places) == 0:
         return np.full(len(rows), -1.0, np.float32)
     flat = rows.reshape(-1, rows.shape[-1])

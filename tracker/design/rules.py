@@ -43,7 +43,7 @@ def has_long_edges(shape: Shape) -> bool:
 
 
 def is_thick(mask: npt.NDArray[np.bool_]) -> bool:
-    """Whether a disc of the least thickness reaches all of a mask (96 px a side of the square) but corners."""
+    """Whether a disc of the least thickness reaches all of a mask (96 px a side) but its corners."""
     width = round(LEAST_PART_RATIO * RASTER_PX)
     disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (width + 1, width + 1))
     # Padded, because what lies beyond the picture must not help.

@@ -53,7 +53,7 @@ def painted(shape: Shape, side_px: int) -> npt.NDArray[np.uint8]:
 
 
 def outlined(image: npt.NDArray[np.uint8]) -> Shape:
-    """What is painted in a picture (n, n) of 0 and 255, as polygons that do not overlap; specks are left out."""
+    """What is painted in a picture (n, n) of 0 and 255, as polygons that do not overlap, without specks."""
     side = image.shape[0]
     outlines, tree = cv2.findContours(image, cv2.RETR_CCOMP, cv2.CHAIN_APPROX_NONE)
     patches: list[Patch] = []
