@@ -118,7 +118,7 @@ def json_of(report: Report) -> str:
 
 
 def closest_picture(model: MarkerModel, judgement: Judgement, film: Film) -> npt.NDArray[np.uint8] | None:
-    """The image in which the background comes closest, the place outlined; beside it its inside and the model.
+    """Where the background comes closest, outlined in its image; beside it the same flattened, and the model.
 
     A place that the tracker claims comes before any other. None where the background has no square at all.
     """
