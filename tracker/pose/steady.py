@@ -15,7 +15,7 @@ from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector,
 # Squared distance of two poses in units of their covariances (6 degrees of freedom): noise alone exceeds it
 # once in a hundred images. Then the pose is shown as it is: rather trembling than late.
 MOST_SURPRISE = 16.81
-# Where a covariance spans both planar solutions it admits nearly anything; a turn over is a jump all the same.
+# Where a covariance spans both planar solutions it admits nearly anything; a turn over is still a jump.
 MOST_TURN_DEG = 3.0
 MOST_IMAGES = 64
 

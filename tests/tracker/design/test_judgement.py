@@ -81,7 +81,14 @@ def test_a_marker_that_equals_its_mirror_image_is_not_unique() -> None:
     assert found.mirrored.score_ratio > 0.95
     assert not found.turned.accepted
     assert not found.unique
+    assert found.own_likeness > 0.99
     assert (found.images, found.nearest) == (0, ())
+
+
+def test_a_marker_is_not_compared_with_itself_as_it_is() -> None:
+    found = judged(code_model(), None)
+    assert found.own_likeness < 0.9
+    assert max(found.turned.score_ratio, found.mirrored.score_ratio) < 0.95
 
 
 def test_a_marker_that_nearly_equals_its_half_turn_is_not_unique() -> None:
@@ -92,7 +99,11 @@ def test_a_marker_that_nearly_equals_its_half_turn_is_not_unique() -> None:
     assert not found.unique
 
 
-def test_the_design_keeps_away_from_what_the_background_shows() -> None:
+@pytest.mark.parametrize("scored", [1, 40], ids=["by-likeness", "by-score"])
+def test_the_design_keeps_away_from_what_the_background_shows(
+    scored: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tracker.design.design.SCORED", scored)
     shapes = list(itertools.islice(proposed_shapes(7), 4))
     alone = best_design(shapes, None, SETTINGS, side_mm=25.0, name="m", advance=lambda: None)
     background = background_of(scene(picture_of(alone.shape, 200)))
@@ -102,6 +113,8 @@ def test_the_design_keeps_away_from_what_the_background_shows() -> None:
     assert shown.search.claims
     assert other.judgement.best_false_score_ratio < shown.best_false_score_ratio
     assert not other.judgement.search.claims
+    again = judged(other.model, background).search
+    assert other.judgement.search.best_score_ratio == again.best_score_ratio > 0.0
     assert other.judgement.images == 1
 
 
