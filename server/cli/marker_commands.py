@@ -34,7 +34,7 @@ def design(
     name: Annotated[str, typer.Option(help="Name of the marker, and of its files.")] = "marker",
     seed: Annotated[int, typer.Option(help="Another seed proposes other shapes.", min=0)] = 1,
     proposals: Annotated[int, typer.Option(help="Shapes that are compared.", min=4, max=20_000)] = 300,
-    images: ImagesOption = 60,
+    images: ImagesOption = 120,
     json: JsonOption = False,
 ) -> None:
     """Propose a square marker, and write it as SVG and PDF at true size and as the picture that is tracked.
@@ -64,7 +64,7 @@ def check(
     background: BackgroundOption = None,
     side_mm: SideOption = 25.0,
     output: OutputOption = Path(),
-    images: ImagesOption = 60,
+    images: ImagesOption = 120,
     json: JsonOption = False,
 ) -> None:
     """Measure an existing marker the same way, and write a picture of where the background comes closest.

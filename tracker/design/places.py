@@ -7,9 +7,9 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.edges import GreyImage, gradient_of
+from tracker.design.outlines import outlines_of
+from tracker.edges import GreyImage
 from tracker.geometry import Array
-from tracker.marker import outlines_in
 
 # Cells a side in which squares are compared: finer than a marker's parts (an eighth of the side).
 CELLS = 20
@@ -44,8 +44,7 @@ class Places:
 
 def places_in(image: GreyImage, *, image_index: int) -> Places:
     """The squares of a grey image (h, w): those with an outline, and some anywhere."""
-    outlined = outlines_in(image, gradient_of(image)).quads.astype(np.float64)
-    corners = np.concatenate([outlined, _anywhere(image, image_index)])
+    corners = np.concatenate([outlines_of(image), _anywhere(image, image_index)])
     kept, cells = [], []
     for one in corners:
         inside = flattened(image, one, side_px=CELLS * FINER)
