@@ -42,14 +42,16 @@ def best_design(
 ) -> Design:
     """The shape that nothing imitates, of those whose edges tell the pose best.
 
-    By likeness 40 are kept, by precision the better half of these, and by score twelve, which the tracker
-    searches for in every image. `advance` is called after each image of the background.
+    By likeness 40 are kept, of these the ones that nothing reaches, of those the half that tells its pose
+    better, and by score twelve at most, which the tracker searches for in every image. `advance` is called
+    after each image of the background.
     """
     scored = [
         _scored(shape, background, settings, side_mm=side_mm, name=name)
         for shape in _least_alike(shapes, background)
     ]
-    precise = sorted(scored, key=lambda one: one.judgement.precision.tilt_sd_deg)[: -(-len(scored) // 2)]
+    unique = [one for one in scored if one.judgement.unique] or scored
+    precise = sorted(unique, key=lambda one: one.judgement.precision.tilt_sd_deg)[: -(-len(unique) // 2)]
     finalists = sorted(precise, key=_merit)[:SEARCHED]
     if background is not None:
         found = [searched([one.model], background, settings, advance=advance) for one in finalists]

@@ -8,9 +8,9 @@ import numpy as np
 
 from tracker.design.likeness import TURNS, likeliest_places, turned_rows
 from tracker.design.places import Places, flattened
-from tracker.edges import GreyImage, gradient_of
+from tracker.edges import GreyImage, edgels_of, gradient_of
 from tracker.geometry import Array
-from tracker.marker import MarkerModel, ScoreSettings, model_agreement
+from tracker.marker import Agreement, MarkerModel, ScoreSettings, model_agreement, target_coverage_ratio
 
 # The size at which turns are compared: that of a 25 mm marker at arm's length in a plain camera.
 SIDE_PX = 27
@@ -28,11 +28,13 @@ class FalseScore:
     Attributes:
         score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
         inner_coverage_ratio: coverage of the edges inside the square alone, 0..1.
-        accepted: whether both reach what the tracker accepts. It may still refuse what is dark for bright
-            inside; but then that test alone stands between a thing and the marker.
+        target_score_ratio: share of the edges in the square that are the marker's, x the same, 0..1.
+        accepted: whether all three reach what the tracker accepts. It may still refuse what is dark for
+            bright inside; but then that test alone stands between a thing and the marker.
     """
 
     score_ratio: float
+    target_score_ratio: float
     inner_coverage_ratio: float
     accepted: bool
 
@@ -62,24 +64,53 @@ def score_at(
     `threshold` is the gradient that is taken for noise, as in `tracker.edges.Gradient`.
     """
     x, y = corners_px[:, 0], corners_px[:, 1]
-    side_px = float(np.sqrt(0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))))
-    active = model.level_for(side_px)
+    active = model.level_for(float(np.sqrt(0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))))))
     level = active.level_px
-    finer = max(1, round(side_px / level))
     margin = int(MARGIN_RATIO * level)
-    fine = flattened(image, corners_px, side_px=level * finer, margin_px=margin * finer)
-    whole = level + 2 * margin
-    seen = fine if finer == 1 else cv2.resize(fine, (whole, whole), interpolation=cv2.INTER_AREA)
-    gradient = replace(gradient_of(np.asarray(seen, dtype=np.uint8)), threshold=threshold)
+    seen = _from_the_front(image, corners_px, level_px=level, margin_px=margin)
+    gradient = replace(gradient_of(seen), threshold=threshold)
     scale = level / model.side_mm
     points = margin + level / 2.0 - 0.5 + active.points_mm * [scale, -scale]
-    agreement = model_agreement(gradient, active, points, active.normals * [1.0, -1.0], side_px=float(level))
-    score, inner = agreement.score_ratio(settings), agreement.inner_coverage_ratio
+    normals = active.normals * [1.0, -1.0]
+    agreement = model_agreement(gradient, active, points, normals, side_px=float(level))
+    target = target_coverage_ratio(
+        edgels_of(gradient),
+        gradient,
+        points,
+        normals,
+        corners_px=_square_px(margin, level),
+        side_px=float(level),
+        contrast=agreement.contrast,
+    )
+    return _false_score(replace(agreement, target_coverage_ratio=target), settings)
+
+
+def _false_score(agreement: Agreement, settings: ScoreSettings) -> FalseScore:
+    score, target_score = agreement.score_ratio(settings), agreement.target_score_ratio(settings)
+    inner = agreement.inner_coverage_ratio
     return FalseScore(
         score_ratio=score,
+        target_score_ratio=target_score,
         inner_coverage_ratio=inner,
-        accepted=score >= settings.accept_score_ratio and inner >= settings.accept_inner_coverage_ratio,
+        accepted=score >= settings.accept_score_ratio
+        and target_score >= settings.accept_target_score_ratio
+        and inner >= settings.accept_inner_coverage_ratio,
     )
+
+
+def _from_the_front(image: GreyImage, corners_px: Array, *, level_px: int, margin_px: int) -> GreyImage:
+    """What is inside four corners, so many pixels wide, and what is beside it; larger places are averaged."""
+    side_px = float(np.linalg.norm(np.roll(corners_px, -1, axis=0) - corners_px, axis=1).max())
+    finer = max(1, round(side_px / level_px))
+    fine = flattened(image, corners_px, side_px=level_px * finer, margin_px=margin_px * finer)
+    whole = level_px + 2 * margin_px
+    return np.asarray(cv2.resize(fine, (whole, whole), interpolation=cv2.INTER_AREA), dtype=np.uint8)
+
+
+def _square_px(margin_px: int, side_px: int) -> Array:
+    """The corners (4, 2) of a square that is this far from the edge of a picture."""
+    low, high = margin_px - 0.5, margin_px + side_px - 0.5
+    return np.array([[low, low], [high, low], [high, high], [low, high]])
 
 
 def own_false_scores(model: MarkerModel, settings: ScoreSettings) -> tuple[FalseScore, FalseScore]:
@@ -116,8 +147,7 @@ def _over(square: GreyImage, model: MarkerModel, settings: ScoreSettings) -> Fal
     small = cv2.resize(np.ascontiguousarray(square), (SIDE_PX, SIDE_PX), interpolation=cv2.INTER_AREA)
     printed = cv2.copyMakeBorder(small, *(margin,) * 4, cv2.BORDER_CONSTANT, value=(paper,))
     seen = np.asarray(cv2.GaussianBlur(printed, (0, 0), BLUR_PX), dtype=np.uint8)
-    low, high = margin - 0.5, margin + SIDE_PX - 0.5
-    corners = np.array([[low, low], [high, low], [high, high], [low, high]])
+    corners = _square_px(margin, SIDE_PX)
     return score_at(seen, corners, model, settings, threshold=gradient_of(seen).threshold)
 
 
