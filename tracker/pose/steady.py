@@ -1,8 +1,9 @@
 """Steadied poses: the mean of the last images as long as they agree, with its lag stated.
 
 Noise makes a drawn line tremble. A mean over the last images takes most of it away, and shows the marker
-where it was a moment ago: by how much is stated with every pose. A pose that differs from the one before by
-more than both covariances admit is no noise: it is shown in its own image, and what was before is forgotten.
+where it was a moment ago: by how much is stated with every pose. A pose that differs from one before it by
+more than their covariances and a hand that holds still admit (about a millimetre, or half a degree) is shown
+in its own image, and what was before is forgotten.
 """
 
 from collections import deque
@@ -12,12 +13,15 @@ import numpy as np
 
 from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
 
-# Squared distance of two poses in units of their covariances (6 degrees of freedom): noise alone exceeds it
+# Squared distance of two poses in units of what is admitted (6 degrees of freedom): noise alone exceeds it
 # once in a hundred images. Then the pose is shown as it is: rather trembling than late.
 MOST_SURPRISE = 16.81
+# What a hand that holds still moves within the lag (sd). Four times as much is a motion, and is never late.
+STILL_SD_MM, STILL_SD_DEG = 0.25, 0.12
 # Where a covariance spans both planar solutions it admits nearly anything; a turn over is still a jump.
 MOST_TURN_DEG = 3.0
 MOST_IMAGES = 64
+STILL = np.diag([STILL_SD_MM**2] * 3 + [float(np.radians(STILL_SD_DEG)) ** 2] * 3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,7 +47,7 @@ class SteadyPose:
         camera_from_marker: their mean.
         pose_covariance: (6, 6) [mm, rad], as in `Seen`, of this pose as that of the newest image: the mean of
             the covariances, which holds however much the errors of neighbouring images have in common, and
-            what the marker moved within the lag.
+            how far the newest image's own pose is from it, which holds however the marker moved.
         lag_ms: mean age of the images in it; 0 where it is the newest pose itself.
         noise_ratio: what is left of noise that is independent from image to image, 0..1.
         images: how many are in it.
@@ -95,12 +99,12 @@ class Steady:
 
 
 def _agree(old: _Known, new: _Known) -> bool:
-    """Whether noise alone may have made one pose of the other."""
+    """Whether noise and a hand that holds still may have made one pose of the other."""
     apart = _apart(old.pose, new.pose)
     if float(np.linalg.norm(apart[3:])) > np.radians(MOST_TURN_DEG):
         return False
     try:
-        surprise = float(apart @ np.linalg.solve(old.covariance + new.covariance, apart))
+        surprise = float(apart @ np.linalg.solve(old.covariance + new.covariance + STILL, apart))
     except np.linalg.LinAlgError:
         return not apart.any()
     return surprise <= MOST_SURPRISE
@@ -122,9 +126,7 @@ def _mean(chosen: list[_Known]) -> SteadyPose:
     apart = np.array([_apart(one.pose, new.pose) for one in chosen])
     age_s = np.array([new.at_s - one.at_s for one in chosen])
     step, lag_s = apart.mean(axis=0), float(age_s.mean())
-    spread = age_s - lag_s
-    moved = (spread @ apart) / float(spread @ spread) * lag_s
-    covariance = np.mean([one.covariance for one in chosen], axis=0) + np.outer(moved, moved)
+    covariance = np.mean([one.covariance for one in chosen], axis=0) + np.outer(step, step)
     return SteadyPose(
         camera_from_marker=Rigid(
             rotation=rotation_from_vector(step[3:]) @ new.pose.rotation,
