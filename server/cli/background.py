@@ -13,6 +13,7 @@ from server.capture.choose import source_from_config
 from server.capture.shot import Source
 from server.cli.progress import Steps
 from server.config import CameraConfig, Config
+from server.errors import CaptureError
 from server.setup import build_setup, nominal_camera
 from tracker.design import Background, joined, places_in
 from tracker.edges import GreyImage
@@ -38,8 +39,7 @@ def film_of(text: str, *, images: int, steps: Steps) -> Film:
     """Images of a source that has an end, at most so many and evenly spread over it.
 
     Raises:
-        InvalidInput: BACKGROUND_WITHOUT_END.
-        CaptureError: the source cannot be opened or has no images.
+        InvalidInput: BACKGROUND_WITHOUT_END, or as the source's own error where it gives no image.
     """
     address = source_from_text(text)
     if address.kind not in (SourceKind.PATH, SourceKind.REHEARSAL):
@@ -56,6 +56,10 @@ def film_of(text: str, *, images: int, steps: Steps) -> Film:
     try:
         source.open()
         kept = evenly_spread(_greys(source, cycle, steps), count=images)
+    except CaptureError as error:
+        # Nothing is tried again here, and it was no setting.
+        remedy = "Give a whole video file or a folder of images with --background."
+        raise InvalidInput(error.code, error.message, remedy, error.context) from error
     finally:
         source.close()
     if source.defect is not None:

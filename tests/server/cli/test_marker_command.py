@@ -112,6 +112,14 @@ def test_bad_input_is_told(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_background_that_cannot_be_read_is_told_with_the_option_that_names_it(tmp_path: Path) -> None:
+    result = CliRunner().invoke(app, ["marker", "design", "--background", str(tmp_path)])
+    assert isinstance(result.exception, NavigationError)
+    assert result.exception.code == "FOLDER_WITHOUT_IMAGES"
+    assert "--background" in result.exception.remedy
+    assert "--source" not in result.exception.remedy
+
+
 @pytest.mark.parametrize("words", [["--help"], ["design", "--help"], ["check", "--help"]])
 def test_help_answers(words: list[str]) -> None:
     status, text = typed(*words)
