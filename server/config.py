@@ -91,6 +91,17 @@ class TrackerConfig(Section):
     fit_error_weight: Ratio = 0.25
 
 
+class SmoothingConfig(Section):
+    """Steadied poses: the mean of the last images as long as they agree, with the lag shown."""
+
+    lag_ms: Annotated[float, Field(ge=0.0, le=500.0)] = 0
+    """How far behind a steadied pose may be, at most; 0 is off."""
+    near_wall: bool = False
+    """Steady near the channel's wall, too."""
+    near_wall_mm: Annotated[float, Field(ge=0.0, le=100.0)] = 3.0
+    """What near is: the gap between the drill at its tip and the channel's surface."""
+
+
 class LimitsConfig(Section):
     """From which age on something is old, and how unsure a tip may be; past them there are no numbers."""
 
@@ -115,5 +126,6 @@ class Config(Section):
     markers: dict[Name, MarkerConfig] = {}
     tools: dict[Name, ToolConfig] = {}
     tracker: TrackerConfig = TrackerConfig()
+    smoothing: SmoothingConfig = SmoothingConfig()
     limits: LimitsConfig = LimitsConfig()
     video: VideoConfig = VideoConfig()

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ from tracker.marker import MarkerModel, ScoreSettings
 from tracker.navigation import Absent, AbsentReason, Setup
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
-from tracker.pose import ToolModel
+from tracker.pose import SteadySettings, ToolModel
 
 if TYPE_CHECKING:
     from tracker.plan import Surface
@@ -41,6 +41,7 @@ class Preparation:
         registered_by: how the registration was made, in words; empty when it was not.
         score_settings: when a marker counts as found.
         most_tip_sd_mm: how unsure a tip may be that is shown.
+        smoothing: how much poses are steadied.
         theatre: the rehearsal's, None for every other source.
     """
 
@@ -52,6 +53,7 @@ class Preparation:
     registered_by: str
     score_settings: ScoreSettings
     most_tip_sd_mm: float
+    smoothing: SteadySettings = field(default_factory=SteadySettings)
     theatre: "Theatre | None" = None
 
     @property
@@ -116,6 +118,7 @@ def build_setup(config: Config) -> Preparation:
         for name, marker in config.markers.items()
     )
     scores = ScoreSettings(**config.tracker.model_dump())
+    smoothing = SteadySettings(**config.smoothing.model_dump())
     tools = {name: _tool(name, tool) for name, tool in config.tools.items()}
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
         theatre = _theatre(config)
@@ -128,6 +131,7 @@ def build_setup(config: Config) -> Preparation:
             registered_by="rehearsal",
             score_settings=scores,
             most_tip_sd_mm=config.limits.most_tip_sd_mm,
+            smoothing=smoothing,
             theatre=theatre,
         )
     calibration = config.camera.calibration
@@ -140,6 +144,7 @@ def build_setup(config: Config) -> Preparation:
         registered_by="",
         score_settings=scores,
         most_tip_sd_mm=config.limits.most_tip_sd_mm,
+        smoothing=smoothing,
     )
 
 

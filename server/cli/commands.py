@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from server.cli.marker_commands import marker_app
+
 BAD_INPUT = 2
 UNKNOWN_VERSION = "0.1.0"
 
@@ -19,6 +21,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+app.add_typer(marker_app, name="marker")
 
 
 class Rate(StrEnum):

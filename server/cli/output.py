@@ -92,6 +92,26 @@ def lines_to(json_file: str | None, *, inputs: Iterable[Path]) -> Iterator[Lines
         written.replace(path)
 
 
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file that is whole or is not there; its folder is made where it is missing.
+
+    Raises:
+        InvalidInput: OUTPUT_NOT_WRITABLE.
+    """
+    part = path.with_name(path.name + PART)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part.write_bytes(content)
+        part.replace(path)
+    except OSError as error:
+        raise InvalidInput(
+            "OUTPUT_NOT_WRITABLE",
+            f"{path} cannot be written: {(error.strerror or str(error)).lower()}",
+            "Give a folder that may be written, on a disk with room, with --output.",
+            {"file": str(path)},
+        ) from error
+
+
 def _opened(path: Path) -> IO[str]:
     try:
         return path.open("w", encoding="utf-8", buffering=1)

@@ -10,7 +10,7 @@ from server.capture.shot import Shot
 from server.live import Trouble
 from server.setup import Preparation
 from tracker.errors import CalibrationError
-from tracker.navigation import NavigationSnapshot, Setup, navigate
+from tracker.navigation import NavigationSnapshot, Setup, Steadying, navigate
 from tracker.pipeline import Tracker
 
 log = structlog.get_logger(__name__)
@@ -23,6 +23,7 @@ class Tracking:
         self._preparation = preparation
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
+        self._steadying = Steadying(preparation.smoothing)
         self.trouble: Trouble | None = None
 
     def conclude(
@@ -53,6 +54,7 @@ class Tracking:
             size_wh_px=(width, height),
             stage_ms={},
             skipped_images=skipped_images,
+            steadied=self._steadying.steadied(setup, sightings, captured_at_s=shot.captured_at_s),
         )
         stage_ms = {
             "waiting": (started_s - shot.captured_at_s) * 1000.0,
@@ -71,4 +73,5 @@ class Tracking:
             self.trouble = Trouble.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
         self._tracker = self._preparation.tracker_for(setup)
+        self._steadying = Steadying(self._preparation.smoothing)
         self._setup = setup

@@ -25,6 +25,7 @@ STATE_PX = 40.0
 DETAIL_PX = 24.0
 SMALL_PX = 17.0
 PADDING_PX = 14.0
+NOTE_PX = 24.0
 
 
 def draw_panel(image: Image, panel: Panel, *, scale: float) -> None:
@@ -34,8 +35,12 @@ def draw_panel(image: Image, panel: Panel, *, scale: float) -> None:
     """
     left, bottom = MARGIN_PX * scale, image.shape[0] - MARGIN_PX * scale
     if panel.readings:
-        top = bottom - (ROW_PX * len(panel.readings) + 6.0) * scale
+        note_px = NOTE_PX if panel.note else 0.0
+        top = bottom - (ROW_PX * len(panel.readings) + 6.0 + note_px) * scale
         ground(image, left, top, left + WIDTH_PX * scale, bottom)
+        if panel.note:
+            at = (left + PADDING_PX * scale, bottom - 9.0 * scale)
+            text(image, panel.note, at, QUIET, size_px=SMALL_PX * scale, weight=REGULAR)
         for index, reading in enumerate(panel.readings):
             _draw_reading(image, reading, left + PADDING_PX * scale, top + ROW_PX * index * scale, scale)
         return

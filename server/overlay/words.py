@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from server.shown import shown_number
-from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot
+from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot, ToolInView
 from tracker.pose import Seen, Unseen, UnseenReason
 
 RESEARCH_SOFTWARE = "research software, not a medical device"
@@ -45,9 +45,10 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Panel:
-    """What the panel says: readings, or in their place a state and its details; never both."""
+    """What the panel says: readings and a quiet note, or in their place a state and its details."""
 
     readings: tuple[Reading, ...] = ()
+    note: str = ""
     state: str = ""
     details: tuple[str, ...] = ()
 
@@ -59,7 +60,8 @@ def panel_of(snapshot: NavigationSnapshot) -> Panel:
     """
     for name, deviation in snapshot.deviations.items():
         if isinstance(deviation, Deviation):
-            return Panel(readings=_readings(deviation, tool=name if len(snapshot.tools) > 1 else ""))
+            readings = _readings(deviation, tool=name if len(snapshot.tools) > 1 else "")
+            return Panel(readings=readings, note=_note(snapshot.tools[name]))
     reason, marker = _reason(snapshot)
     return Panel(state=STATE_WORDS[reason], details=_details(snapshot, reason, marker))
 
@@ -72,6 +74,13 @@ def _readings(deviation: Deviation, *, tool: str) -> tuple[Reading, ...]:
         Reading(label="DEPTH", value=shown_number(deviation.depth_mm), unit="mm"),
         Reading(label="TO GO", value=shown_number(deviation.remaining_mm), unit="mm"),
     )
+
+
+def _note(tool: ToolInView | Absent) -> str:
+    """That the numbers were steadied, and by how much they are late for it."""
+    if isinstance(tool, Absent) or tool.lag_ms <= 0.0:
+        return ""
+    return f"steadied · {max(round(tool.lag_ms), 1)} ms behind"
 
 
 def _reason(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:

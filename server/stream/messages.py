@@ -69,6 +69,8 @@ class ToolMessage(Message):
     camera_from_tool: PoseMessage
     tip_sd_mm: float
     """Standard deviation of the tip: root of the trace of its covariance, from the marker's edges alone."""
+    lag_ms: float
+    """How far the pose lies behind its image, where it was steadied; else 0."""
 
 
 class DeviationMessage(Message):
@@ -255,6 +257,7 @@ def _tool(tool: ToolInView | Absent) -> ToolMessage | AbsentMessage:
     return ToolMessage(
         camera_from_tool=_pose(pose.rotation, pose.translation_mm),
         tip_sd_mm=math.sqrt(float(np.trace(tool.tip_covariance_mm2))),
+        lag_ms=tool.lag_ms,
     )
 
 

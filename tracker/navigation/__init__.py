@@ -9,6 +9,7 @@ from tracker.navigation.snapshot import (
     ToolInView,
     navigate,
 )
+from tracker.navigation.steadying import Steadying
 
 __all__ = [
     "Absent",
@@ -16,6 +17,7 @@ __all__ = [
     "Deviation",
     "NavigationSnapshot",
     "Setup",
+    "Steadying",
     "ToolInView",
     "deviation_from_channel",
     "navigate",

@@ -11,10 +11,10 @@ from enum import StrEnum
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Rigid, Tool, Vertebra, point_covariance_mm2
+from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra, point_covariance_mm2
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.plan import Channel
-from tracker.pose import Seen, Sighting, ToolModel
+from tracker.pose import Seen, Sighting, SteadyPose, ToolModel
 
 
 class AbsentReason(StrEnum):
@@ -42,10 +42,12 @@ class ToolInView:
     Attributes:
         camera_from_tool: tip (origin) and drilling direction (+z) in the camera's frame.
         tip_covariance_mm2: (3, 3), of the tip in the camera's frame.
+        lag_ms: how far it lies behind its image, where it was steadied; else 0.
     """
 
     camera_from_tool: Rigid[Camera, Tool]
     tip_covariance_mm2: Array
+    lag_ms: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,20 +100,40 @@ class NavigationSnapshot:
     skipped_images: int
 
 
-def tool_in_view(setup: Setup, tool: ToolModel, sighting: Sighting) -> ToolInView | Absent:
-    """Where the tool is in the camera's frame, or why that is not known."""
+def tool_in_view(
+    setup: Setup, tool: ToolModel, sighting: Sighting, steadied: SteadyPose | None = None
+) -> ToolInView | Absent:
+    """Where the tool is in the camera's frame, or why that is not known.
+
+    A steadied pose takes the place of the image's own, unless it is too unsure of where the tip is now.
+    """
     if not isinstance(sighting, Seen):
         return Absent(reason=AbsentReason.MARKER_UNSEEN)
     if not setup.camera_calibrated:
         return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
-    tip_in_marker = tool.marker_from_tool.translation_mm
-    covariance = point_covariance_mm2(sighting.camera_from_marker, sighting.pose_covariance, tip_in_marker)
+    own = _placed(tool, sighting.camera_from_marker, sighting.pose_covariance)
     # Also where two poses explain the image: the covariance then spans both.
-    if float(np.sqrt(np.trace(covariance))) > setup.most_tip_sd_mm:
+    if _tip_sd_mm(own) > setup.most_tip_sd_mm:
         return Absent(reason=AbsentReason.POSE_UNCERTAIN)
+    if steadied is None:
+        return own
+    steady = _placed(tool, steadied.camera_from_marker, steadied.pose_covariance, lag_ms=steadied.lag_ms)
+    return own if _tip_sd_mm(steady) > setup.most_tip_sd_mm else steady
+
+
+def _placed(
+    tool: ToolModel, pose: Rigid[Camera, Marker], covariance: Array, *, lag_ms: float = 0.0
+) -> ToolInView:
+    tip_in_marker = tool.marker_from_tool.translation_mm
     return ToolInView(
-        camera_from_tool=sighting.camera_from_marker @ tool.marker_from_tool, tip_covariance_mm2=covariance
+        camera_from_tool=pose @ tool.marker_from_tool,
+        tip_covariance_mm2=point_covariance_mm2(pose, covariance, tip_in_marker),
+        lag_ms=lag_ms,
     )
+
+
+def _tip_sd_mm(tool: ToolInView) -> float:
+    return float(np.sqrt(np.trace(tool.tip_covariance_mm2)))
 
 
 def tool_deviation(setup: Setup, tool: ToolInView | Absent) -> Deviation | Absent:
@@ -134,9 +156,17 @@ def navigate(
     size_wh_px: tuple[int, int],
     stage_ms: Mapping[str, float],
     skipped_images: int,
+    steadied: Mapping[str, SteadyPose] | None = None,
 ) -> NavigationSnapshot:
-    """The snapshot of one image from what was seen in it."""
-    tools = {name: tool_in_view(setup, tool, sightings[tool.marker]) for name, tool in setup.tools.items()}
+    """The snapshot of one image from what was seen in it.
+
+    Where a tool's pose was steadied (`Steadying`), everything that is said of the tool comes from that pose.
+    """
+    steady = steadied or {}
+    tools = {
+        name: tool_in_view(setup, tool, sightings[tool.marker], steady.get(name))
+        for name, tool in setup.tools.items()
+    }
     return NavigationSnapshot(
         image_number=image_number,
         captured_at_s=captured_at_s,

@@ -5,6 +5,7 @@ from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import Fit, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
+from tracker.pose.steady import Steady, SteadyPose, SteadySettings
 from tracker.pose.tool import ToolModel
 
 __all__ = [
@@ -14,6 +15,9 @@ __all__ = [
     "Prior",
     "Seen",
     "Sighting",
+    "Steady",
+    "SteadyPose",
+    "SteadySettings",
     "ToolModel",
     "Unseen",
     "UnseenReason",

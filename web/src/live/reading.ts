@@ -14,6 +14,7 @@ export interface Reading {
   tool: string;
   deviation: DeviationMessage;
   tipSdMm: number | null;
+  lagMs: number;
 }
 
 export interface Unread {
@@ -26,7 +27,13 @@ export interface Unread {
 export function readingOf(snapshot: SnapshotMessage): Reading | Unread {
   for (const tool of snapshot.tools) {
     if (tool.deviation.kind === "deviation" && isWhole(tool.deviation)) {
-      return { known: true, tool: tool.name, deviation: tool.deviation, tipSdMm: tipSdMm(tool) };
+      return {
+        known: true,
+        tool: tool.name,
+        deviation: tool.deviation,
+        tipSdMm: tipSdMm(tool),
+        lagMs: tool.pose.kind === "tool" ? tool.pose.lag_ms : 0,
+      };
     }
   }
   for (const tool of snapshot.tools) {

@@ -103,8 +103,11 @@ function whyWords(numbers: NumbersVerdict, words: Words): string {
 
 function tipText(numbers: NumbersVerdict, words: Words): string {
   if (!numbers.live) return "";
-  const { tipSdMm } = numbers.reading;
-  return tipSdMm === null ? words.numbers.tipUnknown : `${words.numbers.tip} ${shownNumber(tipSdMm, 2)} mm`;
+  const { tipSdMm, lagMs } = numbers.reading;
+  const tip =
+    tipSdMm === null ? words.numbers.tipUnknown : `${words.numbers.tip} ${shownNumber(tipSdMm, 2)} mm`;
+  // The age of the image does not hold this delay: it is said beside the numbers that have it.
+  return lagMs > 0 ? `${tip} · ${words.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : tip;
 }
 
 function paintReading(

@@ -21,6 +21,7 @@ export const de: Words = {
     tracking: "TRACKING",
     tip: "Spitze ±",
     tipUnknown: "Unsicherheit der Spitze unbekannt",
+    steadied: "beruhigt, verzögert um",
     numbersOf: "Zahlen sind von Bild",
     pictureOf: "Bild ist Nummer",
   },

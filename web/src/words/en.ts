@@ -21,6 +21,7 @@ export interface Words {
     tracking: string;
     tip: string;
     tipUnknown: string;
+    steadied: string;
     numbersOf: string;
     pictureOf: string;
   };
@@ -83,6 +84,7 @@ export const en: Words = {
     tracking: "TRACKING",
     tip: "tip ±",
     tipUnknown: "tip uncertainty not known",
+    steadied: "steadied, behind by",
     numbersOf: "numbers are of image",
     pictureOf: "picture of image",
   },

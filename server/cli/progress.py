@@ -1,0 +1,35 @@
+"""A bar for each step of a command, on standard error if that is a terminal."""
+
+import contextlib
+from collections.abc import Iterator
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
+
+
+class Steps:
+    """Moves the bar of the step that is being done; without a terminal nothing is shown."""
+
+    def __init__(self, progress: Progress | None) -> None:
+        self._progress = progress
+        self._tasks: dict[str, TaskID] = {}
+
+    def advance(self, step: str, total: int | None) -> None:
+        """One more of this step is done; `total` is how many there will be, if that can be told."""
+        if self._progress is None:
+            return
+        if step not in self._tasks:
+            self._tasks[step] = self._progress.add_task(step, total=total)
+        self._progress.advance(self._tasks[step])
+
+
+@contextlib.contextmanager
+def shown_steps() -> Iterator[Steps]:
+    """Bars while the block runs; they are gone at its end."""
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield Steps(None)
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        yield Steps(progress)

@@ -1,0 +1,97 @@
+"""The page on which a marker is printed: true size, with what shows whether the printer kept it."""
+
+from collections.abc import Iterator
+
+from server.printing.sheet import Fill, Label, Line, Point, Sheet, rectangle
+from tracker.design import Shape
+from tracker.errors import InvalidInput
+
+A4_MM = (210.0, 297.0)
+EDGE_MM = 20.0
+# White paper around the square, in sides; the cut is made outside of it.
+QUIET_RATIO = 0.25
+CROP_MARK_MM, CROP_GAP_MM = 6.0, 1.0
+MM_PER_INCH = 25.4
+RULER_MM, RULER_INCHES = 50, 2
+SMALLEST_SIDE_MM, LARGEST_SIDE_MM = 5.0, 100.0
+
+
+def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
+    """An A4 page with the marker, crop marks, rulers of 50 mm and 2 inches, and what to do with it.
+
+    Raises:
+        InvalidInput: MARKER_SIDE_UNPRINTABLE, the square does not fit the page or is too small to cut.
+    """
+    if not SMALLEST_SIDE_MM <= side_mm <= LARGEST_SIDE_MM:
+        raise InvalidInput(
+            "MARKER_SIDE_UNPRINTABLE",
+            f"a marker of {side_mm:g} mm cannot be printed on A4 with its white margin, "
+            f"allowed {SMALLEST_SIDE_MM:g} to {LARGEST_SIDE_MM:g} mm",
+            "Give another side with --side-mm.",
+            {"side_mm": side_mm},
+        )
+    quiet = QUIET_RATIO * side_mm
+    left, top = (A4_MM[0] - side_mm) / 2.0, 95.0
+    foot = top + side_mm + quiet + 24.0
+    return Sheet(
+        title=f"Marker {name}, {side_mm:g} mm",
+        size_mm=A4_MM,
+        marks=(
+            # A viewer with a dark ground must not show the margin dark.
+            Fill(corners_mm=rectangle(0.0, 0.0, *A4_MM), white=True),
+            *_words(name, side_mm),
+            Fill(corners_mm=rectangle(left, top, side_mm, side_mm)),
+            *(
+                Fill(
+                    corners_mm=tuple((left + x * side_mm, top + y * side_mm) for x, y in patch.corners),
+                    white=patch.white,
+                )
+                for patch in shape.patches
+            ),
+            *_crop_marks((left - quiet, top - quiet), side_mm + 2.0 * quiet),
+            *_ruler((EDGE_MM + 10.0, foot), unit_mm=1.0, units=RULER_MM, long_each=10, word="mm"),
+            *_ruler(
+                (EDGE_MM + 10.0, foot + 20.0),
+                unit_mm=MM_PER_INCH / 8.0,
+                units=RULER_INCHES * 8,
+                long_each=8,
+                word="in",
+            ),
+        ),
+    )
+
+
+def _words(name: str, side_mm: float) -> Iterator[Label]:
+    lines = (
+        (f"Coaxial marker: {name}", 6.0),
+        (f"Side of the black square: {side_mm:g} mm ({side_mm / MM_PER_INCH:.4g} in)", 4.0),
+        ("Print at 100 % (actual size, no fitting to the page), on stiff matt paper.", 4.0),
+        ("Then measure the rulers below and the square. Tell Coaxial the side that you measured.", 4.0),
+        ("Cut along the marks: the white margin belongs to the marker. Keep it flat. This side is up.", 4.0),
+    )
+    for row, (words, size) in enumerate(lines):
+        yield Label(words=words, at_mm=(EDGE_MM, EDGE_MM + 8.0 + 8.0 * row), size_mm=size)
+
+
+def _crop_marks(corner_mm: Point, side_mm: float) -> Iterator[Line]:
+    """Two short lines outside each corner of what is cut out."""
+    (left, top), gap, end = corner_mm, CROP_GAP_MM, CROP_GAP_MM + CROP_MARK_MM
+    for x, outward_x in ((left, -1.0), (left + side_mm, 1.0)):
+        for y, outward_y in ((top, -1.0), (top + side_mm, 1.0)):
+            yield Line(start_mm=(x + outward_x * gap, y), end_mm=(x + outward_x * end, y))
+            yield Line(start_mm=(x, y + outward_y * gap), end_mm=(x, y + outward_y * end))
+
+
+def _ruler(at_mm: Point, *, unit_mm: float, units: int, long_each: int, word: str) -> Iterator[Line | Label]:
+    """A line with a tick for each unit, longer and numbered ones at every `long_each`."""
+    left, base = at_mm
+    yield Line(start_mm=(left, base), end_mm=(left + units * unit_mm, base), width_mm=0.15)
+    for tick in range(units + 1):
+        x = left + tick * unit_mm
+        numbered = tick % long_each == 0
+        height = 5.0 if numbered else 3.5 if tick % (long_each // 2) == 0 else 2.0
+        yield Line(start_mm=(x, base), end_mm=(x, base - height), width_mm=0.15)
+        if numbered:
+            number = tick if long_each == 10 else tick // long_each
+            yield Label(words=f"{number}", at_mm=(x - 1.0, base - 6.0), size_mm=3.0)
+    yield Label(words=word, at_mm=(left + units * unit_mm + 3.0, base), size_mm=3.5)

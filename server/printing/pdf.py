@@ -1,0 +1,65 @@
+"""A sheet as PDF 1.4: one page of filled polygons, lines and words, in points of 1/72 inch."""
+
+from server.printing.sheet import Fill, Label, Line, Sheet
+
+POINTS_PER_MM = 72.0 / 25.4
+
+
+def pdf_from_sheet(sheet: Sheet) -> bytes:
+    """The file's bytes. Its page has the sheet's size, and asks the printer for no scaling."""
+    width, height = (POINTS_PER_MM * size for size in sheet.size_mm)
+    # One matrix turns millimetres from the top into points from the bottom: the numbers below it are mm.
+    content = "\n".join(
+        [f"{POINTS_PER_MM:.8f} 0 0 {-POINTS_PER_MM:.8f} 0 {height:.4f} cm", *map(_operators, sheet.marks)]
+    ).encode("cp1252", errors="replace")
+    title = _string(sheet.title).encode("cp1252", errors="replace")
+    objects = [
+        b"<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
+        b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+        f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width:.4f} {height:.4f}] /Contents 5 0 R "
+        "/Resources << /Font << /F 4 0 R >> >> >>".encode(),
+        b"<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>",
+        b"<< /Length %d >>\nstream\n%s\nendstream" % (len(content), content),
+        b"<< /Title %s >>" % title,
+    ]
+    return _file(objects)
+
+
+def _file(objects: list[bytes]) -> bytes:
+    """Numbered objects, the table of where each begins, and where that table is."""
+    # Four bytes above 127 tell programs that this is no text.
+    file = b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n"
+    starts = []
+    for number, body in enumerate(objects, start=1):
+        starts.append(len(file))
+        file += b"%d 0 obj\n%s\nendobj\n" % (number, body)
+    table = b"".join(b"%010d 00000 n \n" % start for start in starts)
+    return (
+        file
+        + b"xref\n0 %d\n0000000000 65535 f \n%strailer\n<< /Size %d /Root 1 0 R /Info %d 0 R >>\n"
+        % (
+            len(objects) + 1,
+            table,
+            len(objects) + 1,
+            len(objects),
+        )
+        + b"startxref\n%d\n%%%%EOF\n" % len(file)
+    )
+
+
+def _operators(mark: Fill | Line | Label) -> str:
+    if isinstance(mark, Fill):
+        first, *others = (f"{x:.4f} {y:.4f}" for x, y in mark.corners_mm)
+        lines = " ".join(f"{point} l" for point in others)
+        return f"{1 if mark.white else 0} g {first} m {lines} h f"
+    if isinstance(mark, Line):
+        (x1, y1), (x2, y2) = mark.start_mm, mark.end_mm
+        return f"{mark.width_mm:g} w 0 G {x1:.4f} {y1:.4f} m {x2:.4f} {y2:.4f} l S"
+    x, y = mark.at_mm
+    # The page's y runs down here, and letters would stand on their heads.
+    return f"BT 0 g /F {mark.size_mm:g} Tf 1 0 0 -1 {x:.4f} {y:.4f} Tm {_string(mark.words)} Tj ET"
+
+
+def _string(words: str) -> str:
+    escaped = words.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
+    return f"({escaped})"

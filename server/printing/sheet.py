@@ -1,0 +1,53 @@
+"""What is drawn on a sheet of paper: all lengths in mm, from its top-left corner, x right and y down."""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Point: TypeAlias = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fill:
+    """A polygon filled with black ink, or with the white of the paper."""
+
+    corners_mm: tuple[Point, ...]
+    white: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """A thin line."""
+
+    start_mm: Point
+    end_mm: Point
+    width_mm: float = 0.2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Label:
+    """A line of text that begins at a point of its base line."""
+
+    words: str
+    at_mm: Point
+    size_mm: float = 3.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sheet:
+    """One page.
+
+    Attributes:
+        title: of the file.
+        size_mm: width and height of the paper.
+        marks: in the order in which they are drawn.
+    """
+
+    title: str
+    size_mm: Point
+    marks: tuple[Fill | Line | Label, ...]
+
+
+def rectangle(left_mm: float, top_mm: float, width_mm: float, height_mm: float) -> tuple[Point, ...]:
+    """Its four corners."""
+    right, bottom = left_mm + width_mm, top_mm + height_mm
+    return ((left_mm, top_mm), (right, top_mm), (right, bottom), (left_mm, bottom))

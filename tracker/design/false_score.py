@@ -1,0 +1,155 @@
+"""The paper's score of a marker's edges where the marker is not: over a background, or itself turned."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+
+from tracker.design.likeness import TURNS, likeliest_places, turned_rows
+from tracker.design.places import Places, flattened
+from tracker.edges import GreyImage, edgels_of, gradient_of
+from tracker.geometry import Array
+from tracker.marker import Agreement, MarkerModel, ScoreSettings, model_agreement, target_coverage_ratio
+
+# The size at which turns are compared: that of a 25 mm marker at arm's length in a plain camera.
+SIDE_PX = 27
+BLUR_PX = 0.6
+# White paper around a square, in sides.
+MARGIN_RATIO = 0.25
+# Of the squares of a background, so many are scored; the others look less like the marker.
+SCORED_PLACES = 24
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FalseScore:
+    """A score where the marker is not.
+
+    Attributes:
+        score_ratio: model coverage x (1 - weight x normalised fit error), 0..1.
+        inner_coverage_ratio: coverage of the edges inside the square alone, 0..1.
+        target_score_ratio: share of the edges in the square that are the marker's, x the same, 0..1.
+        accepted: whether all three reach what the tracker accepts. It may still refuse what is dark for
+            bright inside; but then that test alone stands between a thing and the marker.
+    """
+
+    score_ratio: float
+    target_score_ratio: float
+    inner_coverage_ratio: float
+    accepted: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImitatingPlace:
+    """A square of the background, and how far the marker's edges are there.
+
+    Attributes:
+        image_index: of the image that it is in.
+        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the marker laid on it.
+        score: its false score.
+        likeness: correlation of its inside with the marker, -1..1.
+    """
+
+    image_index: int
+    corners_px: Array
+    score: FalseScore
+    likeness: float
+
+
+def score_at(
+    image: GreyImage, corners_px: Array, model: MarkerModel, settings: ScoreSettings, *, threshold: float
+) -> FalseScore:
+    """The score of a model laid on four corners (4, 2) of an image, without any fit.
+
+    `threshold` is the gradient that is taken for noise, as in `tracker.edges.Gradient`.
+    """
+    x, y = corners_px[:, 0], corners_px[:, 1]
+    active = model.level_for(float(np.sqrt(0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))))))
+    level = active.level_px
+    margin = int(MARGIN_RATIO * level)
+    seen = _from_the_front(image, corners_px, level_px=level, margin_px=margin)
+    gradient = replace(gradient_of(seen), threshold=threshold)
+    scale = level / model.side_mm
+    points = margin + level / 2.0 - 0.5 + active.points_mm * [scale, -scale]
+    normals = active.normals * [1.0, -1.0]
+    agreement = model_agreement(gradient, active, points, normals, side_px=float(level))
+    target = target_coverage_ratio(
+        edgels_of(gradient),
+        gradient,
+        points,
+        normals,
+        corners_px=_square_px(margin, level),
+        side_px=float(level),
+        contrast=agreement.contrast,
+    )
+    return _false_score(replace(agreement, target_coverage_ratio=target), settings)
+
+
+def _false_score(agreement: Agreement, settings: ScoreSettings) -> FalseScore:
+    score, target_score = agreement.score_ratio(settings), agreement.target_score_ratio(settings)
+    inner = agreement.inner_coverage_ratio
+    return FalseScore(
+        score_ratio=score,
+        target_score_ratio=target_score,
+        inner_coverage_ratio=inner,
+        accepted=score >= settings.accept_score_ratio
+        and target_score >= settings.accept_target_score_ratio
+        and inner >= settings.accept_inner_coverage_ratio,
+    )
+
+
+def _from_the_front(image: GreyImage, corners_px: Array, *, level_px: int, margin_px: int) -> GreyImage:
+    """What is inside four corners, so many pixels wide, and what is beside it; larger places are averaged."""
+    side_px = float(np.linalg.norm(np.roll(corners_px, -1, axis=0) - corners_px, axis=1).max())
+    finer = max(1, round(side_px / level_px))
+    fine = flattened(image, corners_px, side_px=level_px * finer, margin_px=margin_px * finer)
+    whole = level_px + 2 * margin_px
+    return np.asarray(cv2.resize(fine, (whole, whole), interpolation=cv2.INTER_AREA), dtype=np.uint8)
+
+
+def _square_px(margin_px: int, side_px: int) -> Array:
+    """The corners (4, 2) of a square that is this far from the edge of a picture."""
+    low, high = margin_px - 0.5, margin_px + side_px - 0.5
+    return np.array([[low, low], [high, low], [high, high], [low, high]])
+
+
+def own_false_scores(model: MarkerModel, settings: ScoreSettings) -> tuple[FalseScore, FalseScore]:
+    """The best score over the marker's own quarter turns, and over its mirror image at all turns."""
+    turned = [_over(np.rot90(model.square, turn), model, settings) for turn in range(1, TURNS)]
+    mirrored = [_over(np.rot90(model.square[:, ::-1], turn), model, settings) for turn in range(TURNS)]
+    return _best(turned), _best(mirrored)
+
+
+def imitating_places(
+    images: Sequence[GreyImage], places: Places, model: MarkerModel, settings: ScoreSettings
+) -> list[ImitatingPlace]:
+    """The places of a background that look most like the marker, the best score first."""
+    found = []
+    for index, turn, likeness in likeliest_places(turned_rows(model.square), places, count=SCORED_PLACES):
+        image_index = int(places.image_index[index])
+        corners = np.roll(places.corners_px[index], turn, axis=0)
+        image = images[image_index]
+        score = score_at(image, corners, model, settings, threshold=gradient_of(image).threshold)
+        found.append(
+            ImitatingPlace(image_index=image_index, corners_px=corners, score=score, likeness=likeness)
+        )
+    return sorted(found, key=_rank, reverse=True)
+
+
+def _rank(place: ImitatingPlace) -> tuple[bool, float]:
+    return place.score.accepted, place.score.score_ratio
+
+
+def _over(square: GreyImage, model: MarkerModel, settings: ScoreSettings) -> FalseScore:
+    """The score of a model over a printed square (n, n) that is `SIDE_PX` wide in the image."""
+    paper = int(np.percentile(model.square, 98))
+    margin = SIDE_PX // 2
+    small = cv2.resize(np.ascontiguousarray(square), (SIDE_PX, SIDE_PX), interpolation=cv2.INTER_AREA)
+    printed = cv2.copyMakeBorder(small, *(margin,) * 4, cv2.BORDER_CONSTANT, value=(paper,))
+    seen = np.asarray(cv2.GaussianBlur(printed, (0, 0), BLUR_PX), dtype=np.uint8)
+    corners = _square_px(margin, SIDE_PX)
+    return score_at(seen, corners, model, settings, threshold=gradient_of(seen).threshold)
+
+
+def _best(scores: list[FalseScore]) -> FalseScore:
+    return max(scores, key=lambda one: (one.accepted, one.score_ratio))

@@ -1,0 +1,31 @@
+"""The outlines of an image that could be a square's: what any finder of square markers has to look at.
+
+All of them, likely or not. The tracker's own search stops as soon as it has found its marker; here it is
+enough to miss nothing that looks like a square.
+"""
+
+import cv2
+import numpy as np
+
+from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
+from tracker.geometry import Array
+from tracker.marker.outline import Quads, quads_of
+
+# A third of the side of the smallest marker that is found.
+LEAST_PIECE_PX = 4.0
+
+
+def outlines_of(image: GreyImage) -> Array:
+    """Outlines (n, 4, 2) in px, corners clockwise on the screen, of a grey image (h, w).
+
+    Also at half the size, where an edge that is blurred over four pixels is a clear one.
+    """
+    half = np.asarray(cv2.resize(image, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    coarse = _outlines(half).astype(np.float64) * 2.0 + 0.5
+    return np.concatenate([_outlines(image).astype(np.float64), coarse])
+
+
+def _outlines(image: GreyImage) -> Quads:
+    edgels = edgels_of(gradient_of(image))
+    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_PIECE_PX)
+    return quads_of(np.concatenate([pieces, joined_segments(pieces)]))

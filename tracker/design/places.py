@@ -1,0 +1,102 @@
+"""The squares of a background: every outline in it that could be a marker's, and squares taken at random."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.design.outlines import outlines_of
+from tracker.edges import GreyImage
+from tracker.geometry import Array
+
+# Cells a side in which squares are compared: finer than a marker's parts (an eighth of the side).
+CELLS = 20
+FINER = 2
+# Beside what is outlined, so many squares of an image anywhere in it, at any size and turn.
+RANDOM_SQUARES = 300
+SMALLEST_SIDE_PX, LARGEST_SIDE_RATIO = 20.0, 0.6
+# An outline with less contrast inside (sd, grey levels) is a flat patch, and correlates with anything.
+LEAST_SPREAD_GREY = 4.0
+
+Cells32 = npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Places:
+    """Squares of a background, as pictures that can be compared.
+
+    Attributes:
+        image_index: (n,), of the image that each is in.
+        corners_px: (n, 4, 2), clockwise on the screen.
+        cells: (n, CELLS * CELLS), what is inside, mean 0 and length 1.
+    """
+
+    image_index: npt.NDArray[np.int64]
+    corners_px: Array
+    cells: Cells32
+
+    def __len__(self) -> int:
+        """How many."""
+        return len(self.image_index)
+
+
+def places_in(image: GreyImage, *, image_index: int) -> Places:
+    """The squares of a grey image (h, w): those with an outline, and some anywhere."""
+    corners = np.concatenate([outlines_of(image), _anywhere(image, image_index)])
+    kept, cells = [], []
+    for one in corners:
+        inside = flattened(image, one, side_px=CELLS * FINER)
+        row = unit_row(cv2.resize(inside, (CELLS, CELLS), interpolation=cv2.INTER_AREA))
+        if row is not None:
+            kept.append(one)
+            cells.append(row)
+    return Places(
+        image_index=np.full(len(kept), image_index, np.int64),
+        corners_px=np.array(kept, dtype=np.float64).reshape(-1, 4, 2),
+        cells=np.array(cells, dtype=np.float32).reshape(-1, CELLS * CELLS),
+    )
+
+
+def joined(parts: Sequence[Places]) -> Places:
+    """The squares of several images."""
+    return Places(
+        image_index=np.concatenate([np.empty(0, np.int64), *(part.image_index for part in parts)]),
+        corners_px=np.concatenate([np.empty((0, 4, 2)), *(part.corners_px for part in parts)]),
+        cells=np.concatenate([np.empty((0, CELLS * CELLS), np.float32), *(part.cells for part in parts)]),
+    )
+
+
+def flattened(image: GreyImage, corners_px: Array, *, side_px: int, margin_px: int = 0) -> GreyImage:
+    """What lies inside four corners (4, 2), as a square picture seen from the front, with a margin."""
+    low, high = margin_px - 0.5, margin_px + side_px - 0.5
+    square = np.array([[low, low], [high, low], [high, high], [low, high]], dtype=np.float32)
+    there = cv2.getPerspectiveTransform(square, corners_px.astype(np.float32))
+    whole = side_px + 2 * margin_px
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    flat = cv2.warpPerspective(image, there, (whole, whole), flags=flags, borderMode=cv2.BORDER_REPLICATE)
+    return np.asarray(flat, dtype=np.uint8)
+
+
+def unit_row(square: npt.NDArray[np.generic]) -> Cells32 | None:
+    """A picture (n, n) as numbers (n * n,) with mean 0 and length 1; None where it is flat."""
+    row = square.astype(np.float32).ravel()
+    row = row - row.mean()
+    length = float(np.linalg.norm(row))
+    return None if length < LEAST_SPREAD_GREY * np.sqrt(row.size) else np.asarray(row / length)
+
+
+def _anywhere(image: GreyImage, image_index: int) -> Array:
+    """Squares (n, 4, 2) of an image, at random and always the same."""
+    random = np.random.default_rng([image_index, 97])
+    height, width = image.shape
+    largest = max(LARGEST_SIDE_RATIO * min(height, width), SMALLEST_SIDE_PX + 1.0)
+    side = np.exp(random.uniform(np.log(SMALLEST_SIDE_PX), np.log(largest), RANDOM_SQUARES))
+    turn = random.uniform(0.0, 2.0 * np.pi, RANDOM_SQUARES)
+    centre = random.uniform(0.0, 1.0, (RANDOM_SQUARES, 2)) * [width, height]
+    angles = turn[:, None] + np.radians([225.0, 315.0, 45.0, 135.0])
+    reach = (side / np.sqrt(2.0))[:, None, None]
+    corners = centre[:, None, :] + reach * np.stack([np.cos(angles), np.sin(angles)], axis=2)
+    inside = ((corners >= 0.0) & (corners <= [width - 1.0, height - 1.0])).all(axis=(1, 2))
+    return np.asarray(corners[inside])
