@@ -1,6 +1,6 @@
 """One image of a scene with markers whose poses are exactly known, formed the way a camera forms it.
 
-Reflectance of the background, the printed boards and a finger, exactly integrated over cells of a quarter of a
+Reflectance of the background, the printed boards and a finger, exactly integrated over quarters of a
 pixel; averaged over the shutter's time; blurred by the lens; integrated over the pixel; lit; then shot noise,
 read noise, the camera's answer, 8 bits and JPEG.
 """
