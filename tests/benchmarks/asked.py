@@ -45,7 +45,8 @@ class Asked:
         seeds = ", ".join(map(str, self.seeds))
         return (
             f"Seeds {seeds} (a server plays the first); offline {self.seconds:g} s each at "
-            f"{self.rate_hz:g} Hz; noise {self.noise:g}, blur {self.blur:g}, clutter {self.clutter:g}, light {self.light:g}."
+            f"{self.rate_hz:g} Hz; noise {self.noise:g}, blur {self.blur:g}, clutter {self.clutter:g}, "
+            f"light {self.light:g}."
         )
 
     @property
