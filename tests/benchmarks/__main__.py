@@ -8,10 +8,10 @@ import sys
 from collections.abc import Mapping
 
 from tests.benchmarks.asked import Asked
+from tests.benchmarks.dot_plots import write_plots
 from tests.benchmarks.figures import Figure, better_figures, read_figures, worse_figures, write_figures
 from tests.benchmarks.machine import machine_line
 from tests.benchmarks.measured import Measured
-from tests.benchmarks.plots import write_plots
 from tests.benchmarks.readme import write_section
 from tests.benchmarks.sections import SECTIONS
 from tracker.errors import NavigationError

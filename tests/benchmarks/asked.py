@@ -31,7 +31,7 @@ class Asked:
     light: float = 1.0
     rigs: str = "AB"
     conditions: tuple[str, ...] = ()
-    images: int = 24
+    images: int = 18
     seed: int = 0
 
     @property

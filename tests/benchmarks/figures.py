@@ -71,7 +71,7 @@ def interval(count: int, of: int, sd: float = NOISE_SD) -> tuple[float, float]:
     p, square = count / of, sd * sd
     middle = (p + square / (2 * of)) / (1.0 + square / of)
     half = sd / (1.0 + square / of) * math.sqrt(p * (1.0 - p) / of + square / (4.0 * of * of))
-    return middle - half, middle + half
+    return max(middle - half, 0.0), min(middle + half, 1.0)
 
 
 def is_worse(then: Figure, now: Figure) -> bool:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.__main__ import _compared
+from tests.benchmarks.dot_plots import FOLDER, Panel, Series, svg, write_plots
 from tests.benchmarks.figures import (
     Figure,
     Share,
@@ -20,7 +21,6 @@ from tests.benchmarks.figures import (
     write_figures,
 )
 from tests.benchmarks.measured import Measured
-from tests.benchmarks.plots import FOLDER, Panel, Series, svg, write_plots
 
 
 def errors_like(median_mm: float, *, seed: int, count: int = 24) -> Size:

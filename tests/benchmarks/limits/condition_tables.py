@@ -137,16 +137,11 @@ def _parameter_table(run: LimitsRun) -> Table:
 
 
 def _coverage_table(run: LimitsRun) -> Table:
-    rows = []
-    for rig, some in run.conditions.items():
-        groups = [(one.condition, one.searched) for one in some]
-        groups += [("all, search", [each for one in some for each in one.searched])]
-        groups += [("all, step", [each for one in some for each in one.stepped])]
-        rows += [
-            [f"{rig} {name}", str(len(stated(judgements))), *coverage(judgements)]
-            for name, judgements in groups
-            if stated(judgements)
-        ]
+    rows = [
+        [f"{rig} {name}", str(len(some)), *coverage(some)]
+        for rig in run.conditions
+        for name, some in coverage_groups(run, rig)
+    ]
     return Table(
         title="Errors inside their stated 95 % ellipsoid",
         columns=["camera, condition", "n", *COVERED],
@@ -154,6 +149,25 @@ def _coverage_table(run: LimitsRun) -> Table:
         note=f"Goal {goals.COVERED[0]:g} to {goals.COVERED[1]:g}; in brackets where the true share lies in "
         "19 of 20 such runs.",
     )
+
+
+def coverage_groups(run: LimitsRun, rig: str) -> list[tuple[str, list[Judged]]]:
+    """The claims with a covariance: by kind of condition, of all searches and steps, of the moving hand."""
+    some, by_kind = run.conditions[rig], dict[str, list[Judged]]()
+    for one in some:
+        by_kind.setdefault(_kind(one.condition), []).extend(one.searched)
+    groups = list(by_kind.items())
+    groups += [
+        ("all, search", [each for one in some for each in one.searched]),
+        ("all, step", [each for one in some for each in one.stepped]),
+        ("hands", [each for one in run.hands if one.rig == rig for each in one.stepped]),
+    ]
+    return [(name, stated(judgements)) for name, judgements in groups if stated(judgements)]
+
+
+def _kind(condition: str) -> str:
+    """The condition without its step: "noise" of "noise16"."""
+    return condition.rstrip("0123456789.-")
 
 
 def stated(judgements: Iterable[Judged]) -> list[Judged]:

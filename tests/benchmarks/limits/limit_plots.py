@@ -3,13 +3,13 @@
 import math
 from collections.abc import Callable, Sequence
 
+from tests.benchmarks.dot_plots import Panel, Series, svg
 from tests.benchmarks.figures import interval
 from tests.benchmarks.limits import goals
-from tests.benchmarks.limits.condition_tables import TWO_SD, errors, right, stated
+from tests.benchmarks.limits.condition_tables import TWO_SD, coverage_groups, errors, right
 from tests.benchmarks.limits.conditions_run import ConditionRun
 from tests.benchmarks.limits.judging import COVERED, Judged
 from tests.benchmarks.limits.run import LimitsRun
-from tests.benchmarks.plots import Panel, Series, svg
 from tests.benchmarks.tables import median
 
 OWN, STEP, PEERS = "#1f5fbf", "#0a0a0a", {"cv2.aruco": "#d2691e", "AprilTag": "#8a2be2"}
@@ -80,8 +80,7 @@ def _tip(run: LimitsRun, rig: str) -> Panel:
 
 
 def _coverage(run: LimitsRun, rig: str) -> Panel:
-    groups = [(one.condition, stated(one.searched)) for one in run.conditions[rig]]
-    groups = [(name, judgements) for name, judgements in groups if len(judgements) >= FEWEST_STATED]
+    groups = [(name, some) for name, some in coverage_groups(run, rig) if len(some) >= FEWEST_STATED]
     series = []
     for number, (what, colour) in enumerate(zip(COVERED, KINDS, strict=True)):
         counts = [(sum(one.covered[number] for one in some), len(some)) for _, some in groups]

@@ -129,7 +129,8 @@ def shutter_poses(
     pose_at: Callable[[float], Pose], motion_px: float, *, at_s: float = 0.0, opening_s: float = 1.0
 ) -> tuple[Pose, ...]:
     """Poses at the middles of equal parts of the shutter's opening about a time, enough for such a way."""
-    count = 2 * max(1, int(np.ceil(1.25 * motion_px))) + 1
+    # Less than a pixel apart, a blur of 0.6 px leaves a ripple of some hundred-thousandths.
+    count = 2 * max(1, int(np.ceil(0.6 * motion_px))) + 1
     return tuple(pose_at(at_s + opening_s * ((number + 0.5) / count - 0.5)) for number in range(count))
 
 

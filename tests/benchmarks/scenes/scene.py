@@ -204,16 +204,16 @@ def _reflectance(scene: Scene, window: Window) -> Floats:
 
 def _board_layers(rig: Rig, board: Board, wide: Window, size: tuple[int, int]) -> tuple[Array, Array]:
     """Share of each cell that is board, and the reflectance of that share, averaged over the shutter."""
-    paper, ink = np.zeros(size[::-1]), np.zeros(size[::-1])
     outlines = [_cut(outline, rig, board.face) for outline in board.face.outlines_mm]
     ends = np.cumsum([len(outline) for outline in outlines])[:-1]
-    weights = board.face.weights(BLACK, WHITE)
+    seen: list[Array] = []
     for pose in board.poses:
         points = (rig.px_of(pose, np.concatenate(outlines)) - [wide.left, wide.top]) * FINE + (FINE - 1) / 2
-        seen = np.split(points, ends)
-        paper += painted(seen[:1], [1.0], size)
-        ink += painted(seen, weights, size)
-    return paper / len(board.poses), ink / len(board.poses)
+        seen += np.split(points, ends)
+    share = 1.0 / len(board.poses)
+    weights = [share * weight for weight in board.face.weights(BLACK, WHITE)] * len(board.poses)
+    paper = painted(seen[:: len(outlines)], [share] * len(board.poses), size)
+    return paper, painted(seen, weights, size)
 
 
 def _cut(outline: Array, rig: Rig, face: Face) -> Array:
