@@ -6,11 +6,19 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from tests.benchmarks.limits.conditions_run import ConditionRun, measure_condition, measure_empty
-from tests.benchmarks.limits.finders import Searchers
-from tests.benchmarks.limits.judging import COVERED, Judged, Outcome
+from tests.benchmarks.limits.conditions_run import (
+    ConditionRun,
+    measure_condition,
+    measure_empty,
+    measure_kept,
+)
+from tests.benchmarks.limits.finders import Searchers, tracker_of
+from tests.benchmarks.limits.judging import COVERED, Judged, Outcome, claim_of, judged
 from tests.benchmarks.scenes.conditions import conditions_of
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.hand import hand_scenes
 from tests.benchmarks.scenes.rigs import RIGS
+from tests.benchmarks.scenes.scene import image_of
 
 # `make benchmark` measures with other seeds.
 SEED = 500
@@ -53,6 +61,17 @@ TIP_OF_BOUND = {
 }
 # Median, mm: the bound's camera answers straight, this one does not.
 GAMMA_TIP_MM = {"A": Level(1.8, 1.0), "B": Level(0.08, 0.08)}
+# By step, after the condition has set in.
+KEPT = {
+    ("A", "cover10"): Level(0.99, 0.99),
+    ("A", "cover30"): Level(0.45, 0.99),
+    ("A", "glare1.6"): Level(0.0, 0.99),
+    ("A", "shadow0.8"): Level(0.45, 0.99),
+    ("B", "cover30"): Level(0.0, 0.99),
+}
+SEQUENCES = 6
+# By step, a hand at 300 mm/s.
+FOUND_IN_FAST_HAND, IMAGES_OF_A_HAND = Level(0.99, 0.99), 20
 # Poses at base that are nearer to the wrong one of the two planar solutions.
 MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
 # Of the errors inside their stated 95 % ellipsoid, in base, noise and motion together: least and most.
@@ -105,6 +124,27 @@ def test_the_tip_is_about_as_true_as_it_can_be(rig: str, condition: str, searche
 def test_a_camera_that_answers_not_straight_hardly_moves_the_tip(rig: str, searchers: Searchers) -> None:
     tips = [one.errors["tip_mm"] for one in right(run_of(rig, "gamma2.2", searchers))]
     assert float(np.median(tips)) <= GAMMA_TIP_MM[rig].asserted
+
+
+@pytest.mark.parametrize(("rig", "condition"), KEPT, ids=map(" ".join, KEPT))
+def test_a_marker_that_was_found_is_kept(rig: str, condition: str) -> None:
+    harder = conditions_of(RIGS[rig])[condition]
+    images = measure_kept(RIGS[rig], harder, sequences=SEQUENCES, seed=SEED)
+    assert [one for one in images if one.outcome is Outcome.WRONG] == []
+    found = sum(one.outcome is Outcome.RIGHT for one in images)
+    assert found >= KEPT[rig, condition].asserted * len(images)
+
+
+def test_a_fast_hand_is_followed() -> None:
+    images = []
+    for nth, face in enumerate(FACES):
+        tracker = tracker_of(RIGS["A"], [face])
+        for at_s, scene in hand_scenes(RIGS["A"], face, "fast", seed=SEED + nth, count=IMAGES_OF_A_HAND):
+            sighting = tracker.step(image_of(scene), captured_at_s=at_s)[face.name]
+            images.append(judged(scene, claim_of(sighting)))
+    assert [one for one in images if one.outcome is Outcome.WRONG] == []
+    found = sum(one.outcome is Outcome.RIGHT for one in images)
+    assert found >= FOUND_IN_FAST_HAND.asserted * len(images)
 
 
 @pytest.mark.parametrize("rig", MIRRORED)

@@ -14,8 +14,9 @@ from tests.benchmarks.scenes.placing import empty_scene, random_scene
 from tests.benchmarks.scenes.rigs import Rig
 from tests.benchmarks.scenes.scene import image_of
 
-# A hand holds the marker, three images are sound, then the condition sets in.
-SOUND_IMAGES, SPOILT_IMAGES = 3, 7
+# A hand holds the marker, two images are sound, then the condition sets in.
+SOUND_IMAGES, SPOILT_IMAGES = 2, 4
+SCENES_FOR_A_SEQUENCE = 4
 MOST_BOUNDS = 12
 
 
@@ -73,8 +74,8 @@ def measure_condition(
             own = random_scene(rig, peer.face, condition, seed=seed + number)
             run.peers[peer.name].append(judged(own, peer.search(own.rig, image_of(own))))
     if with_tracking and sets_in(condition):
-        sequences = max(1, round(count / 8))
-        run.stepped = [one for nth in range(sequences) for one in _kept(rig, condition, seed, nth)]
+        sequences = max(1, count // SCENES_FOR_A_SEQUENCE)
+        run.stepped = measure_kept(rig, condition, sequences=sequences, seed=seed)
     return run
 
 
@@ -88,11 +89,15 @@ def sets_in(condition: Condition) -> bool:
     return condition.tilt_deg == BASE.tilt_deg and not condition.has_bent_lens and has_bound(condition)
 
 
-def _kept(rig: Rig, condition: Condition, seed: int, nth: int) -> Iterator[Judged]:
-    """The images of one sequence after the condition has set in.
+def measure_kept(rig: Rig, condition: Condition, *, sequences: int, seed: int) -> list[Judged]:
+    """By `Tracker.step`, the images of all sequences after the condition has set in.
 
     A hand that is still, because the condition brings its own motion.
     """
+    return [one for nth in range(sequences) for one in _kept(rig, condition, seed, nth)]
+
+
+def _kept(rig: Rig, condition: Condition, seed: int, nth: int) -> Iterator[Judged]:
     face = FACES[nth % len(FACES)]
     tracker = tracker_of(rig, [face])
     scenes = hand_scenes(

@@ -28,6 +28,7 @@ def _of_conditions(run: LimitsRun) -> Iterator[Named]:
             yield from _claims(name, [*one.searched, *one.stepped])
             yield f"{name}, tip mm, median", size_of(errors(one.searched, "tip_mm"))
             yield f"{name}, tip by bound, median", size_of(one.of_bound)
+            yield f"{name}, tip mm by step, median", size_of(errors(one.stepped, "tip_mm"))
         for way, all_of in (
             ("search", [each for one in some for each in one.searched]),
             ("step", [each for one in some for each in one.stepped]),

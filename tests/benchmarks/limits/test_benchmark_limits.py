@@ -183,6 +183,6 @@ def test_a_condition_is_measured_from_end_to_end() -> None:
     run = measure(Asked(rigs="A", conditions=("base",), images=3, seed=11))
     (base,) = run.conditions["A"]
     assert [one.outcome for one in base.searched] == [Outcome.RIGHT] * 3
-    assert [one.outcome for one in base.stepped] == [Outcome.RIGHT] * 7
+    assert [one.outcome for one in base.stepped] == [Outcome.RIGHT] * 4
     assert len(base.bounds) == len(base.of_bound) == 3
     assert all(0.0 < bound.tip_mm < 1.0 for bound in base.bounds)
