@@ -79,11 +79,15 @@ def _pair_of(goal: tuple[float, float] | None) -> str:
 
 
 def _four(run: LimitsRun, one: PaceRun) -> str:
-    """How much longer a step takes with four markers in view than with one."""
+    """How much longer a step takes with four markers in view than with one, both by the same peer.
+
+    Not in ms, because other work may slow down one of both.
+    """
     if one.in_view == 1:
         return NOTHING
     single = next(each for each in run.paces if each.rig == one.rig and each.known == 1)
-    times = median(one.step_ms) / median(single.step_ms)
+    by_peer = [median(ratios(each.step_ms, each.by_step_ms)) for each in (one, single)]
+    times = by_peer[0] / by_peer[1]
     return f"{times:.2f} of one, goal {goals.FOUR_OF_ONE:g}"
 
 
