@@ -24,12 +24,24 @@ class Share:
     Attributes:
         is_good: whether more is better.
         is_strict: whether even one more (or less) counts, as for a wrong claim: no chance excuses it.
+        in_a_row: images of one sequence that stand or fall together, and so are one look and not many.
     """
 
     count: int
     of: int
     is_good: bool = True
     is_strict: bool = False
+    in_a_row: int = 1
+
+    @property
+    def ratio(self) -> float:
+        """The share."""
+        return self.count / self.of
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Where the true share may lie."""
+        return interval(self.count / self.in_a_row, self.of / self.in_a_row)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +76,7 @@ def size_of(values: Sequence[float], percent: float = 50.0, *, is_time: bool = F
     return Size(value=float(np.percentile(numbers, percent)), log_sd=spread, count=len(numbers))
 
 
-def interval(count: int, of: int, sd: float = NOISE_SD) -> tuple[float, float]:
+def interval(count: float, of: float, sd: float = NOISE_SD) -> tuple[float, float]:
     """Wilson's interval for a share."""
     if of == 0:
         return 0.0, 1.0
@@ -80,14 +92,11 @@ def is_worse(then: Figure, now: Figure) -> bool:
         return math.log(now.value / then.value) > NOISE_SD * math.hypot(then.log_sd, now.log_sd)
     if isinstance(then, Share) and isinstance(now, Share) and then.of and now.of:
         good, bad = (then, now) if then.is_good else (now, then)
-        fall = good.count / good.of - bad.count / bad.of
+        fall = good.ratio - bad.ratio
         if now.is_strict:
             return fall > 0.0
         # Newcombe's interval for the difference of two shares: noise, if it reaches zero.
-        reach = math.hypot(
-            good.count / good.of - interval(good.count, good.of)[0],
-            interval(bad.count, bad.of)[1] - bad.count / bad.of,
-        )
+        reach = math.hypot(good.ratio - good.range[0], bad.range[1] - bad.ratio)
         return fall > reach
     return False
 
@@ -113,7 +122,7 @@ def better_figures(then: Mapping[str, Figure], now: Mapping[str, Figure]) -> lis
 def said(figure: Figure) -> str:
     """The figure in a few words."""
     if isinstance(figure, Share):
-        share = f"{figure.count / figure.of:.3f}" if figure.of else "none"
+        share = f"{figure.ratio:.3f}" if figure.of else "none"
         return f"{share} ({figure.count} of {figure.of})"
     return f"{figure.value:.3g} (n {figure.count}, ± {100.0 * figure.log_sd:.0f} %)"
 
@@ -156,4 +165,5 @@ def _figure(values: Mapping[str, float | bool]) -> Figure:
         of=int(values["of"]),
         is_good=bool(values["is_good"]),
         is_strict=bool(values["is_strict"]),
+        in_a_row=int(values.get("in_a_row", 1)),
     )

@@ -67,6 +67,13 @@ def errors_like(median_mm: float, *, seed: int, count: int = 24) -> Size:
             Size(value=1.0, log_sd=0.1, count=24), Size(value=0.1, log_sd=0.1, count=24), False, id="a tenth"
         ),
         pytest.param(Share(count=0, of=0), Share(count=0, of=9), False, id="nothing to compare with"),
+        pytest.param(Share(count=285, of=285), Share(count=12, of=16), True, id="four of 16 images"),
+        pytest.param(
+            Share(count=285, of=285, in_a_row=4),
+            Share(count=12, of=16, in_a_row=4),
+            False,
+            id="one of four sequences",
+        ),
     ],
 )
 def test_a_worsening_is_told_from_noise(then: Figure, now: Figure, expected: bool) -> None:

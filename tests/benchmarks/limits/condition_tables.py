@@ -147,7 +147,7 @@ def _coverage_table(run: LimitsRun) -> Table:
         columns=["camera, condition", "n", *COVERED],
         rows=rows,
         note=f"Goal {goals.COVERED[0]:g} to {goals.COVERED[1]:g}; in brackets where the true share lies in "
-        "19 of 20 such runs.",
+        "19 of 20 such runs, if images were independent, which those of a sequence (step, hands) are not.",
     )
 
 

@@ -1,5 +1,6 @@
 """Every condition: what search finds, how true it is, what tracking keeps, what peers find, the bound."""
 
+import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -92,9 +93,11 @@ def sets_in(condition: Condition) -> bool:
 def measure_kept(rig: Rig, condition: Condition, *, sequences: int, seed: int) -> list[Judged]:
     """By `Tracker.step`, the images of all sequences after the condition has set in.
 
-    A hand that is still, because the condition brings its own motion.
+    A hand that is still, because the condition brings its own motion. Each condition has poses of its own,
+    because a sequence looks at one pose alone.
     """
-    return [one for nth in range(sequences) for one in _kept(rig, condition, seed, nth)]
+    own = seed + zlib.crc32(condition.name.encode()) % 10_000
+    return [one for nth in range(sequences) for one in _kept(rig, condition, own, nth)]
 
 
 def _kept(rig: Rig, condition: Condition, seed: int, nth: int) -> Iterator[Judged]:

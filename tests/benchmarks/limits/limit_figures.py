@@ -4,9 +4,13 @@ from collections.abc import Iterator, Sequence
 
 from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import errors, right, stated, wrong
+from tests.benchmarks.limits.conditions_run import SPOILT_IMAGES
 from tests.benchmarks.limits.judging import COVERED, Judged
 from tests.benchmarks.limits.pace_tables import ratios
 from tests.benchmarks.limits.run import LimitsRun
+
+# A hand that is lost, or followed by the wrong solution, stays so for some images.
+LOST_IN_A_ROW = 10
 
 
 def limit_figures(run: LimitsRun) -> dict[str, Figure]:
@@ -24,38 +28,44 @@ def _of_conditions(run: LimitsRun) -> Iterator[Named]:
             name = f"{rig} {one.condition}"
             yield f"{name}, found by search", Share(count=right(one.searched), of=len(one.searched))
             if one.stepped:
-                yield f"{name}, kept by step", Share(count=right(one.stepped), of=len(one.stepped))
-            yield from _claims(name, [*one.searched, *one.stepped])
+                kept = Share(count=right(one.stepped), of=len(one.stepped), in_a_row=SPOILT_IMAGES)
+                yield f"{name}, kept by step", kept
+            yield from _claims(f"{name} by search", one.searched)
+            yield from _claims(f"{name} by step", one.stepped, SPOILT_IMAGES)
             yield f"{name}, tip mm, median", size_of(errors(one.searched, "tip_mm"))
             yield f"{name}, tip by bound, median", size_of(one.of_bound)
             yield f"{name}, tip mm by step, median", size_of(errors(one.stepped, "tip_mm"))
-        for way, all_of in (
-            ("search", [each for one in some for each in one.searched]),
-            ("step", [each for one in some for each in one.stepped]),
+        for way, in_a_row, all_of in (
+            ("search", 1, [each for one in some for each in one.searched]),
+            ("step", SPOILT_IMAGES, [each for one in some for each in one.stepped]),
         ):
-            yield from _coverage(f"{rig} all, {way}", all_of)
+            yield from _coverage(f"{rig} all, {way}", all_of, in_a_row)
 
 
-def _claims(name: str, judgements: Sequence[Judged]) -> Iterator[Named]:
+def _claims(name: str, judgements: Sequence[Judged], in_a_row: int = 1) -> Iterator[Named]:
     count = len(judgements)
+    if not count:
+        return
     yield f"{name}, wrong", Share(count=wrong(judgements), of=count, is_good=False, is_strict=True)
     mirrored = sum(one.is_mirrored for one in judgements)
-    yield f"{name}, mirrored", Share(count=mirrored, of=count, is_good=False)
+    yield f"{name}, mirrored", Share(count=mirrored, of=count, is_good=False, in_a_row=in_a_row)
 
 
-def _coverage(name: str, judgements: Sequence[Judged]) -> Iterator[Named]:
+def _coverage(name: str, judgements: Sequence[Judged], in_a_row: int) -> Iterator[Named]:
     """Only too few inside is worse: a covariance that promises too little misleads nobody."""
     some = stated(judgements)
     for number, what in enumerate(COVERED):
         inside = sum(one.covered[number] for one in some)
-        yield f"{name}, {what} inside 95 %", Share(count=inside, of=len(some)) if some else None
+        share = Share(count=inside, of=len(some), in_a_row=in_a_row) if some else None
+        yield f"{name}, {what} inside 95 %", share
 
 
 def _of_hands(run: LimitsRun) -> Iterator[Named]:
     for one in run.hands:
         name = f"{one.rig} hand {one.speed}"
-        yield f"{name}, found by step", Share(count=right(one.stepped), of=len(one.stepped))
-        yield from _claims(name, one.stepped)
+        found = Share(count=right(one.stepped), of=len(one.stepped), in_a_row=LOST_IN_A_ROW)
+        yield f"{name}, found by step", found
+        yield from _claims(name, one.stepped, LOST_IN_A_ROW)
         yield f"{name}, tip mm, median", size_of(errors(one.stepped, "tip_mm"))
         yield f"{name}, tip mm, p95", size_of(errors(one.stepped, "tip_mm"), 95.0)
         yield f"{name}, step by cv2.aruco, median", size_of(one.ratios, is_time=True)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.asked import Asked
+from tests.benchmarks.figures import Share
 from tests.benchmarks.limits.condition_tables import condition_tables
-from tests.benchmarks.limits.conditions_run import ConditionRun
+from tests.benchmarks.limits.conditions_run import SPOILT_IMAGES, ConditionRun
 from tests.benchmarks.limits.judging import Claim, Judged, Outcome, judged
 from tests.benchmarks.limits.limit_figures import limit_figures
 from tests.benchmarks.limits.limit_plots import limit_plots
@@ -164,8 +165,9 @@ def test_a_peer_that_is_not_installed_has_a_column_that_says_so() -> None:
 
 def test_figures_count_what_the_tables_show() -> None:
     figures = limit_figures(invented_run(with_apriltag=True))
-    assert str(figures["A base, found by search"]) == "Share(count=2, of=4, is_good=True, is_strict=False)"
-    assert str(figures["A base, wrong"]) == "Share(count=1, of=6, is_good=False, is_strict=True)"
+    assert figures["A base, found by search"] == Share(count=2, of=4)
+    assert figures["A base, kept by step"] == Share(count=2, of=2, in_a_row=SPOILT_IMAGES)
+    assert figures["A base by search, wrong"] == Share(count=1, of=4, is_good=False, is_strict=True)
     assert "768x576, 1 known, 1 in view, search by cv2.aruco, median" in figures
 
 
