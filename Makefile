@@ -90,7 +90,7 @@ test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests
 	$(PYTHON_IN_VENV) .make/some-test-passed .venv/log/pytest.xml
 
 .PHONY: benchmark
-benchmark: ready $(STAMPS)/dev ## time each stage, and measure the poses against the rehearsal's truth
+benchmark: ready $(STAMPS)/dev ## how true and how fast the tracker is, beside its peers, and what got worse
 	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)
 
 .PHONY: lock

@@ -1,13 +1,17 @@
-"""Benchmarks: error of each pose against the rehearsal's truth, and time of each stage, as Markdown tables.
+"""Benchmarks: how true and how fast the tracker is beside its peers and the bound, as Markdown tables.
 
-python -m tests.benchmarks [rehearsal | overlay | server] [--write]
+python -m tests.benchmarks [limits | rehearsal | overlay | server] [--write]
 """
 
 import argparse
 import sys
+from collections.abc import Mapping
 
 from tests.benchmarks.asked import Asked
+from tests.benchmarks.dot_plots import write_plots
+from tests.benchmarks.figures import Figure, better_figures, read_figures, worse_figures, write_figures
 from tests.benchmarks.machine import machine_line
+from tests.benchmarks.measured import Measured
 from tests.benchmarks.readme import write_section
 from tests.benchmarks.sections import SECTIONS
 from tracker.errors import NavigationError
@@ -25,18 +29,24 @@ def main(arguments: list[str] | None = None) -> None:
         blur=given.blur,
         clutter=given.clutter,
         light=given.light,
+        rigs=given.rigs,
+        conditions=given.conditions,
+        images=given.n,
+        seed=given.seed,
     )
+    written = read_figures()
     for name in SECTIONS if given.what == "all" else (given.what,):
         try:
-            tables = SECTIONS[name](asked)
+            measured = SECTIONS[name](asked)
         except NavigationError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(2)
-        content = "\n".join([_said_of(asked), *(table.markdown for table in tables)])
-        sys.stdout.write(f"## {name}\n\n{content}\n")
+        said = asked.said_of_limits if name == "limits" else asked.said_of_theatres
+        content = "\n".join([f"{machine_line()} {said}\n", *(table.markdown for table in measured.tables)])
+        sys.stdout.write(f"## {name}\n\n{content}\n{_compared(written.get(name, {}), measured)}\n")
         sys.stdout.flush()
         if given.write:
-            write_section(name, content)
+            _write(name, content, measured)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -49,21 +59,47 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--live-seconds", type=float, default=default.live_seconds, help="of the live server")
     for name in ("noise", "blur", "clutter", "light"):
         parser.add_argument(f"--{name}", type=float, default=1.0, help="0 none, 1 good, 10 very hard")
+    parser.add_argument("--rigs", default=default.rigs, help="cameras of the limits, as A or AB")
+    parser.add_argument("--conditions", type=_names, default=(), help="of the limits, as base,cover10")
+    parser.add_argument(
+        "--n", type=int, default=default.images, help="scenes of each condition of the limits"
+    )
+    parser.add_argument("--seed", type=int, default=default.seed, help="of the first scene of the limits")
     parser.add_argument("--write", action="store_true", help="write the tables into the README")
     return parser
 
 
+def _compared(then: Mapping[str, Figure], measured: Measured) -> str:
+    """What got worse than the written table by more than the noise, and what got better."""
+    both = sum(name in then for name in measured.figures)
+    if not both:
+        return ""
+    lines = []
+    for word, some in (
+        ("Worse", worse_figures(then, measured.figures)),
+        ("Better", better_figures(then, measured.figures)),
+    ):
+        lines.append(f"{word} than the written table by more than the noise: {len(some)} of {both} figures.")
+        lines += [f"- {line}" for line in some]
+    return "\n".join([*lines, ""])
+
+
+def _write(name: str, content: str, measured: Measured) -> None:
+    if not measured.is_whole:
+        sys.stderr.write("Not written: only a part was measured. Leave out --rigs and --conditions.\n")
+        return
+    write_section(name, content)
+    write_plots(measured.plots)
+    if measured.figures:
+        write_figures(name, measured.figures)
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(",") if name.strip())
+
+
 def _seeds(text: str) -> tuple[int, ...]:
     return tuple(int(seed) for seed in text.split(","))
-
-
-def _said_of(asked: Asked) -> str:
-    seeds = ", ".join(map(str, asked.seeds))
-    return (
-        f"{machine_line()} Seeds {seeds} (a server plays the first); offline {asked.seconds:g} s each at "
-        f"{asked.rate_hz:g} Hz; noise {asked.noise:g}, blur {asked.blur:g}, clutter {asked.clutter:g}, "
-        f"light {asked.light:g}.\n"
-    )
 
 
 if __name__ == "__main__":

@@ -15,6 +15,10 @@ class Asked:
         rate_hz: images a second, offline.
         live_seconds: how long the server is listened to.
         noise, blur, clutter, light: how hard the rehearsal is, 1 is a good camera in good light.
+        rigs: letters of the cameras of the limits.
+        conditions: of the limits, by name; none for all, and for hands, pace and empty images too.
+        images: of each condition of the limits.
+        seed: of their first image.
     """
 
     seeds: tuple[int, ...] = (1, 2, 3)
@@ -25,6 +29,31 @@ class Asked:
     blur: float = 1.0
     clutter: float = 1.0
     light: float = 1.0
+    rigs: str = "AB"
+    conditions: tuple[str, ...] = ()
+    images: int = 18
+    seed: int = 0
+
+    @property
+    def is_usual_theatre(self) -> bool:
+        """Whether the rehearsal is as hard as it is when nobody asks for anything."""
+        return self.noise == self.blur == self.clutter == self.light == 1.0
+
+    @property
+    def said_of_theatres(self) -> str:
+        """Which theatres are measured, in a sentence."""
+        seeds = ", ".join(map(str, self.seeds))
+        return (
+            f"Seeds {seeds} (a server plays the first); offline {self.seconds:g} s each at "
+            f"{self.rate_hz:g} Hz; noise {self.noise:g}, blur {self.blur:g}, clutter {self.clutter:g}, "
+            f"light {self.light:g}."
+        )
+
+    @property
+    def said_of_limits(self) -> str:
+        """Which scenes are measured, in a sentence."""
+        which = ", ".join(self.conditions) or "all conditions"
+        return f"Cameras {self.rigs}; {which}; {self.images} scenes of each from seed {self.seed} on."
 
     def settings_of(self, seed: int, size_wh_px: tuple[int, int] = (1280, 720)) -> TheatreSettings:
         """The theatre of a seed, as hard as was asked."""

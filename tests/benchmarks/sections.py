@@ -2,13 +2,19 @@
 
 from collections.abc import Callable
 
-import cv2
-
 from tests.benchmarks import accuracy, live, timing
 from tests.benchmarks.asked import Asked
+from tests.benchmarks.figures import Figure, Share, size_of
+from tests.benchmarks.limits.condition_tables import condition_tables
+from tests.benchmarks.limits.limit_figures import limit_figures
+from tests.benchmarks.limits.limit_plots import limit_plots
+from tests.benchmarks.limits.pace_tables import pace_tables
+from tests.benchmarks.limits.run import measure, one_thread
+from tests.benchmarks.measured import Measured
 from tests.benchmarks.offline import Offline, measure_offline, times_s
 from tests.benchmarks.overlay import measure_overlay
 from tests.benchmarks.running_server import running_server
+from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.tables import Table
 from tests.benchmarks.viewer import measure_viewer
 from tracker.rehearsal import Theatre
@@ -18,17 +24,30 @@ MEDIAN_95 = "Sizes of errors, median / 95th percentile, of the claims that are n
 MEDIAN_99 = "median / 99th percentile"
 
 
-def measure_rehearsal(asked: Asked) -> list[Table]:
+def measure_limits(asked: Asked) -> Measured:
+    """The tracker on scenes of all conditions, beside its peers and the bound."""
+    run = measure(asked)
+    return Measured(
+        tables=[*condition_tables(run), *pace_tables(run)],
+        figures=limit_figures(run),
+        plots=limit_plots(run),
+        is_whole=not asked.conditions and set(asked.rigs) == set(RIGS),
+    )
+
+
+def measure_rehearsal(asked: Asked) -> Measured:
     """Poses against the truth: image by image, then as a running server tells them."""
-    return [*_offline_tables(asked), *_live_tables(asked)]
+    measured = _offline(asked)
+    return Measured(
+        tables=[*_offline_tables(measured), *_live_tables(asked)],
+        # A harder theatre than the written one says nothing about the tracker.
+        figures=_offline_figures(measured) if asked.is_usual_theatre else {},
+    )
 
 
-def _offline_tables(asked: Asked) -> list[Table]:
+def _offline(asked: Asked) -> Offline:
     measured = Offline()
-    threads = cv2.getNumThreads()
-    # One thread each, so that the ratio compares work and not cores.
-    cv2.setNumThreads(1)
-    try:
+    with one_thread():
         for seed in asked.seeds:
             one = measure_offline(
                 Theatre(asked.settings_of(seed)), times_s(seconds=asked.seconds, rate_hz=asked.rate_hz)
@@ -36,8 +55,10 @@ def _offline_tables(asked: Asked) -> list[Table]:
             measured.stepped += one.stepped
             measured.searched += one.searched
             measured.timed += one.timed
-    finally:
-        cv2.setNumThreads(threads)
+    return measured
+
+
+def _offline_tables(measured: Offline) -> list[Table]:
     groups = accuracy.groups_by_phase(measured.stepped)
     both = [("step", measured.stepped), ("search alone", measured.searched)]
     return [
@@ -50,6 +71,23 @@ def _offline_tables(asked: Asked) -> list[Table]:
             f"Against `cv2.aruco` on the same images, {MEDIAN_99}, one thread", measured.timed
         ),
     ]
+
+
+def _offline_figures(measured: Offline) -> dict[str, Figure]:
+    figures: dict[str, Figure | None] = {}
+    for way, some in (("step", measured.stepped), ("search", measured.searched)):
+        in_view = sum(one.in_view for one in some)
+        false = len(accuracy.false_claims(some))
+        found = in_view - len(accuracy.missed(some)) - sum(one.in_view for one in accuracy.false_claims(some))
+        figures[f"{way}, found in view"] = Share(count=found, of=in_view)
+        figures[f"{way}, false claims"] = Share(count=false, of=len(some), is_good=False, is_strict=True)
+        figures[f"{way}, tip mm, median"] = size_of([one.tip_mm for one in accuracy.errors_of(some)])
+    for way, ratios in (
+        ("step", [one.step_ms / one.aruco_ms for one in measured.timed if one.tracked]),
+        ("search", [one.search_ms / one.aruco_ms for one in measured.timed]),
+    ):
+        figures[f"{way} by cv2.aruco, median"] = size_of(ratios, is_time=True)
+    return {name: figure for name, figure in figures.items() if figure is not None}
 
 
 def _live_tables(asked: Asked) -> list[Table]:
@@ -68,14 +106,20 @@ def _live_tables(asked: Asked) -> list[Table]:
     ]
 
 
-def measure_server(asked: Asked) -> list[Table]:
+def measure_drawing(asked: Asked) -> Measured:
+    """Drawing and encoding one image."""
+    return Measured(tables=measure_overlay(asked))
+
+
+def measure_server(asked: Asked) -> Measured:
     """A running server with one viewer of pictures."""
     with running_server(asked, seed=asked.seeds[0], live_rate_hz=LIVE_RATE_HZ) as server:
-        return measure_viewer(server)
+        return Measured(tables=measure_viewer(server))
 
 
-SECTIONS: dict[str, Callable[[Asked], list[Table]]] = {
+SECTIONS: dict[str, Callable[[Asked], Measured]] = {
+    "limits": measure_limits,
     "rehearsal": measure_rehearsal,
-    "overlay": measure_overlay,
+    "overlay": measure_drawing,
     "server": measure_server,
 }

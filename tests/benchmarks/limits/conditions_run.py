@@ -1,0 +1,131 @@
+"""Every condition: what search finds, how true it is, what tracking keeps, what peers find, the bound."""
+
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from tests.benchmarks.limits.finders import Searchers, tracker_of
+from tests.benchmarks.limits.judging import Judged, Outcome, claim_of, judged
+from tests.benchmarks.limits.peers import Peer
+from tests.benchmarks.scenes.bound import Bound, bound_of
+from tests.benchmarks.scenes.conditions import BASE, Condition
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.hand import hand_scenes
+from tests.benchmarks.scenes.placing import empty_scene, random_scene
+from tests.benchmarks.scenes.rigs import Rig
+from tests.benchmarks.scenes.scene import image_of
+
+# A hand holds the marker, two images are sound, then the condition sets in.
+SOUND_IMAGES, SPOILT_IMAGES = 2, 4
+SCENES_FOR_A_SEQUENCE = 4
+MOST_BOUNDS = 12
+
+
+@dataclass(slots=True)
+class ConditionRun:
+    """All that one camera gave in one condition.
+
+    Attributes:
+        searched: by `Tracker.search`, one for each scene.
+        faces: name of the marker of each scene.
+        bounds: of the first scenes; none where the image model of the bound does not hold.
+        stepped: by `Tracker.step`, the images after the condition has set in.
+        peers: by name, one for each scene, with their own markers at the same poses.
+    """
+
+    rig: str
+    condition: str
+    searched: list[Judged] = field(default_factory=list)
+    faces: list[str] = field(default_factory=list)
+    bounds: list[Bound] = field(default_factory=list)
+    stepped: list[Judged] = field(default_factory=list)
+    peers: dict[str, list[Judged]] = field(default_factory=dict)
+
+    @property
+    def of_bound(self) -> list[float]:
+        """Tip errors by the bound of the same scene, of the right claims."""
+        return [
+            one.errors["tip_mm"] / bound.tip_mm
+            for one, bound in zip(self.searched, self.bounds, strict=False)
+            if one.outcome is Outcome.RIGHT
+        ]
+
+
+def measure_condition(
+    rig: Rig,
+    condition: Condition,
+    *,
+    peers: Sequence[Peer],
+    searchers: Searchers,
+    count: int,
+    seed: int,
+    with_tracking: bool = True,
+    most_bounds: int = MOST_BOUNDS,
+) -> ConditionRun:
+    """`count` scenes, the faces in turn."""
+    run = ConditionRun(rig=rig.name, condition=condition.name, peers={peer.name: [] for peer in peers})
+    for number in range(count):
+        face = FACES[number % len(FACES)]
+        scene = random_scene(rig, face, condition, seed=seed + number)
+        run.faces.append(face.name)
+        run.searched.append(judged(scene, searchers.claim(scene)))
+        if number < most_bounds and has_bound(condition):
+            run.bounds.append(bound_of(scene))
+        for peer in peers:
+            own = random_scene(rig, peer.face, condition, seed=seed + number)
+            run.peers[peer.name].append(judged(own, peer.search(own.rig, image_of(own))))
+    if with_tracking and sets_in(condition):
+        sequences = max(1, count // SCENES_FOR_A_SEQUENCE)
+        run.stepped = measure_kept(rig, condition, sequences=sequences, seed=seed)
+    return run
+
+
+def has_bound(condition: Condition) -> bool:
+    """Whether the bound's camera, which answers straight, is this one."""
+    return condition.gamma == BASE.gamma
+
+
+def sets_in(condition: Condition) -> bool:
+    """Whether it can set in while the marker is tracked; a lens, a camera's gamma and a tilt cannot."""
+    return condition.tilt_deg == BASE.tilt_deg and not condition.has_bent_lens and has_bound(condition)
+
+
+def measure_kept(rig: Rig, condition: Condition, *, sequences: int, seed: int) -> list[Judged]:
+    """By `Tracker.step`, the images of all sequences after the condition has set in.
+
+    A hand that is still, because the condition brings its own motion. Each condition has poses of its own,
+    because a sequence looks at one pose alone.
+    """
+    own = seed + zlib.crc32(condition.name.encode()) % 10_000
+    return [one for nth in range(sequences) for one in _kept(rig, condition, own, nth)]
+
+
+def _kept(rig: Rig, condition: Condition, seed: int, nth: int) -> Iterator[Judged]:
+    face = FACES[nth % len(FACES)]
+    tracker = tracker_of(rig, [face])
+    scenes = hand_scenes(
+        rig,
+        face,
+        "still",
+        seed=seed + nth,
+        count=SOUND_IMAGES + SPOILT_IMAGES,
+        condition=condition,
+        sound_images=SOUND_IMAGES,
+    )
+    for number, (at_s, scene) in enumerate(scenes):
+        sighting = tracker.step(image_of(scene), captured_at_s=at_s)[face.name]
+        if number >= SOUND_IMAGES:
+            yield judged(scene, claim_of(sighting))
+
+
+def measure_empty(rig: Rig, *, peers: Sequence[Peer], count: int, seed: int) -> dict[str, list[Judged]]:
+    """Images without a marker; the tracker looks for all faces at once, each of which could be claimed."""
+    tracker = tracker_of(rig, FACES)
+    found: dict[str, list[Judged]] = {"coaxial": [], **{peer.name: [] for peer in peers}}
+    for number in range(count):
+        scene = empty_scene(rig, seed=seed + number)
+        image = image_of(scene)
+        found["coaxial"] += [judged(scene, claim_of(one)) for one in tracker.search(image).values()]
+        for peer in peers:
+            found[peer.name].append(judged(scene, peer.search(rig, image)))
+    return found

@@ -1,0 +1,76 @@
+"""A finger that reaches into the image and covers a share of the marker."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.benchmarks.scenes.area import painted
+from tests.benchmarks.scenes.clutter import Floats
+from tracker.geometry import Array
+
+FINE = 4
+TIP_CORNERS = 32
+HALVINGS = 30
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finger:
+    """A long rounded shape before the marker.
+
+    Attributes:
+        tip_px: middle (2,) of its round end.
+        towards: direction (2,) from the tip to the hand.
+        half_px: half its width.
+        reflectance: of its ridge; it is darker to its sides.
+    """
+
+    tip_px: Array
+    towards: Array
+    half_px: float
+    reflectance: float
+
+    def outline_px(self, reach_px: float) -> Array:
+        """Its outline (n, 2), so far from its tip."""
+        across = np.array([-self.towards[1], self.towards[0]])
+        turn = np.linspace(0.5 * np.pi, 1.5 * np.pi, TIP_CORNERS)
+        end = np.outer(np.cos(turn), self.towards) + np.outer(np.sin(turn), across)
+        far = self.towards * reach_px + np.outer([-1.0, 1.0], across) * self.half_px
+        return np.concatenate([self.tip_px + self.half_px * end, self.tip_px + far])
+
+    def share(self, left_px: float, top_px: float, size_wh: tuple[int, int], finer: int = 1) -> Array:
+        """How much of each cell (h, w) of a grid it covers, whose first pixel is (left, top)."""
+        outline = (self.outline_px(6000.0) - [left_px, top_px]) * finer + (finer - 1) / 2
+        return painted([outline], [1.0], size_wh)
+
+    def shade(self, left_px: float, top_px: float, size_wh: tuple[int, int], finer: int = 1) -> Floats:
+        """Its reflectance at each cell (h, w), as round as a cylinder."""
+        u = left_px + (np.arange(size_wh[0]) - (finer - 1) / 2) / finer - self.tip_px[0]
+        v = top_px + (np.arange(size_wh[1]) - (finer - 1) / 2) / finer - self.tip_px[1]
+        off = (v[:, None] * self.towards[0] - u[None, :] * self.towards[1]) / self.half_px
+        return np.asarray(self.reflectance * np.sqrt(np.clip(1.0 - 0.7 * off * off, 0.1, 1.0)), np.float32)
+
+
+def finger_over(square_px: Array, cover_ratio: float, random: np.random.Generator) -> Finger:
+    """A finger from a random side, pushed in until it covers this share of the square (4, 2)."""
+    angle, aside = random.uniform(0.0, 2.0 * np.pi), random.uniform(-0.35, 0.35)
+    half, reflectance = random.uniform(0.45, 0.8), random.uniform(0.15, 0.75)
+    towards = np.array([np.cos(angle), np.sin(angle)])
+    side = float(np.linalg.norm(square_px - np.roll(square_px, 1, axis=0), axis=1).max())
+    across = np.array([-towards[1], towards[0]])
+    left, top = np.floor(square_px.min(axis=0)) - 2.0
+    columns, rows = ((np.ceil(square_px.max(axis=0)) - [left, top] + 2.0) * FINE).astype(int).tolist()
+    inside = painted([(square_px - [left, top]) * FINE + (FINE - 1) / 2], [1.0], (columns, rows))
+
+    def at(far: float) -> Finger:
+        tip = square_px.mean(axis=0) + towards * far * side + across * aside * side
+        return Finger(tip_px=tip, towards=towards, half_px=half * side, reflectance=reflectance)
+
+    near, far = -2.5, 2.5
+    for _ in range(HALVINGS):
+        middle = 0.5 * (near + far)
+        share = at(middle).share(left, top, (columns, rows), FINE)
+        if float(np.sum(share * inside)) > cover_ratio * float(inside.sum()):
+            near = middle
+        else:
+            far = middle
+    return at(0.5 * (near + far))

@@ -1,0 +1,169 @@
+"""The tracker near the limit of what the pixels hold, on a small set of scenes that is the same each time."""
+
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from tests.benchmarks.limits.conditions_run import (
+    ConditionRun,
+    measure_condition,
+    measure_empty,
+    measure_kept,
+)
+from tests.benchmarks.limits.finders import Searchers, tracker_of
+from tests.benchmarks.limits.judging import COVERED, Judged, Outcome, claim_of, judged
+from tests.benchmarks.scenes.conditions import conditions_of
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.hand import hand_scenes
+from tests.benchmarks.scenes.rigs import RIGS
+from tests.benchmarks.scenes.scene import image_of
+
+# `make benchmark` measures with other seeds.
+SEED = 500
+SCENES = {"A": 24, "B": 15}
+EMPTY_IMAGES = {"A": 40, "B": 20}
+
+
+class Level(NamedTuple):
+    """What is asserted, and the goal. Where the goal is reached, both are the same, and it stays so."""
+
+    asserted: float
+    goal: float
+
+
+FOUND = {
+    ("A", "base"): Level(0.99, 0.99),
+    ("A", "noise8"): Level(0.99, 0.99),
+    ("A", "dark0.06"): Level(0.87, 0.99),
+    ("A", "shadow0.5"): Level(0.99, 0.99),
+    ("A", "cover10"): Level(0.16, 0.95),
+    ("A", "cover30"): Level(0.0, 0.60),
+    ("A", "motion4"): Level(0.92, 0.97),
+    ("A", "glare0.4"): Level(0.98, 0.98),
+    ("A", "hard1"): Level(0.66, 0.97),
+    ("A", "gamma2.2"): Level(0.99, 0.99),
+    ("B", "base"): Level(0.99, 0.99),
+    ("B", "noise8"): Level(0.99, 0.99),
+    ("B", "cover20"): Level(0.0, 0.92),
+    ("B", "gamma2.2"): Level(0.99, 0.99),
+}
+# Median over the scenes of the tip's error by the bound of the same scene.
+TIP_OF_BOUND = {
+    ("A", "base"): Level(4.0, 1.5),
+    ("A", "noise8"): Level(2.6, 1.5),
+    ("A", "shadow0.5"): Level(6.5, 3.0),
+    ("A", "glare0.4"): Level(21.0, 3.0),
+    ("A", "motion4"): Level(17.0, 3.0),
+    ("B", "base"): Level(3.0, 1.5),
+    ("B", "noise8"): Level(2.3, 1.5),
+}
+# Median, mm: the bound's camera answers straight, this one does not.
+GAMMA_TIP_MM = {"A": Level(1.8, 1.0), "B": Level(0.08, 0.08)}
+# By step, after the condition has set in.
+KEPT = {
+    ("A", "cover10"): Level(0.99, 0.99),
+    ("A", "cover30"): Level(0.12, 0.99),
+    ("A", "glare1.6"): Level(0.12, 0.99),
+    ("A", "shadow0.8"): Level(0.37, 0.99),
+    ("B", "cover30"): Level(0.12, 0.99),
+}
+SEQUENCES = 6
+# By step, a hand at 300 mm/s.
+FOUND_IN_FAST_HAND, IMAGES_OF_A_HAND = Level(0.99, 0.99), 20
+# Poses at base that are nearer to the wrong one of the two planar solutions.
+MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
+# Of the errors inside their stated 95 % ellipsoid, in base, noise and motion together: least and most.
+COVERED_LEAST, COVERED_MOST = Level(0.92, 0.92), Level(1.0, 0.98)
+COVERED_IN = (("A", "base"), ("A", "noise8"), ("A", "motion4"), ("B", "base"), ("B", "noise8"))
+# A share of so few images is that far off by chance, two standard deviations of 0.95.
+COVERED_CHANCE = 0.045
+
+
+@pytest.fixture(scope="module")
+def searchers() -> Searchers:
+    return Searchers()
+
+
+@cache
+def run_of(rig: str, condition: str, searchers: Searchers) -> ConditionRun:
+    most_bounds = SCENES[rig] if (rig, condition) in TIP_OF_BOUND else 0
+    return measure_condition(
+        RIGS[rig],
+        conditions_of(RIGS[rig])[condition],
+        peers=(),
+        searchers=searchers,
+        count=SCENES[rig],
+        seed=SEED,
+        with_tracking=False,
+        most_bounds=most_bounds,
+    )
+
+
+def right(run: ConditionRun) -> list[Judged]:
+    return [one for one in run.searched if one.outcome is Outcome.RIGHT]
+
+
+@pytest.mark.parametrize(("rig", "condition"), FOUND, ids=map(" ".join, FOUND))
+def test_search_finds_the_marker_and_claims_nothing_else(
+    rig: str, condition: str, searchers: Searchers
+) -> None:
+    run = run_of(rig, condition, searchers)
+    assert [one for one in run.searched if one.outcome is Outcome.WRONG] == []
+    assert len(right(run)) >= FOUND[rig, condition].asserted * SCENES[rig]
+
+
+@pytest.mark.parametrize(("rig", "condition"), TIP_OF_BOUND, ids=map(" ".join, TIP_OF_BOUND))
+def test_the_tip_is_about_as_true_as_it_can_be(rig: str, condition: str, searchers: Searchers) -> None:
+    run = run_of(rig, condition, searchers)
+    assert float(np.median(run.of_bound)) <= TIP_OF_BOUND[rig, condition].asserted
+
+
+@pytest.mark.parametrize("rig", GAMMA_TIP_MM)
+def test_a_camera_that_answers_not_straight_hardly_moves_the_tip(rig: str, searchers: Searchers) -> None:
+    tips = [one.errors["tip_mm"] for one in right(run_of(rig, "gamma2.2", searchers))]
+    assert float(np.median(tips)) <= GAMMA_TIP_MM[rig].asserted
+
+
+@pytest.mark.parametrize(("rig", "condition"), KEPT, ids=map(" ".join, KEPT))
+def test_a_marker_that_was_found_is_kept(rig: str, condition: str) -> None:
+    harder = conditions_of(RIGS[rig])[condition]
+    images = measure_kept(RIGS[rig], harder, sequences=SEQUENCES, seed=SEED)
+    assert [one for one in images if one.outcome is Outcome.WRONG] == []
+    found = sum(one.outcome is Outcome.RIGHT for one in images)
+    assert found >= KEPT[rig, condition].asserted * len(images)
+
+
+def test_a_fast_hand_is_followed() -> None:
+    images = []
+    for nth, face in enumerate(FACES):
+        tracker = tracker_of(RIGS["A"], [face])
+        for at_s, scene in hand_scenes(RIGS["A"], face, "fast", seed=SEED + nth, count=IMAGES_OF_A_HAND):
+            sighting = tracker.step(image_of(scene), captured_at_s=at_s)[face.name]
+            images.append(judged(scene, claim_of(sighting)))
+    assert [one for one in images if one.outcome is Outcome.WRONG] == []
+    found = sum(one.outcome is Outcome.RIGHT for one in images)
+    assert found >= FOUND_IN_FAST_HAND.asserted * len(images)
+
+
+@pytest.mark.parametrize("rig", MIRRORED)
+def test_poses_at_base_are_the_right_one_of_both_planar_solutions(rig: str, searchers: Searchers) -> None:
+    mirrored = [one for one in run_of(rig, "base", searchers).searched if one.is_mirrored]
+    assert len(mirrored) <= MIRRORED[rig].asserted
+
+
+@pytest.mark.parametrize("number", range(len(COVERED)), ids=COVERED)
+def test_errors_lie_inside_their_stated_ellipsoid_as_often_as_stated(
+    number: int, searchers: Searchers
+) -> None:
+    inside = [one.covered[number] for rig, name in COVERED_IN for one in right(run_of(rig, name, searchers))]
+    least, most = COVERED_LEAST.asserted - COVERED_CHANCE, COVERED_MOST.asserted + COVERED_CHANCE
+    assert least <= float(np.mean(inside)) <= most
+
+
+@pytest.mark.parametrize("rig", EMPTY_IMAGES)
+def test_nothing_is_claimed_in_images_without_a_marker(rig: str) -> None:
+    found = measure_empty(RIGS[rig], peers=(), count=EMPTY_IMAGES[rig], seed=SEED)["coaxial"]
+    assert len(found) == 3 * EMPTY_IMAGES[rig]
+    assert [one for one in found if one.outcome is not Outcome.MISSED] == []
