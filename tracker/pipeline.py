@@ -6,10 +6,11 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from tracker.appearance import textures_of
 from tracker.camera import CameraModel
-from tracker.edges import Edgels, Gradient, GreyImage, edgels_of, gradient_of
+from tracker.edges import GreyImage, edgels_of, gradient_of
 from tracker.errors import InvalidInput
-from tracker.geometry import Array
+from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import (
     Candidate,
     MarkerModel,
@@ -19,6 +20,7 @@ from tracker.marker import (
     templates_of,
 )
 from tracker.pose import (
+    Pixels,
     Prior,
     Seen,
     Sighting,
@@ -29,7 +31,9 @@ from tracker.pose import (
     pose_from_corners,
     side_px_of,
     with_target,
+    with_whole_shape,
 )
+from tracker.regions import noise_grey
 from tracker.stages import Stages
 
 # Corners of an outline are intersections of fitted lines: off by a pixel, two on a bent sheet.
@@ -84,6 +88,7 @@ class Tracker:
         self.settings = settings or ScoreSettings()
         self.stage_ms: Mapping[str, float] = {}
         self._templates = templates_of(self.models)
+        self._textures = {model.name: textures_of(model.square) for model in self.models}
         self._priors = {model.name: Prior() for model in models}
         self._stages = Stages(clock)
 
@@ -102,14 +107,15 @@ class Tracker:
         """
         self._stages.start()
         grey = self._grey(image)
+        pixels = self._pixels(grey)
         seen: dict[str, Sighting] = {}
         for model in self.models:
-            sighting = self._track(grey, model, captured_at_s)
+            sighting = self._track(pixels, model, captured_at_s)
             if isinstance(sighting, Seen):
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
         if missing:
-            seen.update(self._search(grey, missing))
+            seen.update(self._search(pixels, missing))
         seen = _one_for_each_place(seen)
         for name, prior in self._priors.items():
             prior.learn(seen[name], captured_at_s)
@@ -123,7 +129,7 @@ class Tracker:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         self._stages.start()
-        seen = _one_for_each_place(self._search(self._grey(image), self.models))
+        seen = _one_for_each_place(self._search(self._pixels(self._grey(image)), self.models))
         self.stage_ms = self._stages.taken_ms
         return seen
 
@@ -147,7 +153,10 @@ class Tracker:
         self._stages.end("grey")
         return np.asarray(grey, dtype=np.uint8)
 
-    def _track(self, grey: GreyImage, model: MarkerModel, captured_at_s: float) -> Sighting | None:
+    def _pixels(self, grey: GreyImage) -> Pixels:
+        return Pixels(image=grey, noise_grey=noise_grey(grey), textures=self._textures)
+
+    def _track(self, pixels: Pixels, model: MarkerModel, captured_at_s: float) -> Sighting | None:
         """The marker where it is expected; None when nothing is expected there."""
         expected = self._priors[model.name].expected(captured_at_s)
         if expected is None:
@@ -157,7 +166,7 @@ class Tracker:
         if window is None:
             return None
         left, top, right, bottom = window
-        part = np.ascontiguousarray(grey[top:bottom, left:right])
+        part = np.ascontiguousarray(pixels.image[top:bottom, left:right])
         gradient = gradient_of(part, left_px=left, top_px=top)
         self._stages.end("gradient")
         found = occurrence_near(
@@ -168,53 +177,71 @@ class Tracker:
             found = with_target(self.camera, model, gradient, edgels_of(gradient), found)
         sighting = judged(found, self.settings, model=model, image=part, gradient=gradient, found_by="track")
         self._stages.end("score")
+        return self._exact(pixels, model, sighting, expected)
+
+    def _exact(
+        self,
+        pixels: Pixels,
+        model: MarkerModel,
+        sighting: Sighting,
+        expected: Rigid[Camera, Marker] | None = None,
+    ) -> Sighting:
+        """What is seen, as exactly as the pixels hold it."""
+        if isinstance(sighting, Seen):
+            sighting = with_whole_shape(self.camera, model, pixels, sighting, expected=expected)
+            self._stages.end("whole")
         return sighting
 
-    def _search(self, grey: GreyImage, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
-        gradient = gradient_of(grey)
-        edgels = edgels_of(gradient)
-        self._stages.end("gradient")
+    def _search(self, pixels: Pixels, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
         best: dict[str, Sighting] = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
         which = [self.models.index(model) for model in models]
-        for candidates in candidate_rounds(grey, self._templates[which]):
+        for candidates in candidate_rounds(pixels.image, self._templates[which]):
             self._stages.end("candidates")
             for model, own in zip(models, candidates, strict=True):
                 if _worth(best[model.name]) <= CERTAIN_WORTH:
-                    found = self._search_one(grey, gradient, edgels, model, own)
+                    found = self._search_one(pixels, model, own)
                     best[model.name] = max(best[model.name], found, key=_worth)
             if all(_worth(sighting) > CERTAIN_WORTH for sighting in best.values()):
                 break
-        return best
+        return {model.name: self._exact(pixels, model, best[model.name]) for model in models}
 
     def _search_one(
         self,
-        grey: GreyImage,
-        gradient: Gradient,
-        edgels: Edgels,
+        pixels: Pixels,
         model: MarkerModel,
         candidates: list[Candidate],
     ) -> Sighting:
         best: Sighting = Unseen(reason=UnseenReason.NO_CANDIDATE)
         fits = 0
         for candidate in candidates:
-            start = pose_from_corners(self.camera, candidate.corners_px, side_mm=model.side_mm)
-            if start is None:
+            sighting = self._at(pixels, model, candidate)
+            if sighting is None:
                 continue
-            found = occurrence_near(self.camera, model, gradient, start, first_reach_px=SEARCH_REACH_PX)
-            self._stages.end("fit")
-            if found is None:
-                continue
-            found = with_target(self.camera, model, gradient, edgels, found)
-            sighting = judged(
-                found, self.settings, model=model, image=grey, gradient=gradient, found_by="search"
-            )
-            self._stages.end("score")
             best = max(best, sighting, key=_worth)
             fits += 1
             # Candidates come likeliest first: one that leaves nothing open ends the search.
             if fits >= MOST_FITS or _worth(best) > CERTAIN_WORTH:
                 break
         return best
+
+    def _at(self, pixels: Pixels, model: MarkerModel, candidate: Candidate) -> Sighting | None:
+        """What a candidate is; None when nothing can be fitted there."""
+        start = pose_from_corners(self.camera, candidate.corners_px, side_mm=model.side_mm)
+        window = _window(self.camera, candidate.corners_px)
+        if start is None or window is None:
+            return None
+        left, top, right, bottom = window
+        part = np.ascontiguousarray(pixels.image[top:bottom, left:right])
+        gradient = gradient_of(part, left_px=left, top_px=top)
+        self._stages.end("gradient")
+        found = occurrence_near(self.camera, model, gradient, start, first_reach_px=SEARCH_REACH_PX)
+        self._stages.end("fit")
+        if found is None:
+            return None
+        found = with_target(self.camera, model, gradient, edgels_of(gradient), found)
+        sighting = judged(found, self.settings, model=model, image=part, gradient=gradient, found_by="search")
+        self._stages.end("score")
+        return sighting
 
 
 def _one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:

@@ -1,1 +1,10 @@
-"""What a camera sees of a marker's plane, and the pose that explains every pixel of it."""
+"""What a camera sees of a marker's plane, and the pose that explains every pixel of it.
+
+A picture of the marker at every blur, and a fit of pose, blur, camera response and light to the grey levels.
+Nothing here searches: it starts within half a pixel.
+"""
+
+from tracker.appearance.fit import WholeFit, whole_fits
+from tracker.appearance.texture import Textures, textures_of
+
+__all__ = ["Textures", "WholeFit", "textures_of", "whole_fits"]

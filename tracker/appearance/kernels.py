@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
-from tracker.pose.kernels import solve_positive, turn
+from tracker.geometry.kernels import solve_positive, turn_by
 
 # The numbers that are fitted: translation 3, turn 3, blur 3 (variances along u, v and between), response 1,
 # and light: brightness of the dark 3 and contrast 3, each with its slope to the right and upwards.
@@ -112,12 +112,8 @@ def _spread(ahead, blur, blurs, offsets, weights):
     that is left to first order, in sides^2.
     """
     # The blur in the marker's plane: ahead blur ahead'.
-    m00 = (
-        ahead[0, 0] ** 2 * blur[0] + 2 * ahead[0, 0] * ahead[0, 1] * blur[2] + ahead[0, 1] ** 2 * blur[1]
-    )
-    m11 = (
-        ahead[1, 0] ** 2 * blur[0] + 2 * ahead[1, 0] * ahead[1, 1] * blur[2] + ahead[1, 1] ** 2 * blur[1]
-    )
+    m00 = ahead[0, 0] ** 2 * blur[0] + 2 * ahead[0, 0] * ahead[0, 1] * blur[2] + ahead[0, 1] ** 2 * blur[1]
+    m11 = ahead[1, 0] ** 2 * blur[0] + 2 * ahead[1, 0] * ahead[1, 1] * blur[2] + ahead[1, 1] ** 2 * blur[1]
     m01 = (
         ahead[0, 0] * ahead[1, 0] * blur[0]
         + (ahead[0, 0] * ahead[1, 1] + ahead[0, 1] * ahead[1, 0]) * blur[2]
@@ -286,7 +282,7 @@ def normal_equations(rows, at, values, numbers, scale, cut, a, g, sizes):
 
 @compiled
 def light_of(rows, at, values, numbers, scale, cut):
-    """Fit the light alone, the response as it is, robustly, into numbers[10:16]; False where there is none."""
+    """Fit the light alone, robustly, into numbers[10:16]; False where there is none."""
     a, g, out = np.zeros((6, 6)), np.zeros(6), np.zeros(6)
     row = np.empty(6)
     for round_ in range(3):
@@ -329,17 +325,21 @@ def _typical(sizes):
 
 
 @compiled
-def thinned(rays, values, rows, slope_ratio, stride):
+def thinned(rays, values, lens, rotation, translation, side_mm, tex, blur, slope_ratio, stride):
     """Keep, in place, the pixels at the picture's edges and every so many others; how many there are."""
+    n = len(values)
+    rows, at = np.zeros((n, 10)), np.empty((n, 2))
+    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
+        return 0
     steepest = 0.0
-    for i in range(len(values)):
+    for i in range(n):
         steepest = max(steepest, rows[i, 1] ** 2 + rows[i, 2] ** 2 + rows[i, 3] ** 2)
-    least, n = slope_ratio * slope_ratio * steepest, 0
-    for i in range(len(values)):
+    least, kept = slope_ratio * slope_ratio * steepest, 0
+    for i in range(n):
         if i % stride == 0 or rows[i, 1] ** 2 + rows[i, 2] ** 2 + rows[i, 3] ** 2 > least:
-            rays[n, 0], rays[n, 1], values[n] = rays[i, 0], rays[i, 1], values[i]
-            n += 1
-    return n
+            rays[kept, 0], rays[kept, 1], values[kept] = rays[i, 0], rays[i, 1], values[i]
+            kept += 1
+    return kept
 
 
 @compiled
@@ -364,7 +364,7 @@ def corner_motion_px(rotation, translation, lens, side_mm, step):
 
 @compiled
 def _hold(a, g, numbers, scale, free):
-    """What is known beforehand, added to the normal equations: little of the blur, the response and the light."""
+    """Add to the normal equations what is known beforehand of blur, response and light."""
     contrast = max(abs(numbers[LIGHT + 3]), 1.0)
     for m in range(3):
         a[BLUR + m, BLUR + m] += (scale / (1.0 + numbers[BLUR] + numbers[BLUR + 1])) ** 2
@@ -394,12 +394,11 @@ def whole_fit(
     fresh,
     most_px,
     free,
-    stride,
 ):
     """Fit pose, blur, response and light to the pixels, in place.
 
     `numbers` (16,): blur, response and light, in and out. `fresh`: the light is not known yet. `free`: blur
-    and response are fitted as well. Of pixels away from edges every `stride`-th is used.
+    and response are fitted as well.
     Returns the matrix (16, 16) at the end with what is known beforehand in it, the scale of the residuals
     in grey levels, the robust cost, the mean weight, how many pixels (0 where it failed) and rounds.
     """
@@ -416,12 +415,6 @@ def whole_fit(
     blur = numbers[BLUR : BLUR + 3]
     if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free):
         return failed
-    if stride > 1:
-        n = thinned(rays, values, rows, 0.04, stride)
-        if n < 2 * NUMBERS:
-            return failed
-        rays, values, rows, at, sizes = rays[:n], values[:n], rows[:n], at[:n], sizes[:n]
-        predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free)
     if fresh and not light_of(rows, at, values, numbers, 2.0, cut):
         return failed
     for i in range(n):
@@ -452,7 +445,7 @@ def whole_fit(
         short = min(short, 0.4 / max(size, 1e-9))
         for k in range(3):
             translation[k] += short * step[k]
-        turn(rotation, short * step[3:6])
+        turn_by(rotation, short * step[3:6])
         for k in range(6, NUMBERS):
             numbers[k] += short * step[k]
         _keep_blur(blur, old[BLUR : BLUR + 3], least_blur)
@@ -483,6 +476,21 @@ def whole_fit(
             cost, total = normal_equations(rows, at, values, numbers, scale, cut, a, g, sizes)
     _hold(a, g, numbers, scale, True)
     return a, scale, cost, total / n, n, done
+
+
+@compiled
+def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, scale, cut):
+    """The robust sum of squared residuals of a fit, in units of `scale`; infinite where it cannot be seen."""
+    n = len(values)
+    rows, at = np.zeros((n, 10)), np.empty((n, 2))
+    blur = numbers[BLUR : BLUR + 3]
+    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
+        return np.inf
+    cost, unit = 0.0, 1.0 / (cut * scale) ** 2
+    for i in range(n):
+        z = (values[i] - _expected(rows[i], at[i], numbers)[0]) ** 2 * unit
+        cost += z / (1.0 + z)
+    return cost * cut * cut
 
 
 @compiled

@@ -7,6 +7,8 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from tracker.geometry import Array
+
 # Sharpest picture, in sides: a marker 110 px wide in a camera in focus. Sharper ones are averaged first.
 SHARPEST_RATIO = 0.0062
 # Between two pictures the blur is made up to first order, which holds for such steps.
@@ -39,8 +41,8 @@ class Textures:
     texels: Texels
     starts: npt.NDArray[np.int64]
     sizes: npt.NDArray[np.int64]
-    blurs_ratio: npt.NDArray[np.float64]
-    texels_ratio: npt.NDArray[np.float64]
+    blurs_ratio: Array
+    texels_ratio: Array
 
     @cached_property
     def arrays(self) -> tuple[np.ndarray, ...]:
@@ -51,7 +53,7 @@ class Textures:
 def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
     """The pictures of a grey square (n, n) that fills its marker edge to edge."""
     count = int(np.ceil(np.log(COARSEST_RATIO / SHARPEST_RATIO) / np.log(STEP))) + 1
-    blurs = SHARPEST_RATIO * STEP ** np.arange(count)
+    blurs = np.asarray(SHARPEST_RATIO * STEP ** np.arange(count), np.float64)
     picture, texel, has = _on_paper(square)
     parts, sizes = [], []
     for blur in blurs:
@@ -73,7 +75,7 @@ def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
         starts=np.concatenate([[0], np.cumsum(lengths)[:-1]]).astype(np.int64),
         sizes=np.array(sizes, np.int64),
         blurs_ratio=blurs,
-        texels_ratio=TEXEL_BLURS * blurs,
+        texels_ratio=np.asarray(TEXEL_BLURS * blurs, np.float64),
     )
 
 
@@ -90,7 +92,7 @@ def _on_paper(square: npt.NDArray[np.uint8]) -> tuple[Texels, float, float]:
 
 
 def _with_slopes(picture: Texels, texel: float, wanted: float) -> Texels:
-    """Texels (n, n, 3) of another width: the picture, and its slopes to the right and upwards, by one side."""
+    """Texels (n, n, 3) of another width: the picture, its slopes to the right and upwards, by one side."""
     half = int(np.ceil(REACH_RATIO / wanted))
     at = (np.arange(-half, half + 1) * (wanted / texel) + (picture.shape[0] - 1) / 2.0).astype(np.float32)
     x, y = np.meshgrid(at, at)

@@ -9,10 +9,11 @@ import numpy as np
 
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
-from tracker.marker.outline import Quads, quads_of
+from tracker.outlines import Quads, corner_quads_of
 
 # A third of the side of the smallest marker that is found.
 LEAST_PIECE_PX = 4.0
+LEAST_STEP_GREY = 5.0
 
 
 def outlines_of(image: GreyImage) -> Array:
@@ -28,4 +29,6 @@ def outlines_of(image: GreyImage) -> Array:
 def _outlines(image: GreyImage) -> Quads:
     edgels = edgels_of(gradient_of(image))
     pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_PIECE_PX)
-    return quads_of(np.concatenate([pieces, joined_segments(pieces)]))
+    return corner_quads_of(
+        image, np.concatenate([pieces, joined_segments(pieces)]), least_step_grey=LEAST_STEP_GREY
+    )

@@ -7,11 +7,13 @@ from tracker.pose.refinement import Fit, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.steady import Steady, SteadyPose, SteadySettings
 from tracker.pose.tool import ToolModel
+from tracker.pose.whole import Pixels, with_whole_shape
 
 __all__ = [
     "Fit",
     "FoundBy",
     "Occurrence",
+    "Pixels",
     "Prior",
     "Seen",
     "Sighting",
@@ -28,4 +30,5 @@ __all__ = [
     "refined_pose",
     "side_px_of",
     "with_target",
+    "with_whole_shape",
 ]

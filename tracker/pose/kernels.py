@@ -5,6 +5,7 @@ import numpy as np
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.edges.kernels import crossing
+from tracker.geometry.kernels import solve_positive, turn_by
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 LEAST_EDGES = 12
@@ -40,61 +41,6 @@ def project_edges(rotation, translation, lens, points, normals, pixels, directio
         if du * nu + dv * nv < 0.0:
             du, dv = -du, -dv
         directions[i, 0], directions[i, 1] = du, dv
-    return True
-
-
-@compiled
-def turn(rotation, w):
-    """Multiply a rotation vector from the left into a rotation matrix, in place."""
-    angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
-    a, b = 1.0, 0.5
-    if angle > 1e-6:
-        a, b = np.sin(angle) / angle, (1.0 - np.cos(angle)) / (angle * angle)
-    # Rodrigues' formula column by column: r + a (w x r) + b (w x (w x r)).
-    for c in range(3):
-        x, y, z = rotation[0, c], rotation[1, c], rotation[2, c]
-        p, q, r = w[1] * z - w[2] * y, w[2] * x - w[0] * z, w[0] * y - w[1] * x
-        rotation[0, c] = x + a * p + b * (w[1] * r - w[2] * q)
-        rotation[1, c] = y + a * q + b * (w[2] * p - w[0] * r)
-        rotation[2, c] = z + a * r + b * (w[0] * q - w[1] * p)
-
-
-@compiled
-def solve_positive(a, g, out):
-    """Solve a x = g for a symmetric positive definite matrix (n, n) into `out`; False where it is not.
-
-    Its own, because Numba's linear algebra wants SciPy, which nothing else here needs. Rows and columns are
-    scaled to a unit diagonal first: mm and radians differ by orders of magnitude.
-    """
-    n = len(g)
-    lower, d = np.zeros((n, n)), np.empty(n)
-    for i in range(n):
-        if not a[i, i] > 0.0:
-            return False
-        d[i] = np.sqrt(a[i, i])
-    for i in range(n):
-        for j in range(i + 1):
-            rest = a[i, j] / (d[i] * d[j]) + (1e-9 if i == j else 0.0)
-            for k in range(j):
-                rest -= lower[i, k] * lower[j, k]
-            if i == j:
-                if not rest > 1e-13:
-                    return False
-                lower[i, i] = np.sqrt(rest)
-            else:
-                lower[i, j] = rest / lower[j, j]
-    for i in range(n):
-        rest = g[i] / d[i]
-        for k in range(i):
-            rest -= lower[i, k] * out[k]
-        out[i] = rest / lower[i, i]
-    for i in range(n - 1, -1, -1):
-        rest = out[i]
-        for k in range(i + 1, n):
-            rest -= lower[k, i] * out[k]
-        out[i] = rest / lower[i, i]
-    for i in range(n):
-        out[i] /= d[i]
     return True
 
 
@@ -174,7 +120,7 @@ def _moved(rotation, translation, step):
     short = 0.5 / turn if turn > 0.5 else 1.0
     for k in range(3):
         translation[k] += short * step[k]
-    turn(rotation, short * step[3:6])
+    turn_by(rotation, short * step[3:6])
     facing = (
         rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
     )

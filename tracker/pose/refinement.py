@@ -94,11 +94,11 @@ def refined_pose(
     mean_px2 = min(first.cost_px2, second.cost_px2) / _weight(active)
     residual = max(min(first.residual_px, second.residual_px), LEAST_RESIDUAL_PX)
     variance = max(residual**2, mean_px2) * CORRELATION_LENGTH_PX
-    costs = [one.cost_px2 + variance * _surprise(one, expected) for one in (first, second)]
+    costs = [one.cost_px2 + variance * surprise(one.camera_from_marker, expected) for one in (first, second)]
     better, worse = (first, second) if costs[0] <= costs[1] else (second, first)
     gap = abs(costs[1] - costs[0]) / variance
-    apart = _difference(better.camera_from_marker, worse.camera_from_marker)
-    if expected is not None and _turned_over(better, worse, expected):
+    apart = difference(better.camera_from_marker, worse.camera_from_marker)
+    if expected is not None and turned_over(better.camera_from_marker, worse.camera_from_marker, expected):
         gap = min(gap, UNDECIDED_COST)
     if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < 1e-3:
         return better
@@ -113,11 +113,13 @@ def refined_pose(
     )
 
 
-def _turned_over(better: Fit, worse: Fit, expected: Rigid[Camera, Marker]) -> bool:
+def turned_over(
+    better: Rigid[Camera, Marker], worse: Rigid[Camera, Marker], expected: Rigid[Camera, Marker]
+) -> bool:
     """Whether the better pose is one that no hand reaches from the expected one, and the worse is at hand."""
     turns = [
-        float(np.linalg.norm(vector_from_rotation(fit.camera_from_marker.rotation @ expected.rotation.T)))
-        for fit in (better, worse)
+        float(np.linalg.norm(vector_from_rotation(pose.rotation @ expected.rotation.T)))
+        for pose in (better, worse)
     ]
     return bool(turns[0] > np.radians(FAR_TURN_DEG) and turns[1] < np.radians(NEAR_TURN_DEG))
 
@@ -127,11 +129,11 @@ def _weight(active: ActiveEdges) -> float:
     return max(float(active.strength_ratio[active.straight].sum()), 1.0)
 
 
-def _surprise(fit: Fit, expected: Rigid[Camera, Marker] | None) -> float:
+def surprise(pose: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> float:
     """Squared turn from the expected pose, in units of what a hand turns beside its prediction."""
     if expected is None:
         return 0.0
-    turned = vector_from_rotation(fit.camera_from_marker.rotation @ expected.rotation.T)
+    turned = vector_from_rotation(pose.rotation @ expected.rotation.T)
     return float(turned @ turned) / float(np.radians(EXPECTED_TURN_SD_DEG)) ** 2
 
 
@@ -214,7 +216,7 @@ def _side_mm(active: ActiveEdges) -> float:
     return float(np.ptp(active.points_mm, axis=0).max())
 
 
-def _difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
+def difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
     """What takes pose `a` to pose `b`, in the coordinates of the covariance."""
     return np.concatenate(
         [b.translation_mm - a.translation_mm, vector_from_rotation(b.rotation @ a.rotation.T)]

@@ -1,0 +1,217 @@
+"""The pose that explains every pixel of a marker: pose, blur, camera response and light fitted together."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tracker.appearance.kernels import (
+    BLUR,
+    LIGHT,
+    NUMBERS,
+    RESPONSE,
+    collect,
+    robust_cost,
+    thinned,
+    whole_fit,
+)
+from tracker.appearance.texture import Textures
+from tracker.edges import GreyImage
+from tracker.geometry import Array, Camera, Marker, Rigid
+
+# Half of the part of the plane that is looked at, in sides: the outline's blurred outer half lies on the
+# white paper, and what lies beyond the paper must not come in.
+REACH_RATIO = 0.6
+# Wider markers are averaged first: their edges are sharper than the sharpest picture, and pixels abound.
+WIDEST_PX = 110.0
+# sd 0.6 px, and the pixel's own square: a camera in focus.
+FOCUS_PX2, PIXEL_PX2, LEAST_BLUR_PX2 = 0.36, 1.0 / 12.0, 0.07
+ROUNDS = 14
+MOST_MOVE_PX = 0.7
+# Residuals over so many sd lose their say.
+CUT = 3.0
+# Where the picture is this much flatter than at its steepest a pixel says little of the pose: few are enough.
+LEAST_SLOPE_RATIO, FLAT_STRIDE = 0.12, 10
+# The other solution is tried by a part of the pixels first, and let go when it is worse by so much.
+FEW, FEW_ROUNDS, OUT_OF_QUESTION_SD2 = 4, 8, 60.0
+MOST_PIXELS = 30_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WholeFit:
+    """One pose that explains the pixels.
+
+    Attributes:
+        camera_from_marker: the pose.
+        covariance: (6, 6) [mm, rad] of white noise alone: translation, then turn, left-multiplied.
+        scale_grey: sd of what is not explained, in grey levels.
+        contrast_grey: bright less dark, at the marker's centre.
+        explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
+        blur_px2: (3,), variances of the blur along u, along v, and between, in px of the image.
+        response: bend of the camera's response, 0 where grey levels are proportional to light.
+        cost_sd2: robust sum of squared residuals in units of the smaller scale of both solutions.
+    """
+
+    camera_from_marker: Rigid[Camera, Marker]
+    covariance: Array
+    scale_grey: float
+    contrast_grey: float
+    explained_ratio: float
+    blur_px2: Array
+    response: float
+    cost_sd2: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Samples:
+    """Pixels (n,) with their rays (n, 2), and what they are a picture of."""
+
+    rays: Array
+    values: Array
+    lens: Array
+    textures: Textures
+    side_mm: float
+    step: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fitted:
+    """Where a fit ended: as `whole_fit` gives it."""
+
+    rotation: Array
+    translation_mm: Array
+    numbers: Array
+    matrix: Array
+    scale_grey: float
+    explained_ratio: float
+
+
+def whole_fits(
+    image: GreyImage,
+    lens: Array,
+    textures: Textures,
+    starts: list[Rigid[Camera, Marker]],
+    *,
+    side_mm: float,
+    side_px: float,
+) -> list[WholeFit]:
+    """The whole shape fitted from each start within half a pixel or so; those that fail are left out.
+
+    All are fitted to the same pixels, so that their costs can be compared.
+
+    Args:
+        image: the whole grey image (h, w).
+        lens: of `lens_numbers`.
+        textures: of the marker.
+        starts: poses, the likeliest first; the pixels are taken by it.
+        side_mm: side of the marker.
+        side_px: about how wide it is in the image.
+    """
+    step = max(1, int(np.ceil(side_px / WIDEST_PX)))
+    rays, values = np.empty((MOST_PIXELS, 2)), np.empty(MOST_PIXELS)
+    count = collect(
+        image, step, lens, starts[0].rotation, starts[0].translation_mm, REACH_RATIO * side_mm, rays, values
+    )
+    own = step * step * PIXEL_PX2
+    count = thinned(
+        rays[:count],
+        values[:count],
+        lens,
+        starts[0].rotation,
+        starts[0].translation_mm,
+        side_mm,
+        textures.arrays,
+        np.array([FOCUS_PX2 + own, FOCUS_PX2 + own, 0.0]),
+        LEAST_SLOPE_RATIO,
+        FLAT_STRIDE,
+    )
+    seen = Samples(
+        rays=rays[:count], values=values[:count], lens=lens, textures=textures, side_mm=side_mm, step=step
+    )
+    done: list[Fitted] = []
+    for start in starts:
+        if done and not _worth_fitting(seen, done[0], start):
+            continue
+        one = _fitted(seen, start)
+        if one is not None:
+            done.append(one)
+    if not done:
+        return []
+    scale = min(one.scale_grey for one in done)
+    return [_record(seen, one, scale) for one in done]
+
+
+def _worth_fitting(seen: Samples, best: Fitted, start: Rigid[Camera, Marker]) -> bool:
+    """Whether the pose beside this start may explain the pixels as well as the best one, by a few of them."""
+    few = replace(
+        seen, rays=np.ascontiguousarray(seen.rays[::FEW]), values=np.ascontiguousarray(seen.values[::FEW])
+    )
+    one = _fitted(few, start, rounds=FEW_ROUNDS)
+    if one is None:
+        return False
+    return _cost(few, one, best.scale_grey) < _cost(few, best, best.scale_grey) + OUT_OF_QUESTION_SD2
+
+
+def _fitted(seen: Samples, start: Rigid[Camera, Marker], *, rounds: int = ROUNDS) -> Fitted | None:
+    rotation, translation = start.rotation.copy(), start.translation_mm.copy()
+    numbers = np.zeros(NUMBERS)
+    own = seen.step * seen.step * PIXEL_PX2
+    numbers[BLUR : BLUR + 2] = FOCUS_PX2 + own
+    matrix, scale, _, weight, count, _ = whole_fit(
+        seen.rays,
+        seen.values,
+        seen.lens,
+        rotation,
+        translation,
+        seen.side_mm,
+        seen.textures.arrays,
+        numbers,
+        LEAST_BLUR_PX2 + own,
+        rounds,
+        CUT,
+        True,
+        MOST_MOVE_PX * seen.step,
+        True,
+    )
+    if count == 0:
+        return None
+    return Fitted(
+        rotation=rotation,
+        translation_mm=translation,
+        numbers=numbers,
+        matrix=matrix,
+        scale_grey=float(scale),
+        explained_ratio=float(weight),
+    )
+
+
+def _cost(seen: Samples, one: Fitted, scale_grey: float) -> float:
+    return float(
+        robust_cost(
+            seen.rays,
+            seen.values,
+            seen.lens,
+            one.rotation,
+            one.translation_mm,
+            seen.side_mm,
+            seen.textures.arrays,
+            one.numbers,
+            scale_grey,
+            CUT,
+        )
+    )
+
+
+def _record(seen: Samples, one: Fitted, scale_of_all: float) -> WholeFit:
+    size = np.sqrt(np.diag(one.matrix))
+    inverse = np.linalg.inv(one.matrix / np.outer(size, size)) / np.outer(size, size)
+    u, _, vt = np.linalg.svd(one.rotation)
+    return WholeFit(
+        camera_from_marker=Rigid(rotation=u @ vt, translation_mm=one.translation_mm),
+        covariance=inverse[:6, :6] * one.scale_grey**2,
+        scale_grey=one.scale_grey,
+        contrast_grey=float(one.numbers[LIGHT + 3]),
+        explained_ratio=one.explained_ratio,
+        blur_px2=one.numbers[BLUR : BLUR + 3].copy(),
+        response=float(one.numbers[RESPONSE]),
+        cost_sd2=_cost(seen, one, scale_of_all),
+    )

@@ -1,0 +1,60 @@
+"""The compiled loops of geometry; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+
+
+@compiled
+def turn_by(rotation, w):
+    """Multiply a rotation vector from the left into a rotation matrix, in place."""
+    angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    a, b = 1.0, 0.5
+    if angle > 1e-6:
+        a, b = np.sin(angle) / angle, (1.0 - np.cos(angle)) / (angle * angle)
+    # Rodrigues' formula column by column: r + a (w x r) + b (w x (w x r)).
+    for c in range(3):
+        x, y, z = rotation[0, c], rotation[1, c], rotation[2, c]
+        p, q, r = w[1] * z - w[2] * y, w[2] * x - w[0] * z, w[0] * y - w[1] * x
+        rotation[0, c] = x + a * p + b * (w[1] * r - w[2] * q)
+        rotation[1, c] = y + a * q + b * (w[2] * p - w[0] * r)
+        rotation[2, c] = z + a * r + b * (w[0] * q - w[1] * p)
+
+
+@compiled
+def solve_positive(a, g, out):
+    """Solve a x = g for a symmetric positive definite matrix (n, n) into `out`; False where it is not.
+
+    Its own, because Numba's linear algebra wants SciPy, which nothing else here needs. Rows and columns are
+    scaled to a unit diagonal first: mm and radians differ by orders of magnitude.
+    """
+    n = len(g)
+    lower, d = np.zeros((n, n)), np.empty(n)
+    for i in range(n):
+        if not a[i, i] > 0.0:
+            return False
+        d[i] = np.sqrt(a[i, i])
+    for i in range(n):
+        for j in range(i + 1):
+            rest = a[i, j] / (d[i] * d[j]) + (1e-9 if i == j else 0.0)
+            for k in range(j):
+                rest -= lower[i, k] * lower[j, k]
+            if i == j:
+                if not rest > 1e-13:
+                    return False
+                lower[i, i] = np.sqrt(rest)
+            else:
+                lower[i, j] = rest / lower[j, j]
+    for i in range(n):
+        rest = g[i] / d[i]
+        for k in range(i):
+            rest -= lower[i, k] * out[k]
+        out[i] = rest / lower[i, i]
+    for i in range(n - 1, -1, -1):
+        rest = out[i]
+        for k in range(i + 1, n):
+            rest -= lower[k, i] * out[k]
+        out[i] = rest / lower[i, i]
+    for i in range(n):
+        out[i] /= d[i]
+    return True
