@@ -4,16 +4,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracker.appearance.kernels import (
-    BLUR,
-    LIGHT,
-    NUMBERS,
-    RESPONSE,
-    collect,
-    robust_cost,
-    thinned,
-    whole_fit,
-)
+from tracker.appearance.kernels import EVEN, robust_cost, whole_fit
+from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, nodes_of_plane, typical_contrast
+from tracker.appearance.picture.kernels import collect, thinned
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -34,6 +27,12 @@ LEAST_SLOPE_RATIO, FLAT_STRIDE = 0.12, 10
 # The other solution is tried by a part of the pixels first, and let go when it is worse by so much.
 FEW, FEW_ROUNDS, OUT_OF_QUESTION_SD2 = 4, 8, 60.0
 MOST_PIXELS = 30_000
+# Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide.
+NODES = 6
+# What even light leaves unexplained, in units of the noise and of the contrast, before light may vary.
+# Light varies where that explains this much more; a compressed picture's blocks it does not explain.
+UNEVEN_LEAVES_RATIO = 0.75
+EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,6 +79,7 @@ class Fitted:
     rotation: Array
     translation_mm: Array
     numbers: Array
+    nodes: int
     matrix: Array
     scale_grey: float
     explained_ratio: float
@@ -93,6 +93,7 @@ def whole_fits(
     *,
     side_mm: float,
     side_px: float,
+    noise_grey: float,
 ) -> list[WholeFit]:
     """The whole shape fitted from each start within half a pixel or so; those that fail are left out.
 
@@ -105,6 +106,7 @@ def whole_fits(
         starts: poses, the likeliest first; the pixels are taken by it.
         side_mm: side of the marker.
         side_px: about how wide it is in the image.
+        noise_grey: sd of the image's noise.
     """
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     rays, values = np.empty((MOST_PIXELS, 2)), np.empty(MOST_PIXELS)
@@ -136,6 +138,13 @@ def whole_fits(
             done.append(one)
     if not done:
         return []
+    if done[0].scale_grey > max(
+        EVEN_LEAVES_NOISES * noise_grey,
+        EVEN_LEAVES_CONTRAST_RATIO * float(typical_contrast(done[0].numbers, 0)),
+    ):
+        uneven = [one for one in (_in_uneven_light(seen, one) for one in done) if one is not None]
+        if uneven and uneven[0].scale_grey < UNEVEN_LEAVES_RATIO * done[0].scale_grey:
+            done = uneven
     scale = min(one.scale_grey for one in done)
     return [_record(seen, one, scale) for one in done]
 
@@ -152,32 +161,45 @@ def _worth_fitting(seen: Samples, best: Fitted, start: Rigid[Camera, Marker]) ->
 
 
 def _fitted(seen: Samples, start: Rigid[Camera, Marker], *, rounds: int = ROUNDS) -> Fitted | None:
-    rotation, translation = start.rotation.copy(), start.translation_mm.copy()
-    numbers = np.zeros(NUMBERS)
+    """The pose near a start in even light."""
     own = seen.step * seen.step * PIXEL_PX2
+    numbers = np.zeros(EVEN)
     numbers[BLUR : BLUR + 2] = FOCUS_PX2 + own
-    matrix, scale, _, weight, count, _ = whole_fit(
+    return _from(seen, start.rotation.copy(), start.translation_mm.copy(), numbers, nodes=0, rounds=rounds)
+
+
+def _in_uneven_light(seen: Samples, even: Fitted) -> Fitted | None:
+    """The same pose where light may vary over the marker."""
+    numbers = np.zeros(LIGHT + 2 * NODES * NODES)
+    nodes_of_plane(even.numbers, NODES, numbers)
+    return _from(seen, even.rotation.copy(), even.translation_mm.copy(), numbers, nodes=NODES, rounds=ROUNDS)
+
+
+def _from(
+    seen: Samples, rotation: Array, translation_mm: Array, numbers: Array, *, nodes: int, rounds: int
+) -> Fitted | None:
+    matrix, scale, weight, count, _ = whole_fit(
         seen.rays,
         seen.values,
         seen.lens,
         rotation,
-        translation,
+        translation_mm,
         seen.side_mm,
         seen.textures.arrays,
         numbers,
-        LEAST_BLUR_PX2 + own,
+        nodes,
+        LEAST_BLUR_PX2 + seen.step * seen.step * PIXEL_PX2,
         rounds,
         CUT,
-        True,
         MOST_MOVE_PX * seen.step,
-        True,
     )
     if count == 0:
         return None
     return Fitted(
         rotation=rotation,
-        translation_mm=translation,
+        translation_mm=translation_mm,
         numbers=numbers,
+        nodes=nodes,
         matrix=matrix,
         scale_grey=float(scale),
         explained_ratio=float(weight),
@@ -195,6 +217,7 @@ def _cost(seen: Samples, one: Fitted, scale_grey: float) -> float:
             seen.side_mm,
             seen.textures.arrays,
             one.numbers,
+            one.nodes,
             scale_grey,
             CUT,
         )
@@ -209,7 +232,7 @@ def _record(seen: Samples, one: Fitted, scale_of_all: float) -> WholeFit:
         camera_from_marker=Rigid(rotation=u @ vt, translation_mm=one.translation_mm),
         covariance=inverse[:6, :6] * one.scale_grey**2,
         scale_grey=one.scale_grey,
-        contrast_grey=float(one.numbers[LIGHT + 3]),
+        contrast_grey=float(typical_contrast(one.numbers, one.nodes)),
         explained_ratio=one.explained_ratio,
         blur_px2=one.numbers[BLUR : BLUR + 3].copy(),
         response=float(one.numbers[RESPONSE]),

@@ -2,262 +2,42 @@
 
 import numpy as np
 
-from tracker.camera.kernels import project_with_derivative
+from tracker.appearance.light.kernels import (
+    AROUND,
+    BLUR,
+    LIGHT,
+    PLANE,
+    RESPONSE,
+    cell_of,
+    even_light,
+    hold_light,
+    light_up,
+    shaped_by,
+)
+from tracker.appearance.picture.kernels import predict
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive, turn_by
 
-# The numbers that are fitted: translation 3, turn 3, blur 3 (variances along u, v and between), response 1,
-# and light: brightness of the dark 3 and contrast 3, each with its slope to the right and upwards.
-POSE, BLUR, RESPONSE, LIGHT = 0, 6, 9, 10
-NUMBERS = 16
-MOST_TAPS = 13
-BRIGHTEST = 254
+EVEN = LIGHT + PLANE
+# A camera's response is bent by so much; gamma 2.2 is half.
+RESPONSE_SD = 0.3
+# A step that changes what it changes by less than a seventh of its standard deviation ends the fit.
+SETTLED_SD2 = 0.02
 
 
 @compiled
-def collect(image, step, lens, rotation, translation, reach_mm, rays, values):
-    """Pixels (or means of step x step of them) that lie within `reach_mm` of the marker's centre lines.
-
-    Fills `rays` (n, 2), their directions with the lens taken out, and `values` (n,); returns how many.
-    """
-    height, width = image.shape
-    derivative = np.empty((2, 3))
-    p = np.empty(3)
-    left, top, right, bottom = 1e9, 1e9, -1e9, -1e9
-    for k in range(4):
-        x = reach_mm if k in (1, 2) else -reach_mm
-        y = reach_mm if k in (0, 1) else -reach_mm
-        for m in range(3):
-            p[m] = rotation[m, 0] * x + rotation[m, 1] * y + translation[m]
-        if p[2] < 1.0:
-            return 0
-        u, v = project_with_derivative(p, lens, derivative)
-        left, right, top, bottom = min(left, u), max(right, u), min(top, v), max(bottom, v)
-    if not (right - left < 1e5 and bottom - top < 1e5):
-        return 0
-    c0, c1 = max(int(left) // step, 0), min(int(right) // step + 1, width // step - 1)
-    r0, r1 = max(int(top) // step, 0), min(int(bottom) // step + 1, height // step - 1)
-    if c1 - c0 < 2 or r1 - r0 < 2:
-        return 0
-    # The plane that the marker lies in: normal . point = distance.
-    nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
-    distance = nx * translation[0] + ny * translation[1] + nz * translation[2]
-    x, y = translation[0] / translation[2], translation[1] / translation[2]
-    n = 0
-    p[2] = 1.0
-    for r in range(r0, r1 + 1):
-        for c in range(c0, c1 + 1):
-            if n >= len(values):
-                return n
-            u, v = step * c + 0.5 * (step - 1), step * r + 0.5 * (step - 1)
-            # Newton from the neighbour: two steps for the first of a row, one for the others.
-            for _ in range(4 if c == c0 else 1):
-                p[0], p[1] = x, y
-                pu, pv = project_with_derivative(p, lens, derivative)
-                a, b, d, e = derivative[0, 0], derivative[0, 1], derivative[1, 0], derivative[1, 1]
-                det = a * e - b * d
-                du, dv = u - pu, v - pv
-                x += (e * du - b * dv) / det
-                y += (a * dv - d * du) / det
-            along = distance / (nx * x + ny * y + nz)
-            qx, qy, qz = along * x - translation[0], along * y - translation[1], along - translation[2]
-            px = rotation[0, 0] * qx + rotation[1, 0] * qy + rotation[2, 0] * qz
-            py = rotation[0, 1] * qx + rotation[1, 1] * qy + rotation[2, 1] * qz
-            if abs(px) > reach_mm or abs(py) > reach_mm:
-                continue
-            if step == 1:
-                value = np.float64(image[r, c])
-                bright = image[r, c]
-            else:
-                total, bright = 0, 0
-                for i in range(step):
-                    for j in range(step):
-                        one = image[r * step + i, c * step + j]
-                        total += one
-                        bright = max(bright, one)
-                value = total / (step * step)
-            if bright >= BRIGHTEST:
-                # Brighter than the camera can tell: it says nothing of where an edge is.
-                continue
-            rays[n, 0], rays[n, 1], values[n] = x, y, value
-            n += 1
-    return n
-
-
-@compiled
-def _footprint(rotation, translation, lens, side_mm, ahead):
-    """Into `ahead` (2, 2): by how many sides the marker's plane moves under a pixel's step right and down."""
-    derivative = np.empty((2, 3))
-    p = translation.copy()
-    project_with_derivative(p, lens, derivative)
-    a, b, c, d = 0.0, 0.0, 0.0, 0.0
-    for k in range(3):
-        a += derivative[0, k] * rotation[k, 0]
-        b += derivative[0, k] * rotation[k, 1]
-        c += derivative[1, k] * rotation[k, 0]
-        d += derivative[1, k] * rotation[k, 1]
-    det = a * d - b * c
-    if abs(det) < 1e-12:
-        return False
-    ahead[0, 0], ahead[0, 1] = d / det / side_mm, -b / det / side_mm
-    ahead[1, 0], ahead[1, 1] = -c / det / side_mm, a / det / side_mm
-    return True
-
-
-@compiled
-def _spread(ahead, blur, blurs, offsets, weights):
-    """How a blur (3,) in px^2 is made of one picture and taps along a line.
-
-    Returns the picture's number, how many taps, the line's direction, and the variance along and across it
-    that is left to first order, in sides^2.
-    """
-    # The blur in the marker's plane: ahead blur ahead'.
-    m00 = ahead[0, 0] ** 2 * blur[0] + 2 * ahead[0, 0] * ahead[0, 1] * blur[2] + ahead[0, 1] ** 2 * blur[1]
-    m11 = ahead[1, 0] ** 2 * blur[0] + 2 * ahead[1, 0] * ahead[1, 1] * blur[2] + ahead[1, 1] ** 2 * blur[1]
-    m01 = (
-        ahead[0, 0] * ahead[1, 0] * blur[0]
-        + (ahead[0, 0] * ahead[1, 1] + ahead[0, 1] * ahead[1, 0]) * blur[2]
-        + ahead[0, 1] * ahead[1, 1] * blur[1]
-    )
-    mean, half = 0.5 * (m00 + m11), np.sqrt((0.5 * (m00 - m11)) ** 2 + m01**2)
-    larger, smaller = mean + half, max(mean - half, 1e-8)
-    angle = 0.5 * np.arctan2(2.0 * m01, m00 - m11)
-    ex, ey = np.cos(angle), np.sin(angle)
-    level, wanted = 0, np.sqrt(smaller)
-    while level < len(blurs) - 1 and blurs[level] * blurs[level + 1] < wanted * wanted:
-        level += 1
-    has = blurs[level] ** 2
-    across = smaller - has
-    more = larger - smaller
-    count = 1
-    offsets[0], weights[0] = 0.0, 1.0
-    along = larger - has
-    if more > 0.1 * has:
-        sd = np.sqrt(more)
-        reach = int(np.ceil(2.3 * sd / (1.25 * blurs[level])))
-        reach = min(max(reach, 1), MOST_TAPS // 2)
-        gap = 2.3 * sd / reach
-        count = 2 * reach + 1
-        total, variance = 0.0, 0.0
-        for k in range(count):
-            offsets[k] = (k - reach) * gap
-            weights[k] = np.exp(-0.5 * (offsets[k] / sd) ** 2)
-            total += weights[k]
-            variance += weights[k] * offsets[k] ** 2
-        scale = np.sqrt(more / (variance / total))
-        for k in range(count):
-            offsets[k] *= scale
-            weights[k] /= total
-        along = across
-    return level, count, ex, ey, along, across
-
-
-@compiled
-def _picture(texels, start, size, texel, x, y, out):
-    """Picture, slopes and curvatures (6,) at (x, y) in sides, added to `out` with the weight out[6]."""
-    w = out[6]
-    fx = x / texel + 0.5 * (size - 1)
-    fy = 0.5 * (size - 1) - y / texel
-    fx = min(max(fx, 0.0), size - 1.001)
-    fy = min(max(fy, 0.0), size - 1.001)
-    c, r = int(fx), int(fy)
-    fx -= c
-    fy -= r
-    i = start + 3 * (r * size + c)
-    j = i + 3 * size
-    a, b, d, e = (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy
-    out[0] += w * (a * texels[i] + b * texels[i + 3] + d * texels[j] + e * texels[j + 3])
-    out[1] += w * (a * texels[i + 1] + b * texels[i + 4] + d * texels[j + 1] + e * texels[j + 4])
-    out[2] += w * (a * texels[i + 2] + b * texels[i + 5] + d * texels[j + 2] + e * texels[j + 5])
-    xx0, xx1 = texels[i + 4] - texels[i + 1], texels[j + 4] - texels[j + 1]
-    out[3] += w * ((1 - fy) * xx0 + fy * xx1) / texel
-    yy0, yy1 = texels[i + 2] - texels[j + 2], texels[i + 5] - texels[j + 5]
-    out[4] += w * ((1 - fx) * yy0 + fx * yy1) / texel
-    xy0, xy1 = texels[i + 1] - texels[j + 1], texels[i + 4] - texels[j + 4]
-    out[5] += w * ((1 - fx) * xy0 + fx * xy1) / texel
-
-
-@compiled
-def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free):
-    """What each pixel sees of the picture, and how that changes: `rows` (n, 10), `at` (n, 2) in half sides.
-
-    Columns of rows: the picture 0..1, its derivatives by translation (3) and turn (3), by blur (3).
-    False where the marker cannot be seen like that.
-    """
-    texels, starts, sizes, blurs, widths = tex
-    ahead, offsets, weights = np.empty((2, 2)), np.empty(MOST_TAPS), np.empty(MOST_TAPS)
-    if translation[2] < 1.0 or not _footprint(rotation, translation, lens, side_mm, ahead):
-        return False
-    level, count, ex, ey, along, across = _spread(ahead, blur, blurs, offsets, weights)
-    start, size, texel = starts[level], sizes[level], widths[level]
-    r00, r10, r20 = rotation[0, 0], rotation[1, 0], rotation[2, 0]
-    r01, r11, r21 = rotation[0, 1], rotation[1, 1], rotation[2, 1]
-    nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
-    t0, t1, t2 = translation[0], translation[1], translation[2]
-    distance = nx * t0 + ny * t1 + nz * t2
-    out = np.empty(7)
-    for i in range(len(rays)):
-        x, y = rays[i, 0], rays[i, 1]
-        facing = nx * x + ny * y + nz
-        depth = distance / facing
-        ax, ay, az = depth * x - t0, depth * y - t1, depth - t2
-        sx = (r00 * ax + r10 * ay + r20 * az) / side_mm
-        sy = (r01 * ax + r11 * ay + r21 * az) / side_mm
-        at[i, 0], at[i, 1] = 2.0 * sx, 2.0 * sy
-        out[:6] = 0.0
-        for k in range(count):
-            out[6] = weights[k]
-            _picture(texels, start, size, texel, sx + offsets[k] * ex, sy + offsets[k] * ey, out)
-        xx, yy, xy = out[3], out[4], out[5]
-        bend_along = ex * ex * xx + 2.0 * ex * ey * xy + ey * ey * yy
-        bend_across = xx + yy - bend_along
-        rows[i, 0] = out[0] + 0.5 * (along * bend_along + across * bend_across)
-        gx = (out[1] * r00 + out[2] * r01) / side_mm
-        gy = (out[1] * r10 + out[2] * r11) / side_mm
-        gz = (out[1] * r20 + out[2] * r21) / side_mm
-        # A point of the plane under this ray moves by d (n.v) / (n.d) - v when the marker moves by v.
-        slide = (gx * x + gy * y + gz) / facing
-        qx, qy, qz = nx * slide - gx, ny * slide - gy, nz * slide - gz
-        rows[i, 1], rows[i, 2], rows[i, 3] = qx, qy, qz
-        rows[i, 4] = ay * qz - az * qy
-        rows[i, 5] = az * qx - ax * qz
-        rows[i, 6] = ax * qy - ay * qx
-        if not free:
-            continue
-        a0, a1 = ahead[0, 0], ahead[1, 0]
-        b0, b1 = ahead[0, 1], ahead[1, 1]
-        rows[i, 7] = 0.5 * (a0 * a0 * xx + 2.0 * a0 * a1 * xy + a1 * a1 * yy)
-        rows[i, 8] = 0.5 * (b0 * b0 * xx + 2.0 * b0 * b1 * xy + b1 * b1 * yy)
-        rows[i, 9] = a0 * b0 * xx + (a0 * b1 + a1 * b0) * xy + a1 * b1 * yy
-    return True
-
-
-@compiled
-def _expected(row, at, numbers):
-    """Grey level of a pixel, and its derivative by the picture."""
-    s = row[0]
-    response = numbers[RESPONSE]
-    shaped = s + response * s * (1.0 - s)
-    dark = numbers[LIGHT] + numbers[LIGHT + 1] * at[0] + numbers[LIGHT + 2] * at[1]
-    contrast = numbers[LIGHT + 3] + numbers[LIGHT + 4] * at[0] + numbers[LIGHT + 5] * at[1]
-    return dark + contrast * shaped, contrast * (1.0 + response * (1.0 - 2.0 * s)), contrast, shaped
-
-
-@compiled
-def normal_equations(rows, at, values, numbers, scale, cut, a, g, sizes):
-    """Gauss-Newton's matrix (16, 16) and right side (16,); returns the robust cost, and the weights' sum.
-
-    `sizes` (n,) gets the size of each residual.
-    """
+def _even_equations(rows, at, values, lit, numbers, scale, cut, a, g, sizes):
+    """Gauss-Newton's matrix (16, 16) and right side (16,) in even light; returns robust cost and weight."""
     a[:, :] = 0.0
     g[:] = 0.0
-    row = np.empty(NUMBERS)
+    row = np.empty(EVEN)
     cost, total = 0.0, 0.0
     unit = 1.0 / (cut * scale) ** 2
+    response = numbers[RESPONSE]
     for i in range(len(values)):
-        s, u, v = rows[i, 0], at[i, 0], at[i, 1]
-        grey, slope, contrast, shaped = _expected(rows[i], at[i], numbers)
-        r = values[i] - grey
+        s, u, v, contrast = rows[i, 0], at[i, 0], at[i, 1], lit[i, 1]
+        shaped = shaped_by(s, response)
+        r = values[i] - lit[i, 0] - contrast * shaped
         sizes[i] = abs(r)
         z = r * r * unit
         # Geman and McClure: what is far off belongs to something else and has no say.
@@ -265,56 +45,74 @@ def normal_equations(rows, at, values, numbers, scale, cut, a, g, sizes):
         cost += z * w
         w *= w
         total += w
+        slope = contrast * (1.0 + response * (1.0 - 2.0 * s))
         for k in range(9):
             row[k] = slope * rows[i, 1 + k]
         row[RESPONSE] = contrast * s * (1.0 - s)
         row[LIGHT], row[LIGHT + 1], row[LIGHT + 2] = 1.0, u, v
         row[LIGHT + 3], row[LIGHT + 4], row[LIGHT + 5] = shaped, shaped * u, shaped * v
         wr = w * r
-        for m in range(NUMBERS):
+        for m in range(EVEN):
             wm = w * row[m]
             g[m] += wr * row[m]
             # The whole square, although it is symmetric: rows of fixed length are added four at a time.
-            for k in range(NUMBERS):
+            for k in range(EVEN):
                 a[m, k] += wm * row[k]
     return cost / unit, total
 
 
 @compiled
-def light_of(rows, at, values, numbers, scale, cut):
-    """Fit the light alone, robustly, into numbers[10:16]; False where there is none."""
-    a, g, out = np.zeros((6, 6)), np.zeros(6), np.zeros(6)
-    row = np.empty(6)
-    for round_ in range(3):
-        a[:, :] = 0.0
-        g[:] = 0.0
-        for i in range(len(values)):
-            s = rows[i, 0]
-            shaped = s + numbers[RESPONSE] * s * (1.0 - s)
-            w = 1.0
-            if round_ > 0:
-                r = values[i] - _expected(rows[i], at[i], numbers)[0]
-                w = 1.0 / (1.0 + (r / (cut * scale)) ** 2) ** 2
-            row[0], row[1], row[2] = 1.0, at[i, 0], at[i, 1]
-            row[3], row[4], row[5] = shaped, shaped * at[i, 0], shaped * at[i, 1]
-            for m in range(6):
-                g[m] += w * row[m] * values[i]
-                for k in range(6):
-                    a[m, k] += w * row[m] * row[k]
-        for m in range(6):
-            a[m, m] *= 1.0 + 1e-6
-        # Slopes of the light are small unless the image says otherwise.
-        for m in (1, 2, 4, 5):
-            a[m, m] += 0.02 * a[0, 0]
-        if not solve_positive(a, g, out):
-            return False
-        numbers[LIGHT : LIGHT + 6] = out
-        if round_ == 0:
-            sizes = np.empty(len(values))
-            for i in range(len(values)):
-                sizes[i] = abs(values[i] - _expected(rows[i], at[i], numbers)[0])
-            scale = max(1.4826 * np.median(sizes), scale)
-    return True
+def _uneven_equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes):
+    """The same in uneven light, of which each pixel sees nine nodes."""
+    a[:, :] = 0.0
+    g[:] = 0.0
+    row, index, weight = np.empty(LIGHT), np.empty(AROUND, np.int64), np.empty(AROUND)
+    where, share = np.empty(2 * AROUND, np.int64), np.empty(2 * AROUND)
+    cost, total, both = 0.0, 0.0, nodes * nodes
+    unit = 1.0 / (cut * scale) ** 2
+    response = numbers[RESPONSE]
+    for i in range(len(values)):
+        s, contrast = rows[i, 0], lit[i, 1]
+        shaped = shaped_by(s, response)
+        r = values[i] - lit[i, 0] - contrast * shaped
+        sizes[i] = abs(r)
+        z = r * r * unit
+        w = 1.0 / (1.0 + z)
+        cost += z * w
+        w *= w
+        total += w
+        slope = contrast * (1.0 + response * (1.0 - 2.0 * s))
+        for k in range(9):
+            row[k] = slope * rows[i, 1 + k]
+        row[RESPONSE] = contrast * s * (1.0 - s)
+        cell_of(at[i, 0], at[i, 1], nodes, index, weight)
+        for k in range(AROUND):
+            where[k], share[k] = LIGHT + index[k], weight[k]
+            where[AROUND + k], share[AROUND + k] = LIGHT + both + index[k], weight[k] * shaped
+        wr = w * r
+        for m in range(LIGHT):
+            wm = w * row[m]
+            g[m] += wr * row[m]
+            for k in range(LIGHT):
+                a[m, k] += wm * row[k]
+            for k in range(2 * AROUND):
+                a[m, where[k]] += wm * share[k]
+        for m in range(2 * AROUND):
+            g[where[m]] += wr * share[m]
+            for k in range(2 * AROUND):
+                a[where[m], where[k]] += w * share[m] * share[k]
+    for m in range(LIGHT):
+        for k in range(LIGHT, len(g)):
+            a[k, m] = a[m, k]
+    return cost / unit, total
+
+
+@compiled
+def _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes):
+    light_up(at, numbers, nodes, lit)
+    if nodes == 0:
+        return _even_equations(rows, at, values, lit, numbers, scale, cut, a, g, sizes)
+    return _uneven_equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
 
 
 @compiled
@@ -322,24 +120,6 @@ def _typical(sizes):
     """The sd of normally distributed residuals of these sizes, from at most 600 of them."""
     every = len(sizes) // 600 + 1
     return 1.4826 * np.median(sizes[::every])
-
-
-@compiled
-def thinned(rays, values, lens, rotation, translation, side_mm, tex, blur, slope_ratio, stride):
-    """Keep, in place, the pixels at the picture's edges and every so many others; how many there are."""
-    n = len(values)
-    rows, at = np.zeros((n, 10)), np.empty((n, 2))
-    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
-        return 0
-    steepest = 0.0
-    for i in range(n):
-        steepest = max(steepest, rows[i, 1] ** 2 + rows[i, 2] ** 2 + rows[i, 3] ** 2)
-    least, kept = slope_ratio * slope_ratio * steepest, 0
-    for i in range(n):
-        if i % stride == 0 or rows[i, 1] ** 2 + rows[i, 2] ** 2 + rows[i, 3] ** 2 > least:
-            rays[kept, 0], rays[kept, 1], values[kept] = rays[i, 0], rays[i, 1], values[i]
-            kept += 1
-    return kept
 
 
 @compiled
@@ -363,19 +143,31 @@ def corner_motion_px(rotation, translation, lens, side_mm, step):
 
 
 @compiled
-def _hold(a, g, numbers, scale, free):
-    """Add to the normal equations what is known beforehand of blur, response and light."""
-    contrast = max(abs(numbers[LIGHT + 3]), 1.0)
+def _hold(a, g, numbers, scale, nodes):
+    """Add to the normal equations what is known beforehand; returns what it costs."""
     for m in range(3):
         a[BLUR + m, BLUR + m] += (scale / (1.0 + numbers[BLUR] + numbers[BLUR + 1])) ** 2
-    response = (scale / 0.3) ** 2
-    a[RESPONSE, RESPONSE] += response
-    g[RESPONSE] -= response * numbers[RESPONSE]
-    for m in (1, 2, 4, 5):
-        a[LIGHT + m, LIGHT + m] += (scale / (0.5 * contrast)) ** 2
-    if not free:
-        for m in range(BLUR, LIGHT):
-            a[m, m] = 1e12 * (1.0 + a[m, m])
+    straight = (scale / RESPONSE_SD) ** 2
+    a[RESPONSE, RESPONSE] += straight
+    g[RESPONSE] -= straight * numbers[RESPONSE]
+    return straight * numbers[RESPONSE] ** 2 + hold_light(a, g, numbers, scale, nodes)
+
+
+@compiled
+def _advance(rotation, translation, numbers, step, share, least_blur):
+    """Move by a share of a step, in place; False where that turns the face away."""
+    before = numbers[BLUR : BLUR + 3].copy()
+    for k in range(3):
+        translation[k] += share * step[k]
+    turn_by(rotation, share * step[3:6])
+    for k in range(6, len(numbers)):
+        numbers[k] += share * step[k]
+    _keep_blur(numbers[BLUR : BLUR + 3], before, least_blur)
+    numbers[RESPONSE] = min(max(numbers[RESPONSE], -0.9), 0.9)
+    facing = (
+        rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
+    )
+    return facing < 0.0
 
 
 @compiled
@@ -388,76 +180,61 @@ def whole_fit(
     side_mm,
     tex,
     numbers,
+    nodes,
     least_blur,
     rounds,
     cut,
-    fresh,
     most_px,
-    free,
 ):
-    """Fit pose, blur, response and light to the pixels, in place.
+    """Fit pose, blur, response and light to the pixels, in place, by damped Gauss-Newton.
 
-    `numbers` (16,): blur, response and light, in and out. `fresh`: the light is not known yet. `free`: blur
-    and response are fitted as well.
-    Returns the matrix (16, 16) at the end with what is known beforehand in it, the scale of the residuals
-    in grey levels, the robust cost, the mean weight, how many pixels (0 where it failed) and rounds.
+    `numbers`: of blur, response and light, in and out; (16,) with 0 nodes, whose light is found first, else
+    (10 + 2 nodes^2,), whose light is given. Returns the matrix at the end with what is known beforehand in
+    it, the scale of the residuals in grey levels, the mean weight, how many pixels (0: it failed) and rounds.
     """
-    n = len(values)
-    rows, at = np.zeros((n, 10)), np.empty((n, 2))
-    sizes = np.empty(n)
-    a, g, step = np.zeros((NUMBERS, NUMBERS)), np.zeros(NUMBERS), np.zeros(NUMBERS)
-    damped = np.zeros((NUMBERS, NUMBERS))
+    n, count = len(values), len(numbers)
+    rows, at, lit, sizes = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.empty(n)
+    a, g, step = np.zeros((count, count)), np.zeros(count), np.zeros(count)
     old_rotation, old_translation, old = rotation.copy(), translation.copy(), numbers.copy()
-    old_a, old_g = a.copy(), g.copy()
-    failed = (a, 0.0, 0.0, 0.0, 0, 0)
-    if n < 2 * NUMBERS:
-        return failed
+    failed = (a, 0.0, 0.0, 0, 0)
     blur = numbers[BLUR : BLUR + 3]
-    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free):
+    if n < 2 * EVEN:
         return failed
-    if fresh and not light_of(rows, at, values, numbers, 2.0, cut):
+    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
         return failed
-    for i in range(n):
-        sizes[i] = abs(values[i] - _expected(rows[i], at[i], numbers)[0])
+    if nodes == 0 and not even_light(rows, at, values, numbers, 2.0, cut):
+        return failed
+    # Once with any scale, for the sizes of the residuals; then with theirs.
+    _equations(rows, at, values, lit, numbers, nodes, 1.0, cut, a, g, sizes)
     scale = max(_typical(sizes), 0.5)
-    cost, total = normal_equations(rows, at, values, numbers, scale, cut, a, g, sizes)
+    cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
+    cost += _hold(a, g, numbers, scale, nodes)
+    old_a, old_g = a.copy(), g.copy()
     damping, done = 1e-6, 0
-    settled_at = 0.02 if free else 2.0
     for _ in range(rounds):
         done += 1
-        damped[:, :] = a
         old_a[:, :], old_g[:] = a, g
-        _hold(damped, g, numbers, scale, free)
-        for m in range(NUMBERS):
-            damped[m, m] *= 1.0 + damping
-        if not solve_positive(damped, g, step):
+        for m in range(count):
+            a[m, m] *= 1.0 + damping
+        if not solve_positive(a, g, step):
             return failed
-        old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
+        a[:, :] = old_a
         # What the step promises, in squared standard deviations of what it changes.
         gain = 0.0
-        for m in range(NUMBERS):
+        for m in range(count):
             gain += g[m] * step[m]
-        size = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
         moved = corner_motion_px(rotation, translation, lens, side_mm, step)
+        turned = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
         if not np.isfinite(moved):
             return failed
-        short = most_px / moved if moved > most_px else 1.0
-        short = min(short, 0.4 / max(size, 1e-9))
-        for k in range(3):
-            translation[k] += short * step[k]
-        turn_by(rotation, short * step[3:6])
-        for k in range(6, NUMBERS):
-            numbers[k] += short * step[k]
-        _keep_blur(blur, old[BLUR : BLUR + 3], least_blur)
-        numbers[RESPONSE] = min(max(numbers[RESPONSE], -0.9), 0.9)
-        facing = (
-            rotation[0, 2] * translation[0]
-            + rotation[1, 2] * translation[1]
-            + rotation[2, 2] * translation[2]
-        )
+        share = min(most_px / max(moved, 1e-12), 0.4 / max(turned, 1e-12), 1.0)
+        old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
         new_cost = np.inf
-        if facing < 0.0 and predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, free):
-            new_cost, total = normal_equations(rows, at, values, numbers, scale, cut, a, g, sizes)
+        if _advance(rotation, translation, numbers, step, share, least_blur) and predict(
+            rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True
+        ):
+            new_cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
+            new_cost += _hold(a, g, numbers, scale, nodes)
         if not new_cost <= cost * (1.0 + 1e-9):
             rotation[:, :], translation[:], numbers[:] = old_rotation, old_translation, old
             a[:, :], g[:] = old_a, old_g
@@ -465,31 +242,30 @@ def whole_fit(
                 break
             damping = max(100.0 * damping, 1e-2)
             continue
-        damping = 0.1 * damping
-        settled = gain < settled_at * scale * scale and short == 1.0
-        typical = max(_typical(sizes), 0.3)
-        cost = new_cost
-        if settled:
+        damping, cost = 0.1 * damping, new_cost
+        if gain < SETTLED_SD2 * scale * scale and share == 1.0:
             break
+        typical = max(_typical(sizes), 0.3)
         if abs(typical - scale) > 0.1 * scale:
             scale = typical
-            cost, total = normal_equations(rows, at, values, numbers, scale, cut, a, g, sizes)
-    _hold(a, g, numbers, scale, True)
-    return a, scale, cost, total / n, n, done
+            cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
+            cost += _hold(a, g, numbers, scale, nodes)
+    return a, scale, total / n, n, done
 
 
 @compiled
-def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, scale, cut):
+def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, cut):
     """The robust sum of squared residuals of a fit, in units of `scale`; infinite where it cannot be seen."""
     n = len(values)
-    rows, at = np.zeros((n, 10)), np.empty((n, 2))
+    rows, at, lit = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2))
     blur = numbers[BLUR : BLUR + 3]
     if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
         return np.inf
+    light_up(at, numbers, nodes, lit)
     cost, unit = 0.0, 1.0 / (cut * scale) ** 2
     for i in range(n):
-        z = (values[i] - _expected(rows[i], at[i], numbers)[0]) ** 2 * unit
-        cost += z / (1.0 + z)
+        r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[i, 0], numbers[RESPONSE])
+        cost += r * r * unit / (1.0 + r * r * unit)
     return cost * cut * cut
 
 

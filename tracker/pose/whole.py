@@ -65,6 +65,7 @@ def with_whole_shape(
         starts,
         side_mm=model.side_mm,
         side_px=side_px,
+        noise_grey=pixels.noise_grey,
     )
     here = camera.px_from_camera(starts[0].move_points(model.corners_mm))
     reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)
