@@ -4,7 +4,8 @@ import cv2
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Marker, Rigid, rotation_between
+from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.pose.kernels import mirror
 
 
 def pose_from_corners(
@@ -39,7 +40,6 @@ def other_solution(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:
     Far away, the image of a plane depends on the tilt's amount and on the line it turns about, not on which
     half is nearer. In a frame whose z is the line of sight that is the reflection D R D, D = diag(1, 1, -1).
     """
-    to_sight = rotation_between([0.0, 0.0, 1.0], pose.translation_mm)
-    mirror = to_sight @ np.diag([1.0, 1.0, -1.0]) @ to_sight.T
-    flip = np.diag([1.0, 1.0, -1.0])
-    return Rigid(rotation=mirror @ pose.rotation @ flip, translation_mm=pose.translation_mm)
+    rotation = np.empty((3, 3))
+    mirror(pose.rotation, pose.translation_mm, rotation)
+    return Rigid(rotation=rotation, translation_mm=pose.translation_mm)
