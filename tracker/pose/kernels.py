@@ -10,7 +10,7 @@ from tracker.geometry.kernels import solve_positive, turn_by
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 LEAST_EDGES = 12
 # A step that moves no edge by more than this is the last; after one under the other the look is close by.
-LEAST_MOVE_PX, NEAR_MOVE_PX = 0.004, 0.3
+LEAST_MOVE_PX, NEAR_MOVE_PX = 0.002, 0.3
 
 
 @compiled
