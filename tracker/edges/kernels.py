@@ -12,6 +12,20 @@ END_WORTH = 0.6
 
 
 @compiled
+def median_magnitude(gx, gy, stride):
+    """Median magnitude of every `stride`-th pixel of every `stride`-th row of the gradient; NaN for none."""
+    height, width = gx.shape
+    found = np.empty(((height // stride) + 1) * ((width // stride) + 1), np.float32)
+    n = 0
+    for v in range(stride // 2, height, stride):
+        for u in range(stride // 2, width, stride):
+            a, b = np.float32(gx[v, u]), np.float32(gy[v, u])
+            found[n] = np.sqrt(a * a + b * b)
+            n += 1
+    return np.median(found[:n]) if n > 0 else np.nan
+
+
+@compiled
 def find_edgels(gx, gy, threshold):
     """Edgels x, y, nx, ny, strength (n,), and the index of each in its pixel (h, w)."""
     height, width = gx.shape

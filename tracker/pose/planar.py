@@ -25,9 +25,12 @@ def pose_from_corners(
     if scale < 1e-12:
         return None
     columns = homography / (scale if homography[2, 2] > 0.0 else -scale)
-    u, _, vt = np.linalg.svd(np.column_stack([columns[:, :2], np.cross(columns[:, 0], columns[:, 1])]))
-    rotation = u @ np.diag([1.0, 1.0, np.linalg.det(u @ vt)]) @ vt
-    translation = columns[:, 2]
+    (ax, bx, x), (ay, by, y), (az, bz, z) = columns.tolist()
+    across = [[ax, bx, ay * bz - az * by], [ay, by, az * bx - ax * bz], [az, bz, ax * by - ay * bx]]
+    u, _, vt = np.linalg.svd(np.array(across))
+    if np.linalg.det(u @ vt) < 0.0:
+        u[:, 2] = -u[:, 2]
+    rotation, translation = u @ vt, np.array([x, y, z])
     # The printed face looks at the camera, and the camera looks at the marker.
     if translation[2] <= 0.0 or float(rotation[:, 2] @ translation) >= 0.0:
         return None
