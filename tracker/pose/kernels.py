@@ -10,7 +10,11 @@ from tracker.geometry.kernels import solve_positive, turn_by
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 LEAST_EDGES = 12
 # A step that moves no edge by more than this is the last; after one under the other the look is close by.
-LEAST_MOVE_PX, NEAR_MOVE_PX = 0.002, 0.3
+LEAST_MOVE_PX, NEAR_MOVE_PX = 0.004, 0.3
+# A parabola through samples a pixel apart places a peak that is near short by a fifth.
+NEAR_STEP = 1.25
+# A fit that moves less than this and is worse by far will not come to be the better one.
+HOPELESS_MOVE_PX = 0.1
 
 
 @compiled
@@ -147,27 +151,34 @@ def _moved(rotation, translation, step):
 
 
 @compiled
-def _sums(offset, found, weight, shift, scale, reach):
-    """Robustly weighted sum of squares, and the cost in which a missing edge counts as far off: px^2."""
-    squares, cost = 0.0, 0.0
+def _cost(offset, found, weight, shift, reach):
+    """Weighted sum of squares in which a missing edge counts as far off: px^2."""
+    cost = 0.0
     for i in range(len(offset)):
-        if not found[i]:
-            cost += weight[i] * reach * reach
-            continue
-        r = offset[i] - shift
+        r = offset[i] - shift if found[i] else reach
         cost += weight[i] * min(r * r, reach * reach)
-        z = r / (4.685 * scale)
-        if abs(z) < 1.0:
-            squares += weight[i] * (1.0 - z * z) ** 2 * r * r
-    return squares, cost
+    return cost
 
 
 @compiled
-def _refine(gx, gy, left, top, lens, points, normals, strength, least, reaches, shift_sd, pose, a, numbers):
+def _squares(offset, found, weight, shift, scale):
+    """Robustly weighted sum of squares: px^2."""
+    squares = 0.0
+    for i in range(len(offset)):
+        z = (offset[i] - shift) / (4.685 * scale)
+        if found[i] and abs(z) < 1.0:
+            squares += weight[i] * (1.0 - z * z) ** 2 * (offset[i] - shift) ** 2
+    return squares
+
+
+@compiled
+def _refine(
+    gx, gy, left, top, lens, points, normals, strength, least, reaches, shift_sd, most, pose, a, numbers
+):
     """Gauss-Newton of the pose on the offsets along the normals, searched anew at each of `reaches` px.
 
     Changes the pose, rotation (3, 3) and translation (3,), in place; `a` (7, 7) and `numbers` are those of
-    `refine_both`. False when it failed.
+    `refine_both`. It ends early where the cost stays over `most` px^2. False when it failed.
     """
     rotation, translation = pose
     n = len(points)
@@ -188,15 +199,22 @@ def _refine(gx, gy, left, top, lens, points, normals, strength, least, reaches, 
         count = _residuals(gx, gy, left, top, pixels, directions, strength, least, reach, found, offset)
         if count < LEAST_EDGES:
             return False
+        if at == last and turn > 0 and moved < HOPELESS_MOVE_PX:
+            ends = ends or _cost(offset, found, strength, shift, reach) > most
         scale = max(_median_size(offset, shift, found, kept), 0.02 if ends else 0.05)
         weights = _normal_equations(
             rotation, points, toward, found, offset, strength, shift, shift_sd, scale, a, g
         )
         if ends:
-            squares, cost = _sums(offset, found, strength, shift, scale, reach)
-            numbers[0], numbers[1], numbers[2], numbers[3], numbers[4] = cost, shift, squares, weights, count
+            numbers[0], numbers[1] = _cost(offset, found, strength, shift, reach), shift
+            numbers[2], numbers[3] = _squares(offset, found, strength, shift, scale), weights
+            numbers[4] = count
             return weights > PARAMETERS
-        if not solve_positive(a, g, step) or not _moved(rotation, translation, step):
+        if not solve_positive(a, g, step):
+            return False
+        if turn > 0 and moved < NEAR_MOVE_PX:
+            step *= NEAR_STEP
+        if not _moved(rotation, translation, step):
             return False
         shift += step[6]
     return False
@@ -217,12 +235,28 @@ def mirror(rotation, translation, out):
 
 @compiled
 def refine_both(
-    gx, gy, left, top, lens, points, normals, strength, least, reaches, shift_sd, rotation, translation, most
+    gx,
+    gy,
+    left,
+    top,
+    lens,
+    points,
+    normals,
+    strength,
+    least,
+    reaches,
+    shift_sd,
+    rotation,
+    translation,
+    most,
+    least_px2,
+    decided,
 ):
     """Both planar solutions around a pose, each refined, the better one first.
 
     A fit that stopped halfway costs more than the wrong solution well fitted, and its mirror image mirrors
     nothing: what is taken stands only after its own mirror image, fitted from it, has lost, or after `most`.
+    Costs that differ by `decided` variances of an edge (at least `least_px2`) need no exact loser.
 
     Returns:
         rotations (3, 3, 3), translations (3, 3), matrices (3, 7, 7) and numbers (3, 5) of three fits: robust
@@ -233,7 +267,7 @@ def refine_both(
     matrices, numbers = np.zeros((3, PARAMETERS, PARAMETERS)), np.zeros((3, 5))
     rotations[0], translations[0] = rotation, translation
     seed_rotation, seed_translation = rotation.copy(), translation.copy()
-    better, other, free = -1, -1, 0
+    better, other, free, hopeless = -1, -1, 0, np.inf
     for fit in range(most + 1):
         if fit > 0:
             mirror(seed_rotation, seed_translation, rotations[free])
@@ -250,6 +284,7 @@ def refine_both(
             least,
             reaches,
             shift_sd,
+            hopeless,
             (rotations[free], translations[free]),
             matrices[free],
             numbers[free],
@@ -262,6 +297,8 @@ def refine_both(
         if fits:
             better, other = free, better
             seed_rotation[:, :], seed_translation[:] = rotations[free], translations[free]
+            cost, squares, weights = numbers[free, 0], numbers[free, 2], numbers[free, 3]
+            hopeless = cost + decided * max(squares / weights, cost / max(strength.sum(), 1.0), least_px2)
         for slot in range(3):
             if slot not in (better, other):
                 free = slot

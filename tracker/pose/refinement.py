@@ -85,6 +85,9 @@ def refined_pose(
         start.rotation,
         start.translation_mm,
         MOST_MIRRORINGS,
+        LEAST_RESIDUAL_PX**2,
+        # Twice what decides: the cost of a fit that is not at its end falls a little yet.
+        2.0 * DECIDED_COST * CORRELATION_LENGTH_PX,
     )
     poses: list[Rigid[Camera, Marker]] = [
         Rigid(rotation=rotations[k], translation_mm=translations[k]) for k in (first, second) if k >= 0
