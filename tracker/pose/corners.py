@@ -1,5 +1,7 @@
 """Where the four corners of the black square are in the image."""
 
+from math import dist
+
 import numpy as np
 
 from tracker.edges import Gradient
@@ -38,7 +40,8 @@ def measured_corners_px(
         contrast: gradient of a free edge of this occurrence.
     """
     half = float(np.abs(active.points_mm).max())
-    side_px = float(np.linalg.norm(np.diff(corners_px, axis=0), axis=1).mean())
+    c = corners_px.tolist()
+    side_px = (dist(c[0], c[1]) + dist(c[1], c[2]) + dist(c[2], c[3])) / 3.0
     reach = MOST_OFF_PX + MOST_OFF_SIDE_RATIO * side_px
     offset, response = edge_crossings(gradient, points_px, normals_px, reach_px=reach)
     usable = ~active.inner & active.straight & (response > 0.5 * contrast * active.strength_ratio)

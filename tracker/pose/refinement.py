@@ -66,11 +66,56 @@ def refined_pose(
 
     Where neither the image nor what was expected decides between the two, the covariance spans both.
     """
-    last, fitted = reach_px(side_px), active.fitted
+    rotations, translations, matrices, numbers, first, second = _both(
+        camera, gradient, active, start, contrast, reach_px(side_px), first_reach_px
+    )
+    if first < 0:
+        return None
+
+    def pose_of(k: int) -> Rigid[Camera, Marker]:
+        return Rigid(rotation=rotations[k], translation_mm=translations[k])
+
+    if second < 0:
+        return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
+    # By all edges, not by those few that agree: where most are missing or far off, nothing is decided.
+    mean_px2 = float(numbers[first, 0]) / active.fitted.weight
+    residuals = [float(numbers[k, 2] / numbers[k, 3]) for k in (first, second)]
+    variance = max(min(residuals), LEAST_RESIDUAL_PX**2, mean_px2) * CORRELATION_LENGTH_PX
+    costs = [float(numbers[k, 0]) for k in (first, second)]
+    if expected is None and costs[1] - costs[0] > DECIDED_COST * variance:
+        return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
+    poses = [pose_of(first), pose_of(second)]
+    costs = [cost + variance * surprise(pose, expected) for cost, pose in zip(costs, poses, strict=True)]
+    if costs[0] > costs[1]:
+        first, poses = second, poses[::-1]
+    fit = _fit(poses[0], matrices[first], numbers[first], active, side_px)
+    gap = abs(costs[1] - costs[0]) / variance
+    if expected is not None and turned_over(poses[0], poses[1], expected):
+        gap = min(gap, UNDECIDED_COST)
+    if fit is None or gap > DECIDED_COST:
+        return fit
+    apart = difference(poses[0], poses[1])
+    if float(np.linalg.norm(apart[3:])) < 1e-3:
+        return fit
+    doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
+    return replace(fit, covariance=fit.covariance + doubt * np.outer(apart, apart), doubt_ratio=doubt)
+
+
+def _both(
+    camera: CameraModel,
+    gradient: Gradient,
+    active: ActiveEdges,
+    start: Rigid[Camera, Marker],
+    contrast: float,
+    last_reach_px: float,
+    first_reach_px: float,
+) -> tuple[Array, Array, Array, Array, int, int]:
+    """What `refine_both` makes of a start: fits, and which of them is the better and which the other."""
+    fitted, last = active.fitted, last_reach_px
     reaches = np.array(
         [first_reach_px, first_reach_px, max(last, first_reach_px / 2.0), last, last, last, last, last]
     )
-    rotations, translations, matrices, numbers, first, second = refine_both(
+    both: tuple[Array, Array, Array, Array, int, int] = refine_both(
         gradient.x,
         gradient.y,
         float(gradient.left_px),
@@ -89,34 +134,7 @@ def refined_pose(
         # Twice what decides: the cost of a fit that is not at its end falls a little yet.
         2.0 * DECIDED_COST * CORRELATION_LENGTH_PX,
     )
-    poses: list[Rigid[Camera, Marker]] = [
-        Rigid(rotation=rotations[k], translation_mm=translations[k]) for k in (first, second) if k >= 0
-    ]
-    if not poses:
-        return None
-    if len(poses) == 1:
-        return _fit(poses[0], matrices[first], numbers[first], active, side_px)
-    # By all edges, not by those few that agree: where most are missing or far off, nothing is decided.
-    mean_px2 = float(numbers[first, 0]) / fitted.weight
-    residuals = [float(numbers[k, 2] / numbers[k, 3]) for k in (first, second)]
-    variance = max(min(residuals), LEAST_RESIDUAL_PX**2, mean_px2) * CORRELATION_LENGTH_PX
-    costs = [
-        float(numbers[k, 0]) + variance * surprise(pose, expected)
-        for k, pose in zip((first, second), poses, strict=True)
-    ]
-    if costs[0] > costs[1]:
-        first, poses = second, poses[::-1]
-    fit = _fit(poses[0], matrices[first], numbers[first], active, side_px)
-    gap = abs(costs[1] - costs[0]) / variance
-    if expected is not None and turned_over(poses[0], poses[1], expected):
-        gap = min(gap, UNDECIDED_COST)
-    if fit is None or gap > DECIDED_COST:
-        return fit
-    apart = difference(poses[0], poses[1])
-    if float(np.linalg.norm(apart[3:])) < 1e-3:
-        return fit
-    doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
-    return replace(fit, covariance=fit.covariance + doubt * np.outer(apart, apart), doubt_ratio=doubt)
+    return both
 
 
 def turned_over(

@@ -291,7 +291,9 @@ def test_a_fit_that_ends_early_is_where_a_fit_without_end_would_be(side_px: floa
     """Refined on from its own end, again and again, no corner moves by a hundredth of a pixel."""
     pose = facing([20, -15, SIDE_MM * 700.0 / side_px], tilt_deg=35, about_deg=70, roll_deg=15)
     gradient = gradient_of(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]))
-    ends, start = [], Rigid(rotation=pose.rotation, translation_mm=pose.translation_mm * [1.0, 1.0, 1.01])
+    farther = pose.translation_mm * [1.0, 1.0, 1.01]
+    start: Rigid[Camera, Marker] = Rigid(rotation=pose.rotation, translation_mm=farther)
+    ends = []
     for _ in range(6):
         fit = refined_pose(
             CAMERA,
