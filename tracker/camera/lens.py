@@ -14,15 +14,25 @@ if TYPE_CHECKING:
 
 
 def lens_numbers(camera: "CameraModel") -> Array:
-    """fx, fy, cx, cy, then OpenCV's 12 coefficients, then the sensor's tilt matrix row by row: (25,)."""
+    """fx, fy, cx, cy, OpenCV's 12 coefficients, the sensor's tilt matrix row by row, 1 for no lens: (26,)."""
+    return camera.lens
+
+
+def lens_of(matrix: Array, distortion: Array) -> Array:
+    """The same of K (3, 3) and OpenCV's coefficients."""
     coefficients = np.zeros(14)
-    coefficients[: camera.distortion.size] = camera.distortion
+    coefficients[: distortion.size] = distortion
     tx, ty = coefficients[12], coefficients[13]
     about_x = np.array([[1, 0, 0], [0, np.cos(tx), np.sin(tx)], [0, -np.sin(tx), np.cos(tx)]])
     about_y = np.array([[np.cos(ty), 0, -np.sin(ty)], [0, 1, 0], [np.sin(ty), 0, np.cos(ty)]])
     turned = about_y @ about_x
     keystone = np.array([[turned[2, 2], 0, -turned[0, 2]], [0, turned[2, 2], -turned[1, 2]], [0, 0, 1]])
-    k = camera.matrix
+    k = matrix
     return np.concatenate(
-        [[k[0, 0], k[1, 1], k[0, 2], k[1, 2]], coefficients[:12], (keystone @ turned).ravel()]
+        [
+            [k[0, 0], k[1, 1], k[0, 2], k[1, 2]],
+            coefficients[:12],
+            (keystone @ turned).ravel(),
+            [0.0 if coefficients.any() else 1.0],
+        ]
     )

@@ -1,12 +1,13 @@
 """The camera as a pinhole with a lens."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
+from tracker.camera.lens import lens_of
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
@@ -22,6 +23,7 @@ class CameraModel:
         matrix: OpenCV's K (3, 3): focal lengths and principal point in px, no skew.
         distortion: OpenCV's coefficients, 4, 5, 8, 12 or 14 of them (k1 k2 p1 p2 k3 ...).
         size_wh_px: width and height of the images that it was calibrated on.
+        lens: the same as the compiled loops want it, see `lens_numbers`; made here.
 
     Raises:
         InvalidInput: CAMERA_MODEL_INVALID, with the number that cannot be.
@@ -30,6 +32,7 @@ class CameraModel:
     matrix: Array
     distortion: Array
     size_wh_px: tuple[int, int]
+    lens: Array = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         matrix = np.array(self.matrix, dtype=np.float64)
@@ -44,11 +47,13 @@ class CameraModel:
                 f"the camera model cannot be used: {problem}",
                 "Calibrate the camera again, or give OpenCV's K (3x3), distortion and image size.",
             )
-        matrix.setflags(write=False)
-        distortion.setflags(write=False)
+        lens = lens_of(matrix, distortion)
+        for one in (matrix, distortion, lens):
+            one.setflags(write=False)
         object.__setattr__(self, "matrix", matrix)
         object.__setattr__(self, "distortion", distortion)
         object.__setattr__(self, "size_wh_px", (width, height))
+        object.__setattr__(self, "lens", lens)
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, object]) -> "CameraModel":

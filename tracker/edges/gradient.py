@@ -1,11 +1,14 @@
 """The gradient of an image (the paper's equations 6 and 7) and the noise in it."""
 
 from dataclasses import dataclass
+from math import isnan
 from typing import TypeAlias
 
 import cv2
 import numpy as np
 import numpy.typing as npt
+
+from tracker.edges.kernels import median_magnitude
 
 GreyImage: TypeAlias = npt.NDArray[np.uint8]
 GradientImage: TypeAlias = npt.NDArray[np.int16]
@@ -50,10 +53,7 @@ def gradient_of(image: GreyImage, *, left_px: int = 0, top_px: int = 0) -> Gradi
 
 def noise_threshold(x: GradientImage, y: GradientImage) -> float:
     """The magnitude that noise of this image rarely exceeds, from the median over a sparse grid."""
-    half = SAMPLE_STRIDE // 2
-    sx = x[half::SAMPLE_STRIDE, half::SAMPLE_STRIDE].astype(np.float32)
-    sy = y[half::SAMPLE_STRIDE, half::SAMPLE_STRIDE].astype(np.float32)
-    if sx.size == 0:
+    median = float(median_magnitude(x, y, SAMPLE_STRIDE))
+    if isnan(median):
         return LEAST_THRESHOLD
-    median = float(np.median(np.hypot(sx, sy)))
-    return float(np.clip(NOISE_MEDIANS * median, LEAST_THRESHOLD, MOST_THRESHOLD))
+    return min(max(NOISE_MEDIANS * median, LEAST_THRESHOLD), MOST_THRESHOLD)

@@ -12,6 +12,20 @@ END_WORTH = 0.6
 
 
 @compiled
+def median_magnitude(gx, gy, stride):
+    """Median magnitude of every `stride`-th pixel of every `stride`-th row of the gradient; NaN for none."""
+    height, width = gx.shape
+    found = np.empty(((height // stride) + 1) * ((width // stride) + 1), np.float32)
+    n = 0
+    for v in range(stride // 2, height, stride):
+        for u in range(stride // 2, width, stride):
+            a, b = np.float32(gx[v, u]), np.float32(gy[v, u])
+            found[n] = np.sqrt(a * a + b * b)
+            n += 1
+    return np.median(found[:n]) if n > 0 else np.nan
+
+
+@compiled
 def find_edgels(gx, gy, threshold):
     """Edgels x, y, nx, ny, strength (n,), and the index of each in its pixel (h, w)."""
     height, width = gx.shape
@@ -202,6 +216,17 @@ def cut_straight(x, y, order, starts, tolerance, least_length):
 
 
 @compiled
+def _slope(gx, gy, x, y, nx, ny):
+    """The derivative along (nx, ny) at a point (x, y) of the window, bilinear."""
+    iu, iv = int(x), int(y)
+    fu, fv = x - iu, y - iv
+    a, b, c, d = (1 - fu) * (1 - fv), fu * (1 - fv), (1 - fu) * fv, fu * fv
+    dx = a * gx[iv, iu] + b * gx[iv, iu + 1] + c * gx[iv + 1, iu] + d * gx[iv + 1, iu + 1]
+    dy = a * gy[iv, iu] + b * gy[iv, iu + 1] + c * gy[iv + 1, iu] + d * gy[iv + 1, iu + 1]
+    return dx * nx + dy * ny
+
+
+@compiled
 def crossing(gx, gy, u, v, nx, ny, reach):
     """Offset in px along the unit direction (nx, ny) from (u, v) to the edge, and its strength.
 
@@ -211,30 +236,23 @@ def crossing(gx, gy, u, v, nx, ny, reach):
     height, width = gx.shape
     steps = min(int(np.ceil(reach)) + 1, MOST_STEPS)
     best, best_worth, best_k = np.float64(0.0), np.float64(0.0), -1000
-    profile = np.empty(2 * MOST_STEPS + 1, np.float64)
+    best_before, best_after = np.float64(0.0), np.float64(0.0)
+    before, here = np.float64(0.0), np.float64(0.0)
     for k in range(-steps, steps + 1):
         x, y = u + k * nx, v + k * ny
-        iu, iv = int(np.floor(x)), int(np.floor(y))
-        if iu < 0 or iv < 0 or iu + 1 >= width or iv + 1 >= height:
-            profile[k + steps] = 0.0
-            continue
-        fu, fv = x - iu, y - iv
-        a, b, c, d = (1 - fu) * (1 - fv), fu * (1 - fv), (1 - fu) * fv, fu * fv
-        dx = a * gx[iv, iu] + b * gx[iv, iu + 1] + c * gx[iv + 1, iu] + d * gx[iv + 1, iu + 1]
-        dy = a * gy[iv, iu] + b * gy[iv, iu + 1] + c * gy[iv + 1, iu] + d * gy[iv + 1, iu + 1]
-        profile[k + steps] = dx * nx + dy * ny
-    for k in range(-steps + 1, steps):
-        here = profile[k + steps]
-        if here <= 0.0 or here < profile[k + steps - 1] or here < profile[k + steps + 1]:
-            continue
-        worth = here * (1.0 - (1.0 - END_WORTH) * abs(k) / steps)
-        if worth > best_worth:
-            best_worth, best_k, best = worth, k, here
+        after = np.float64(0.0)
+        if 0.0 <= x < width - 1.0 and 0.0 <= y < height - 1.0:
+            after = _slope(gx, gy, x, y, nx, ny)
+        # The peak is at the sample before this one.
+        if k > 1 - steps and here > 0.0 and here >= before and here >= after:
+            worth = here * (1.0 - (1.0 - END_WORTH) * abs(k - 1) / steps)
+            if worth > best_worth:
+                best_worth, best_k, best, best_before, best_after = worth, k - 1, here, before, after
+        before, here = here, after
     if best_k == -1000:
         return 0.0, 0.0
-    before, after = profile[best_k + steps - 1], profile[best_k + steps + 1]
-    bend = before - 2.0 * best + after
-    shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
+    bend = best_before - 2.0 * best + best_after
+    shift = 0.5 * (best_before - best_after) / bend if bend < 0.0 else 0.0
     offset = best_k + shift
     if abs(offset) > reach:
         return 0.0, 0.0

@@ -6,6 +6,22 @@ from tracker.compiled import compiled
 
 
 @compiled
+def off_rotation(m):
+    """By how much the columns of a matrix (3, 3) are off orthonormal, and its determinant."""
+    off = 0.0
+    for i in range(3):
+        for j in range(i + 1):
+            product = m[0, i] * m[0, j] + m[1, i] * m[1, j] + m[2, i] * m[2, j] - (1.0 if i == j else 0.0)
+            # Not a number is off by infinity.
+            off = max(off, abs(product)) if np.isfinite(product) else np.inf
+    return off, (
+        m[0, 0] * (m[1, 1] * m[2, 2] - m[1, 2] * m[2, 1])
+        - m[0, 1] * (m[1, 0] * m[2, 2] - m[1, 2] * m[2, 0])
+        + m[0, 2] * (m[1, 0] * m[2, 1] - m[1, 1] * m[2, 0])
+    )
+
+
+@compiled
 def turn_by(rotation, w):
     """Multiply a rotation vector from the left into a rotation matrix, in place."""
     angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])

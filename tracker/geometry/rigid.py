@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.errors import InvalidInput
+from tracker.geometry.kernels import off_rotation
 from tracker.geometry.rotations import Array, rotation_from_vector, skew
 
 To = TypeVar("To")
@@ -35,12 +36,10 @@ class Rigid(Generic[To, From]):
     translation_mm: Array
 
     def __post_init__(self) -> None:
-        rotation = np.array(self.rotation, dtype=np.float64).reshape(3, 3)
-        translation = np.array(self.translation_mm, dtype=np.float64).reshape(3)
-        off = (
-            float(np.abs(rotation @ rotation.T - np.eye(3)).max()) if np.isfinite(rotation).all() else np.inf
-        )
-        if not np.isfinite(translation).all() or off > ORTHONORMAL_TOLERANCE or np.linalg.det(rotation) < 0:
+        rotation = np.array(self.rotation, dtype=np.float64, order="C").reshape(3, 3)
+        translation = np.array(self.translation_mm, dtype=np.float64, order="C").reshape(3)
+        off, determinant = off_rotation(rotation)
+        if not np.isfinite(translation).all() or off > ORTHONORMAL_TOLERANCE or determinant < 0.0:
             raise InvalidInput(
                 "ROTATION_INVALID",
                 f"a pose is not a rigid motion: its rotation is off orthonormal by {off:.3g}, "

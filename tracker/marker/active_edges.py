@@ -1,6 +1,6 @@
 """The model's active edges: those that stand out at a given size in the image."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
@@ -28,6 +28,25 @@ MOST_CORNER_TURN_COS = 0.9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class StraightEdges:
+    """Those active edges that say where the marker is, side by side for the fit.
+
+    Attributes:
+        points_mm: (m, 2), in the marker's plane.
+        normals: (m, 2), unit, from dark to bright.
+        strength_ratio: (m,), contrast by that of a free edge, 0..1.
+        weight: what they weigh together, at least 1.
+        spacing_ratio: how far active edges are apart, by the marker's side.
+    """
+
+    points_mm: Array
+    normals: Array
+    strength_ratio: Array
+    weight: float
+    spacing_ratio: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ActiveEdges:
     """Active edges of a model at one size, as edgels about a pixel apart, weighted by length.
 
@@ -39,6 +58,7 @@ class ActiveEdges:
         strength_ratio: (n,), its contrast by that of a free edge, 0..1.
         inner: (n,), not of the outline of the square.
         straight: (n,), no corner within reach: only these say where the marker is.
+        fitted: the straight ones alone; made here.
     """
 
     level_px: int
@@ -48,6 +68,19 @@ class ActiveEdges:
     strength_ratio: Array
     inner: npt.NDArray[np.bool_]
     straight: npt.NDArray[np.bool_]
+    fitted: StraightEdges = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        chosen, strength = self.straight, self.strength_ratio[self.straight]
+        side_mm = float(np.ptp(self.points_mm, axis=0).max()) if len(self.points_mm) else 1.0
+        fitted = StraightEdges(
+            points_mm=np.ascontiguousarray(self.points_mm[chosen]),
+            normals=np.ascontiguousarray(self.normals[chosen]),
+            strength_ratio=strength,
+            weight=max(float(strength.sum()), 1.0),
+            spacing_ratio=float(np.median(self.length_mm)) / side_mm if len(self.length_mm) else 1.0,
+        )
+        object.__setattr__(self, "fitted", fitted)
 
 
 def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: int) -> ActiveEdges:

@@ -7,6 +7,8 @@ what lies wholly inside, within an outline that is there, contradicts.
 """
 
 from dataclasses import dataclass
+from functools import cache, lru_cache
+from math import sqrt
 
 import cv2
 import numpy as np
@@ -14,6 +16,7 @@ import numpy.typing as npt
 
 from tracker.edges import GreyImage
 from tracker.geometry import Array
+from tracker.geometry.kernels import solve_positive
 from tracker.marker.active_edges import BLUR_PX
 from tracker.marker.kernels import sample_square
 
@@ -28,6 +31,7 @@ LEAST_AREA_RATIO = 3 / FIELDS**2 - 1e-9
 # marker itself has 0.9 and more in plain light. Few pixels say little: what is small must say it clearly.
 LIKENESS_SIDES_PX, LEAST_LIKENESS = (20.0, 32.0, 40.0, 48.0), (0.88, 0.80, 0.80, 0.70)
 FIT_ROUNDS = 4
+KEPT_MODELS = 32
 # Residuals over this part of the contrast lose their say in the fit of the light.
 OUTLIER_CONTRAST = 0.25
 
@@ -88,27 +92,63 @@ def contradiction_of(
 def _likeness(seen: Array, expected: Array, open_to_sight: npt.NDArray[np.bool_]) -> float:
     """Correlation of two squares of fields where nothing lies over them, the light taken out of both."""
     chosen = open_to_sight.ravel()
-    light = _light()[chosen]
-    fields = (seen.ravel()[chosen], expected.ravel()[chosen])
-    rests = [one - light @ np.linalg.lstsq(light, one, rcond=None)[0] for one in fields]
-    sizes = [float(np.linalg.norm(rest)) for rest in rests]
+    light = _light()[0][chosen] if not chosen.all() else None
+    rests = [_less_light(one.ravel()[chosen], light) for one in (seen, expected)]
+    sizes = [sqrt(float(rest @ rest)) for rest in rests]
     return float(rests[0] @ rests[1]) / (sizes[0] * sizes[1]) if min(sizes) > 0.0 else 0.0
 
 
-def _light() -> Array:
-    """Light over the square: a quadratic in both directions (fields, 6)."""
+def _less_light(values: Array, light: Array | None) -> Array:
+    """What is left of fields (n,) without this light (n, 6); None: all fields are there."""
+    if light is None:
+        orthonormal = _light()[1]
+        return np.asarray(values - orthonormal @ (values @ orthonormal))
+    return np.asarray(values - light @ np.linalg.lstsq(light, values, rcond=None)[0])
+
+
+@cache
+def _light() -> tuple[Array, Array]:
+    """Light over the square: a quadratic in both directions (fields, 6), and an orthonormal basis of it."""
     v, u = np.mgrid[0:FIELDS, 0:FIELDS] * (2.0 / (FIELDS - 1)) - 1.0
-    return np.stack([one.ravel() for one in (np.ones_like(u), u, v, u * u, u * v, v * v)], axis=1)
+    light = np.stack([one.ravel() for one in (np.ones_like(u), u, v, u * u, u * v, v * v)], axis=1)
+    return light, np.ascontiguousarray(np.linalg.qr(light)[0])
+
+
+class _Same:
+    """A picture as a key: equal to itself alone."""
+
+    def __init__(self, square: GreyImage) -> None:
+        self.square = square
+
+    def __hash__(self) -> int:
+        return id(self.square)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and other.square is self.square
+
+
+@lru_cache(maxsize=KEPT_MODELS)
+def _pattern(same: _Same) -> tuple[Array, float, float]:
+    """A model (n, n) at four pixels a field, its darkest and its brightest grey."""
+    small = cv2.resize(same.square, (4 * FIELDS, 4 * FIELDS), interpolation=cv2.INTER_AREA)
+    return small.astype(np.float64), float(same.square.min()), float(same.square.max())
 
 
 def _expected(square: GreyImage, side_px: float) -> Array:
     """The model's fields (24, 24), blurred as a camera does, 0 dark to 1 bright."""
-    small = cv2.resize(square, (4 * FIELDS, 4 * FIELDS), interpolation=cv2.INTER_AREA).astype(np.float64)
+    small, low, high = _pattern(_Same(square))
     blur = BLUR_PX * 4 * FIELDS / max(side_px, 8.0)
     blurred = cv2.GaussianBlur(small, (0, 0), blur, borderType=cv2.BORDER_REPLICATE)
     fields = cv2.resize(blurred, (FIELDS, FIELDS), interpolation=cv2.INTER_AREA)
-    low, high = float(square.min()), float(square.max())
     return np.asarray((fields - low) / (high - low), dtype=np.float64)
+
+
+def _solution(matrix: Array, right: Array) -> Array:
+    """What solves a symmetric system, or comes nearest where it has no one solution."""
+    solution = np.empty(len(right))
+    if solve_positive(matrix, right, solution):
+        return solution
+    return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-9)[0])
 
 
 def _without_light(seen: Array, expected: Array) -> Array:
@@ -116,13 +156,13 @@ def _without_light(seen: Array, expected: Array) -> Array:
 
     In units of the contrast: +1 is bright where the model is dark.
     """
-    basis = np.column_stack([expected.ravel(), _light()])
+    basis = np.column_stack([expected.ravel(), _light()[0]])
     values = seen.ravel()
     weight = np.ones_like(values)
     contrast, rest = 0.0, np.zeros_like(values)
     for _ in range(FIT_ROUNDS):
         weighted = basis * weight[:, None]
-        solution = np.linalg.lstsq(weighted.T @ basis, weighted.T @ values, rcond=1e-9)[0]
+        solution = _solution(weighted.T @ basis, values @ weighted)
         contrast = float(solution[0])
         if contrast <= 1.0:
             # No contrast at all, or the negative of the model: everything contradicts.

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from math import log
 
 import cv2
 import numpy as np
@@ -81,8 +82,8 @@ class MarkerModel:
 
     def level_for(self, side_px: float) -> ActiveEdges:
         """The active edges for a marker of about this size in the image."""
-        sizes = np.log([level.level_px for level in self.levels])
-        return self.levels[int(np.argmin(np.abs(sizes - np.log(max(side_px, 1.0)))))]
+        size = log(max(side_px, 1.0))
+        return min(self.levels, key=lambda level: abs(log(level.level_px) - size))
 
 
 def _problem(grey: npt.NDArray[np.generic]) -> str:

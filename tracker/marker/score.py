@@ -8,7 +8,7 @@ from tracker.edges import Edgels, Gradient
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.marker.active_edges import ActiveEdges
-from tracker.marker.kernels import crossings, explained
+from tracker.marker.kernels import crossings, explained, laid_over
 
 # An edge counts where its gradient has this part of what its own contrast and the marker's let expect.
 LEAST_RESPONSE_RATIO = 0.35
@@ -77,7 +77,7 @@ class Agreement:
 
 def reach_px(side_px: float) -> float:
     """How far from its model edge an edgel still counts as common, in px."""
-    return float(np.clip(REACH_SIDE_RATIO * side_px, REACH_PX, MOST_REACH_PX))
+    return min(max(REACH_SIDE_RATIO * side_px, REACH_PX), MOST_REACH_PX)
 
 
 def model_agreement(
@@ -95,17 +95,24 @@ def model_agreement(
     The target coverage is left at 1: it needs the edgels, see `with_target`.
     """
     reach = reach_px(side_px)
-    offset, response = edge_crossings(gradient, points_px, normals_px, reach_px=reach)
-    contrast = contrast_of(response, active)
-    found = response >= np.maximum(
-        0.6 * gradient.threshold, LEAST_RESPONSE_RATIO * contrast * active.strength_ratio
+    coverage, inner_coverage, fit, contrast = laid_over(
+        gradient.x,
+        gradient.y,
+        float(gradient.left_px),
+        float(gradient.top_px),
+        points_px,
+        normals_px,
+        active.strength_ratio,
+        active.length_mm,
+        active.inner,
+        reach,
+        shift_px,
+        0.6 * gradient.threshold,
+        LEAST_RESPONSE_RATIO,
     )
-    length, inner = active.length_mm, active.inner
-    fit = float(np.mean((offset[found] - shift_px) ** 2)) if found.any() else reach**2
-    inner_length = float(length[inner].sum())
     return Agreement(
-        model_coverage_ratio=float(length[found].sum() / length.sum()),
-        inner_coverage_ratio=float(length[found & inner].sum() / inner_length) if inner_length > 0 else 1.0,
+        model_coverage_ratio=coverage,
+        inner_coverage_ratio=inner_coverage,
         target_coverage_ratio=1.0,
         fit_error_px2=fit,
         normalised_fit_error=min(fit / reach**2, 1.0),
@@ -120,14 +127,6 @@ def edge_crossings(
     corner = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
     offset, response = crossings(gradient.x, gradient.y, points_px - corner, normals_px, reach_px)
     return np.asarray(offset), np.asarray(response)
-
-
-def contrast_of(response: Array, active: ActiveEdges) -> float:
-    """The gradient of a free edge of this occurrence: the median over the edgels that answer at all."""
-    answers = response > 0.0
-    if not answers.any():
-        return 0.0
-    return float(np.median(response[answers] / active.strength_ratio[answers]))
 
 
 def target_coverage_ratio(

@@ -1,6 +1,7 @@
 """One claimed occurrence of a marker: fitted, scored, and accepted or not."""
 
 from dataclasses import dataclass, replace
+from math import sqrt
 
 import numpy as np
 
@@ -8,6 +9,7 @@ from tracker.camera import CameraModel
 from tracker.edges import Edgels, Gradient, GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import (
+    ActiveEdges,
     Agreement,
     MarkerModel,
     ScoreSettings,
@@ -34,19 +36,23 @@ class Occurrence:
         corners_px: (4, 2), of the black square at that pose, through the lens.
         seen_corners_px: (4, 2), as the sides next to each show them.
         agreement: how well the edges agree.
+        active: the model's edges that were laid on the image.
+        points_px: (n, 2), where they are at that pose; `normals_px` (n, 2) their unit normals.
     """
 
     fit: Fit
     corners_px: Array
     seen_corners_px: Array
     agreement: Agreement
+    active: ActiveEdges
+    points_px: Array
+    normals_px: Array
 
 
 def side_px_of(corners_px: Array) -> float:
     """Root of the area inside four corners (4, 2), in px."""
-    x, y = corners_px[:, 0], corners_px[:, 1]
-    area = 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
-    return float(np.sqrt(area))
+    (ax, ay), (bx, by), (cx, cy), (dx, dy) = corners_px.tolist()
+    return sqrt(0.5 * abs((cx - ax) * (dy - by) - (cy - ay) * (dx - bx)))
 
 
 def occurrence_near(
@@ -100,6 +106,9 @@ def occurrence_near(
             contrast=agreement.contrast,
         ),
         agreement=agreement,
+        active=active,
+        points_px=projected[0],
+        normals_px=projected[1],
     )
 
 
@@ -108,7 +117,10 @@ def with_target(
 ) -> Occurrence:
     """The same with its target coverage, which asks which edges are there that the model has not."""
     side = side_px_of(found.corners_px)
-    projected = projected_edges(camera, found.fit.camera_from_marker, model.level_for(side))
+    active = model.level_for(side)
+    projected: tuple[Array, Array] | None = (found.points_px, found.normals_px)
+    if active is not found.active:
+        projected = projected_edges(camera, found.fit.camera_from_marker, active)
     if projected is None:
         return found
     ratio = target_coverage_ratio(

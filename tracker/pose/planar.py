@@ -4,7 +4,8 @@ import cv2
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Marker, Rigid, rotation_between
+from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.pose.kernels import mirror
 
 
 def pose_from_corners(
@@ -24,9 +25,12 @@ def pose_from_corners(
     if scale < 1e-12:
         return None
     columns = homography / (scale if homography[2, 2] > 0.0 else -scale)
-    u, _, vt = np.linalg.svd(np.column_stack([columns[:, :2], np.cross(columns[:, 0], columns[:, 1])]))
-    rotation = u @ np.diag([1.0, 1.0, np.linalg.det(u @ vt)]) @ vt
-    translation = columns[:, 2]
+    (ax, bx, x), (ay, by, y), (az, bz, z) = columns.tolist()
+    across = [[ax, bx, ay * bz - az * by], [ay, by, az * bx - ax * bz], [az, bz, ax * by - ay * bx]]
+    u, _, vt = np.linalg.svd(np.array(across))
+    if np.linalg.det(u @ vt) < 0.0:
+        u[:, 2] = -u[:, 2]
+    rotation, translation = u @ vt, np.array([x, y, z])
     # The printed face looks at the camera, and the camera looks at the marker.
     if translation[2] <= 0.0 or float(rotation[:, 2] @ translation) >= 0.0:
         return None
@@ -39,7 +43,6 @@ def other_solution(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:
     Far away, the image of a plane depends on the tilt's amount and on the line it turns about, not on which
     half is nearer. In a frame whose z is the line of sight that is the reflection D R D, D = diag(1, 1, -1).
     """
-    to_sight = rotation_between([0.0, 0.0, 1.0], pose.translation_mm)
-    mirror = to_sight @ np.diag([1.0, 1.0, -1.0]) @ to_sight.T
-    flip = np.diag([1.0, 1.0, -1.0])
-    return Rigid(rotation=mirror @ pose.rotation @ flip, translation_mm=pose.translation_mm)
+    rotation = np.empty((3, 3))
+    mirror(pose.rotation, pose.translation_mm, rotation)
+    return Rigid(rotation=rotation, translation_mm=pose.translation_mm)

@@ -1,7 +1,6 @@
 """The pose that lays all active edges on the edges of the image, with its covariance."""
 
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,8 +10,7 @@ from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import LEAST_RESPONSE_RATIO
-from tracker.pose.kernels import PARAMETERS, project_edges, refine
-from tracker.pose.planar import other_solution
+from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
 
 # Camera response, ink and blooming shift all edges towards dark or bright alike: by up to 0.25 px.
 SHIFT_SD_PX = 0.25
@@ -68,49 +66,75 @@ def refined_pose(
 
     Where neither the image nor what was expected decides between the two, the covariance spans both.
     """
-    refined_from = partial(
-        _refined,
-        camera,
-        gradient,
-        active,
-        contrast=contrast,
-        side_px=side_px,
-        first_reach_px=first_reach_px,
+    rotations, translations, matrices, numbers, first, second = _both(
+        camera, gradient, active, start, contrast, reach_px(side_px), first_reach_px
     )
-    first, second = refined_from(start), None
-    seed = first.camera_from_marker if first is not None else start
-    # A fit that stopped halfway costs more than the wrong solution well fitted, and its mirror image mirrors
-    # nothing: what is taken stands only after its own mirror image, fitted from it, has lost.
-    for _ in range(MOST_MIRRORINGS):
-        mirrored = refined_from(other_solution(seed))
-        if mirrored is None or (first is not None and mirrored.cost_px2 >= first.cost_px2):
-            second = mirrored or second
-            break
-        first, second = mirrored, first
-        seed = mirrored.camera_from_marker
-    if first is None or second is None:
-        return first or second
+    if first < 0:
+        return None
+
+    def pose_of(k: int) -> Rigid[Camera, Marker]:
+        return Rigid(rotation=rotations[k], translation_mm=translations[k])
+
+    if second < 0:
+        return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
     # By all edges, not by those few that agree: where most are missing or far off, nothing is decided.
-    mean_px2 = min(first.cost_px2, second.cost_px2) / _weight(active)
-    residual = max(min(first.residual_px, second.residual_px), LEAST_RESIDUAL_PX)
-    variance = max(residual**2, mean_px2) * CORRELATION_LENGTH_PX
-    costs = [one.cost_px2 + variance * surprise(one.camera_from_marker, expected) for one in (first, second)]
-    better, worse = (first, second) if costs[0] <= costs[1] else (second, first)
+    mean_px2 = float(numbers[first, 0]) / active.fitted.weight
+    residuals = [float(numbers[k, 2] / numbers[k, 3]) for k in (first, second)]
+    variance = max(min(residuals), LEAST_RESIDUAL_PX**2, mean_px2) * CORRELATION_LENGTH_PX
+    costs = [float(numbers[k, 0]) for k in (first, second)]
+    if expected is None and costs[1] - costs[0] > DECIDED_COST * variance:
+        return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
+    poses = [pose_of(first), pose_of(second)]
+    costs = [cost + variance * surprise(pose, expected) for cost, pose in zip(costs, poses, strict=True)]
+    if costs[0] > costs[1]:
+        first, poses = second, poses[::-1]
+    fit = _fit(poses[0], matrices[first], numbers[first], active, side_px)
     gap = abs(costs[1] - costs[0]) / variance
-    apart = difference(better.camera_from_marker, worse.camera_from_marker)
-    if expected is not None and turned_over(better.camera_from_marker, worse.camera_from_marker, expected):
+    if expected is not None and turned_over(poses[0], poses[1], expected):
         gap = min(gap, UNDECIDED_COST)
-    if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < 1e-3:
-        return better
+    if fit is None or gap > DECIDED_COST:
+        return fit
+    apart = difference(poses[0], poses[1])
+    if float(np.linalg.norm(apart[3:])) < 1e-3:
+        return fit
     doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
-    return Fit(
-        camera_from_marker=better.camera_from_marker,
-        covariance=better.covariance + doubt * np.outer(apart, apart),
-        cost_px2=better.cost_px2,
-        residual_px=better.residual_px,
-        shift_px=better.shift_px,
-        doubt_ratio=doubt,
+    return replace(fit, covariance=fit.covariance + doubt * np.outer(apart, apart), doubt_ratio=doubt)
+
+
+def _both(
+    camera: CameraModel,
+    gradient: Gradient,
+    active: ActiveEdges,
+    start: Rigid[Camera, Marker],
+    contrast: float,
+    last_reach_px: float,
+    first_reach_px: float,
+) -> tuple[Array, Array, Array, Array, int, int]:
+    """What `refine_both` makes of a start: fits, and which of them is the better and which the other."""
+    fitted, last = active.fitted, last_reach_px
+    reaches = np.array(
+        [first_reach_px, first_reach_px, max(last, first_reach_px / 2.0), last, last, last, last, last]
     )
+    both: tuple[Array, Array, Array, Array, int, int] = refine_both(
+        gradient.x,
+        gradient.y,
+        float(gradient.left_px),
+        float(gradient.top_px),
+        lens_numbers(camera),
+        fitted.points_mm,
+        fitted.normals,
+        fitted.strength_ratio,
+        max(LEAST_RESPONSE_RATIO * contrast, 0.6 * gradient.threshold),
+        reaches,
+        SHIFT_SD_PX,
+        start.rotation,
+        start.translation_mm,
+        MOST_MIRRORINGS,
+        LEAST_RESIDUAL_PX**2,
+        # Twice what decides: the cost of a fit that is not at its end falls a little yet.
+        2.0 * DECIDED_COST * CORRELATION_LENGTH_PX,
+    )
+    return both
 
 
 def turned_over(
@@ -122,11 +146,6 @@ def turned_over(
         for pose in (better, worse)
     ]
     return bool(turns[0] > np.radians(FAR_TURN_DEG) and turns[1] < np.radians(NEAR_TURN_DEG))
-
-
-def _weight(active: ActiveEdges) -> float:
-    """What all edges that take part in a fit weigh together."""
-    return max(float(active.strength_ratio[active.straight].sum()), 1.0)
 
 
 def surprise(pose: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> float:
@@ -141,79 +160,39 @@ def projected_edges(
     camera: CameraModel, pose: Rigid[Camera, Marker], active: ActiveEdges
 ) -> tuple[Array, Array] | None:
     """Active edges as pixels (n, 2) and unit normals (n, 2), dark to bright; None behind the camera."""
-    pixels, directions = np.empty_like(active.points_mm), np.empty_like(active.points_mm)
-    in_front = project_edges(
-        pose.rotation,
-        pose.translation_mm,
-        lens_numbers(camera),
-        active.points_mm,
-        active.normals,
-        pixels,
-        directions,
+    pixels, directions, in_front = project_edges(
+        pose.rotation, pose.translation_mm, lens_numbers(camera), active.points_mm, active.normals
     )
     return (pixels, directions) if in_front else None
 
 
-def _refined(
-    camera: CameraModel,
-    gradient: Gradient,
-    active: ActiveEdges,
-    start: Rigid[Camera, Marker],
-    *,
-    contrast: float,
-    side_px: float,
-    first_reach_px: float,
+def _fit(
+    pose: Rigid[Camera, Marker], matrix: Array, numbers: Array, active: ActiveEdges, side_px: float
 ) -> Fit | None:
-    rotation, translation = start.rotation.copy(), start.translation_mm.copy()
-    last = reach_px(side_px)
-    reaches = np.array(
-        [first_reach_px, first_reach_px, max(last, first_reach_px / 2.0), last, last, last, last, last]
-    )
-    straight = active.straight
-    matrix, shift, squares, cost, weights, count = refine(
-        gradient.x,
-        gradient.y,
-        float(gradient.left_px),
-        float(gradient.top_px),
-        rotation,
-        translation,
-        lens_numbers(camera),
-        active.points_mm[straight],
-        active.normals[straight],
-        active.strength_ratio[straight],
-        active.strength_ratio[straight],
-        max(LEAST_RESPONSE_RATIO * contrast, 0.6 * gradient.threshold),
-        reaches,
-        SHIFT_SD_PX,
-    )
-    if count == 0 or weights <= PARAMETERS:
-        return None
+    """The fit of what `refine_both` returns of one solution; None where it says nothing of the pose."""
+    cost, shift, squares, weights, count = (float(v) for v in numbers)
     variance = max(
         squares / weights * count / max(count - PARAMETERS, 1),
-        float(cost) / _weight(active),
+        cost / active.fitted.weight,
         LEAST_RESIDUAL_PX**2,
     )
     # Edgels stand a pixel apart at small sizes and farther at large ones.
-    spacing = max(float(np.median(active.length_mm)) * side_px / _side_mm(active), 1e-3)
+    spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES
-    scale = np.sqrt(np.diag(matrix))
+    scale = np.sqrt(matrix.diagonal())
+    scales = scale[:, None] * scale
     try:
-        inverse = np.linalg.inv(matrix / np.outer(scale, scale)) / np.outer(scale, scale)
+        inverse = np.linalg.inv(matrix / scales) / scales
     except np.linalg.LinAlgError:
         return None
-    u, _, vt = np.linalg.svd(rotation)
     return Fit(
-        camera_from_marker=Rigid(rotation=u @ vt, translation_mm=translation),
+        camera_from_marker=pose,
         covariance=inverse[:6, :6] * variance,
-        cost_px2=float(cost),
+        cost_px2=cost,
         residual_px=float(np.sqrt(squares / weights)),
-        shift_px=float(shift),
+        shift_px=shift,
     )
-
-
-def _side_mm(active: ActiveEdges) -> float:
-    return float(np.ptp(active.points_mm, axis=0).max())
 
 
 def difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:

@@ -134,6 +134,19 @@ def test_its_derivative_is_that_of_finite_differences(count: int) -> None:
         np.testing.assert_allclose(derivative, there.T / 2e-3, atol=2e-6)
 
 
+def test_without_a_lens_the_short_way_is_the_long_one() -> None:
+    camera = CameraModel(matrix=np.array(K), distortion=np.zeros(8), size_wh_px=(640, 480))
+    short, long = lens_numbers(camera), lens_numbers(camera).copy()
+    assert short[25] == 1.0
+    long[25] = 0.0
+    derivatives = np.empty((2, 2, 3))
+    for point in _points():
+        pixel = project_with_derivative(point, short, derivatives[0])
+        np.testing.assert_allclose(pixel, camera.px_from_camera(point)[0], atol=1e-9)
+        np.testing.assert_allclose(pixel, project_with_derivative(point, long, derivatives[1]), atol=1e-9)
+        np.testing.assert_allclose(derivatives[0], derivatives[1], atol=1e-9)
+
+
 @pytest.mark.parametrize("count", LENSES)
 def test_taking_the_lens_out_is_the_inverse(count: int) -> None:
     camera = CameraModel(matrix=np.array(K), distortion=np.array(LENSES[count]), size_wh_px=(640, 480))
