@@ -91,7 +91,7 @@ def test_what_happens_to_an_image_explains_the_marker(
 
 
 def test_a_cover_explains_most_covered_markers() -> None:
-    """Where the ink goes on under the cover's edge, what is inside it may still be taken for another shape."""
+    """Where the ink goes on under the cover's edge, what is inside it may still be taken for another."""
     explained = 0
     for side_px in (28.0, 45.0):
         pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=20, about_deg=40, roll_deg=15)
