@@ -2,6 +2,7 @@
 
 from tracker.marker.active_edges import ActiveEdges
 from tracker.marker.contradiction import Contradiction, contradiction_of
+from tracker.marker.explanation import Explanation, explanation_of
 from tracker.marker.glance import templates_of
 from tracker.marker.model import MarkerModel, refuse_alike
 from tracker.marker.score import (
@@ -19,11 +20,13 @@ __all__ = [
     "Agreement",
     "Candidate",
     "Contradiction",
+    "Explanation",
     "MarkerModel",
     "ScoreSettings",
     "candidate_rounds",
     "contradiction_of",
     "edge_crossings",
+    "explanation_of",
     "model_agreement",
     "reach_px",
     "refuse_alike",

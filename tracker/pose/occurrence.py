@@ -14,6 +14,7 @@ from tracker.marker import (
     MarkerModel,
     ScoreSettings,
     contradiction_of,
+    explanation_of,
     model_agreement,
     target_coverage_ratio,
 )
@@ -134,6 +135,21 @@ def with_target(
     return replace(found, agreement=replace(found.agreement, target_coverage_ratio=ratio))
 
 
+def _explained_corners_px(
+    image: GreyImage, model: MarkerModel, found: Occurrence, window: Array
+) -> Array | None:
+    """Corners (4, 2) where blur, uneven light or a cover make of the model what is seen; None if they do not.
+
+    `window` is the left top pixel (2,) of the image.
+    """
+    explanation = explanation_of(
+        image, model.square, found.corners_px - window, side_px=side_px_of(found.corners_px)
+    )
+    if explanation is None or not explanation.explains:
+        return None
+    return explanation.corners_px + window
+
+
 def judged(
     found: Occurrence | None,
     settings: ScoreSettings,
@@ -160,15 +176,17 @@ def judged(
         return Unseen(reason=UnseenReason.TARGET_SCORE_TOO_LOW, best_score_ratio=score)
     # Bent paper lies beside its flat pose. Another shape contradicts wherever its corners are taken to be.
     window = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
-    if all(
+    plain = not all(
         contradiction_of(image, model.square, corners - window, side_px=side_px_of(corners)).is_other_shape
         for corners in (found.corners_px, found.seen_corners_px)
-    ):
+    )
+    corners = found.seen_corners_px if plain else _explained_corners_px(image, model, found, window)
+    if corners is None:
         return Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=score)
     return Seen(
         camera_from_marker=found.fit.camera_from_marker,
         pose_covariance=found.fit.covariance,
-        corners_px=found.seen_corners_px,
+        corners_px=corners,
         score_ratio=score,
         target_score_ratio=target,
         model_coverage_ratio=agreement.model_coverage_ratio,

@@ -1,0 +1,150 @@
+"""What blur, uneven light and a cover make of a marker, and what they do not make of another square."""
+
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import (
+    CODE,
+    Image8,
+    Print,
+    camera_of,
+    code_image,
+    code_model,
+    corners_px_of,
+    rendered,
+)
+from tests.tracker.scenes import facing_at_px as placed
+from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.marker import Explanation, explanation_of
+
+CAMERA = camera_of((200, 160), focal_px=400.0)
+MIDDLE = (100.3, 80.7)
+Degraded = Callable[[Image8, float, float], Image8]
+OTHERS = [
+    tuple(tuple(v ^ (3 * r + c == k) for c, v in enumerate(row)) for r, row in enumerate(CODE))
+    for k in range(9)
+]
+
+
+def _u_v() -> tuple[Array, Array]:
+    v, u = np.mgrid[0:160, 0:200].astype(np.float64)
+    return u - MIDDLE[0], v - MIDDLE[1]
+
+
+def _in_shadow(image: Image8, side_px: float, from_deg: float) -> Image8:
+    """Four fifths of the light gone beyond an edge across the square."""
+    u, v = _u_v()
+    across = u * np.cos(np.radians(from_deg)) + v * np.sin(np.radians(from_deg)) - 0.1 * side_px
+    return np.asarray(np.rint(image * (1.0 - 0.8 / (1.0 + np.exp(-across / 1.5)))), dtype=np.uint8)
+
+
+def _out_of_focus(image: Image8, side_px: float, _: float) -> Image8:
+    return np.asarray(cv2.GaussianBlur(image, (0, 0), 0.06 * side_px), dtype=np.uint8)
+
+
+def _smeared(image: Image8, side_px: float, from_deg: float) -> Image8:
+    """Moved by a fifth of its side while the shutter was open."""
+    reach = 0.1 * side_px * np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
+    shifts = [np.array([[1, 0, s * reach[0]], [0, 1, s * reach[1]]]) for s in np.linspace(-1, 1, 21)]
+    moved = [cv2.warpAffine(image.astype(np.float64), shift, (200, 160)) for shift in shifts]
+    return np.asarray(np.rint(np.mean(moved, axis=0)), dtype=np.uint8)
+
+
+def _under_glare(image: Image8, side_px: float, from_deg: float) -> Image8:
+    u, v = _u_v()
+    u = u - 0.4 * side_px * np.cos(np.radians(from_deg))
+    v = v - 0.4 * side_px * np.sin(np.radians(from_deg))
+    light = 120.0 * np.exp(-0.5 * (u * u + v * v) / (0.5 * side_px) ** 2)
+    return np.asarray(np.clip(np.rint(image + light), 0, 255), dtype=np.uint8)
+
+
+def _covered(image: Image8, side_px: float, from_deg: float) -> Image8:
+    """Something grey over what lies more than 0.35 of the side from the middle, on one side."""
+    u, v = _u_v()
+    out = image.copy()
+    out[u * np.cos(np.radians(from_deg)) + v * np.sin(np.radians(from_deg)) > 0.35 * side_px] = 110
+    return out
+
+
+DEGRADED = [_in_shadow, _out_of_focus, _smeared, _under_glare]
+
+
+def _explained(image: Image8, pose: Rigid[Camera, Marker], side_px: float) -> Explanation | None:
+    return explanation_of(image, code_model().square, corners_px_of(CAMERA, pose), side_px=side_px)
+
+
+@pytest.mark.parametrize("degraded", DEGRADED)
+@pytest.mark.parametrize("side_px", [28.0, 45.0])
+@pytest.mark.parametrize("from_deg", [10, 130, 250])
+def test_what_happens_to_an_image_explains_the_marker(
+    degraded: Degraded, side_px: float, from_deg: float
+) -> None:
+    pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=20, about_deg=40, roll_deg=15)
+    image = degraded(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]), side_px, from_deg)
+    found = _explained(image, pose, side_px)
+    assert found is not None
+    assert found.explains, found
+    assert float(np.abs(found.corners_px - corners_px_of(CAMERA, pose)).max()) < 0.03 * side_px
+
+
+def test_a_cover_explains_most_covered_markers() -> None:
+    """Where the ink goes on under the cover's edge, what is inside it may still be taken for another."""
+    explained = 0
+    for side_px in (28.0, 45.0):
+        pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=20, about_deg=40, roll_deg=15)
+        plain = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
+        for from_deg in (10, 130, 250):
+            found = _explained(_covered(plain, side_px, from_deg), pose, side_px)
+            explained += found is not None and found.explains
+    assert explained >= 5
+
+
+@pytest.mark.parametrize("degraded", DEGRADED)
+@pytest.mark.parametrize("field", range(9))
+def test_it_does_not_make_the_marker_of_a_look_alike_that_differs_in_one_field(
+    degraded: Degraded, field: int
+) -> None:
+    pose = placed(CAMERA, MIDDLE, 30.0, tilt_deg=20, about_deg=40, roll_deg=15)
+    image = degraded(
+        rendered(CAMERA, [Print(picture=code_image(OTHERS[field]), pose=pose)]), 30.0, 40 * field
+    )
+    found = _explained(image, pose, 30.0)
+    assert found is None or not found.explains, found
+
+
+@pytest.mark.parametrize("side_px", [14.0, 20.0, 27.0, 36.0])
+@pytest.mark.parametrize("seed", range(8))
+def test_a_frame_with_something_else_inside_is_not_explained(side_px: float, seed: int) -> None:
+    random = np.random.default_rng([seed, 11])
+    blobs = cv2.GaussianBlur(random.normal(size=(120, 120)), (0, 0), float(random.uniform(6, 20)))
+    picture = np.where(blobs > np.median(blobs), 255, 0).astype(np.uint8)
+    frame = int(random.integers(12, 34))
+    for side in (np.s_[:frame], np.s_[-frame:], np.s_[:, :frame], np.s_[:, -frame:]):
+        picture[side] = 0
+    pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=20, about_deg=40, roll_deg=15)
+    plain = rendered(CAMERA, [Print(picture=picture, pose=pose)], seed=seed)
+    for degraded in (_in_shadow, _out_of_focus, _under_glare, _covered):
+        found = _explained(degraded(plain, side_px, 45 * seed), pose, side_px)
+        assert found is None or not found.explains, found
+
+
+def test_an_even_image_and_the_negative_are_not_explained() -> None:
+    pose = placed(CAMERA, MIDDLE, 40.0)
+    image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
+    for other in (np.full_like(image, 128), 255 - image):
+        found = _explained(other, pose, 40.0)
+        assert found is None or not found.explains
+
+
+def test_what_covers_it_is_told() -> None:
+    pose = placed(CAMERA, MIDDLE, 40.0)
+    plain = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
+    free, covered = _explained(plain, pose, 40.0), _explained(_covered(plain, 40.0, 0.0), pose, 40.0)
+    assert free is not None
+    assert covered is not None
+    assert free.hidden_ratio < 0.02
+    # Three twentieths of the square, and a field more all around that blur may reach.
+    assert 0.12 < covered.hidden_ratio < 0.3
