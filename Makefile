@@ -145,6 +145,7 @@ $(STAMPS)/page: $(PAGE_SOURCES) $(STAMPS)/page-packages
 	@touch $@
 
 $(STAMPS)/warm: $(TRACKER_SOURCES) $(STAMPS)/project
+	@find tracker -name "*.nb[ic]" -delete
 	@$(STEP) warm "Compiling the tracker for this machine (once)" "Look at the log." \
 		$(PYTHON_IN_VENV) -m tracker.warm_up
 	@touch $@

@@ -49,7 +49,7 @@ def test_a_tip_that_is_too_unsure_has_no_place_and_no_numbers() -> None:
     image = theatre.renderer().image_at(14.0)
     sure = Tracker(camera=theatre.camera, models=[theatre.marker]).search(image)["drill"]
     assert isinstance(sure, Seen)
-    unsure = replace(sure, pose_covariance=sure.pose_covariance * 10_000.0)
+    unsure = replace(sure, pose_covariance=sure.pose_covariance * 1e8)
     for sighting, is_placed in ((sure, True), (unsure, False)):
         snapshot = navigate(
             setup=setup,

@@ -108,27 +108,7 @@ def whole_fits(
         side_px: about how wide it is in the image.
         noise_grey: sd of the image's noise.
     """
-    step = max(1, int(np.ceil(side_px / WIDEST_PX)))
-    rays, values = np.empty((MOST_PIXELS, 2)), np.empty(MOST_PIXELS)
-    count = collect(
-        image, step, lens, starts[0].rotation, starts[0].translation_mm, REACH_RATIO * side_mm, rays, values
-    )
-    own = step * step * PIXEL_PX2
-    count = thinned(
-        rays[:count],
-        values[:count],
-        lens,
-        starts[0].rotation,
-        starts[0].translation_mm,
-        side_mm,
-        textures.arrays,
-        np.array([FOCUS_PX2 + own, FOCUS_PX2 + own, 0.0]),
-        LEAST_SLOPE_RATIO,
-        FLAT_STRIDE,
-    )
-    seen = Samples(
-        rays=rays[:count], values=values[:count], lens=lens, textures=textures, side_mm=side_mm, step=step
-    )
+    seen = _samples(image, lens, textures, starts[0], side_mm=side_mm, side_px=side_px)
     done: list[Fitted] = []
     for start in starts:
         if done and not _worth_fitting(seen, done[0], start):
@@ -147,6 +127,39 @@ def whole_fits(
             done = uneven
     scale = min(one.scale_grey for one in done)
     return [_record(seen, one, scale) for one in done]
+
+
+def _samples(
+    image: GreyImage,
+    lens: Array,
+    textures: Textures,
+    start: Rigid[Camera, Marker],
+    *,
+    side_mm: float,
+    side_px: float,
+) -> Samples:
+    """The pixels that tell of the pose, as seen from a start."""
+    step = max(1, int(np.ceil(side_px / WIDEST_PX)))
+    rays, values = np.empty((MOST_PIXELS, 2)), np.empty(MOST_PIXELS)
+    count = collect(
+        image, step, lens, start.rotation, start.translation_mm, REACH_RATIO * side_mm, rays, values
+    )
+    own = step * step * PIXEL_PX2
+    count = thinned(
+        rays[:count],
+        values[:count],
+        lens,
+        start.rotation,
+        start.translation_mm,
+        side_mm,
+        textures.arrays,
+        np.array([FOCUS_PX2 + own, FOCUS_PX2 + own, 0.0]),
+        LEAST_SLOPE_RATIO,
+        FLAT_STRIDE,
+    )
+    return Samples(
+        rays=rays[:count], values=values[:count], lens=lens, textures=textures, side_mm=side_mm, step=step
+    )
 
 
 def _worth_fitting(seen: Samples, best: Fitted, start: Rigid[Camera, Marker]) -> bool:

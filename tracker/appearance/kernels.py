@@ -171,21 +171,37 @@ def _advance(rotation, translation, numbers, step, share, least_blur):
 
 
 @compiled
+def _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes):
+    """The normal equations with what is known beforehand in them; returns their cost and weight."""
+    cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
+    return cost + _hold(a, g, numbers, scale, nodes), total
+
+
+@compiled
+def _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px):
+    """The damped step, what it promises in squared grey levels, and the share of it that may be gone.
+
+    A share of 0 means that there is no step.
+    """
+    damped = a.copy()
+    for m in range(len(g)):
+        damped[m, m] *= 1.0 + damping
+    if not solve_positive(damped, g, step):
+        return 0.0, 0.0
+    gain = 0.0
+    for m in range(len(g)):
+        gain += g[m] * step[m]
+    moved = corner_motion_px(rotation, translation, lens, side_mm, step)
+    turned = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
+    if not np.isfinite(moved):
+        return 0.0, 0.0
+    return gain, min(most_px / max(moved, 1e-12), 0.4 / max(turned, 1e-12), 1.0)
+
+
+@compiled
 def whole_fit(
-    rays,
-    values,
-    lens,
-    rotation,
-    translation,
-    side_mm,
-    tex,
-    numbers,
-    nodes,
-    least_blur,
-    rounds,
-    cut,
-    most_px,
-):
+    rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, least_blur, rounds, cut, most_px
+):  # fmt: skip
     """Fit pose, blur, response and light to the pixels, in place, by damped Gauss-Newton.
 
     `numbers`: of blur, response and light, in and out; (16,) with 0 nodes, whose light is found first, else
@@ -207,34 +223,21 @@ def whole_fit(
     # Once with any scale, for the sizes of the residuals; then with theirs.
     _equations(rows, at, values, lit, numbers, nodes, 1.0, cut, a, g, sizes)
     scale = max(_typical(sizes), 0.5)
-    cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
-    cost += _hold(a, g, numbers, scale, nodes)
+    cost, total = _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
     old_a, old_g = a.copy(), g.copy()
     damping, done = 1e-6, 0
     for _ in range(rounds):
         done += 1
         old_a[:, :], old_g[:] = a, g
-        for m in range(count):
-            a[m, m] *= 1.0 + damping
-        if not solve_positive(a, g, step):
+        gain, share = _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px)
+        if share == 0.0:
             return failed
-        a[:, :] = old_a
-        # What the step promises, in squared standard deviations of what it changes.
-        gain = 0.0
-        for m in range(count):
-            gain += g[m] * step[m]
-        moved = corner_motion_px(rotation, translation, lens, side_mm, step)
-        turned = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
-        if not np.isfinite(moved):
-            return failed
-        share = min(most_px / max(moved, 1e-12), 0.4 / max(turned, 1e-12), 1.0)
         old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
         new_cost = np.inf
         if _advance(rotation, translation, numbers, step, share, least_blur) and predict(
             rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True
         ):
-            new_cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
-            new_cost += _hold(a, g, numbers, scale, nodes)
+            new_cost, total = _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
         if not new_cost <= cost * (1.0 + 1e-9):
             rotation[:, :], translation[:], numbers[:] = old_rotation, old_translation, old
             a[:, :], g[:] = old_a, old_g
@@ -248,8 +251,7 @@ def whole_fit(
         typical = max(_typical(sizes), 0.3)
         if abs(typical - scale) > 0.1 * scale:
             scale = typical
-            cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
-            cost += _hold(a, g, numbers, scale, nodes)
+            cost, total = _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
     return a, scale, total / n, n, done
 
 

@@ -235,23 +235,9 @@ def mirror(rotation, translation, out):
 
 @compiled
 def refine_both(
-    gx,
-    gy,
-    left,
-    top,
-    lens,
-    points,
-    normals,
-    strength,
-    least,
-    reaches,
-    shift_sd,
-    rotation,
-    translation,
-    most,
-    least_px2,
-    decided,
-):
+    gx, gy, left, top, lens, points, normals, strength, least, reaches, shift_sd,
+    rotation, translation, most, least_px2, decided,
+):  # fmt: skip
     """Both planar solutions around a pose, each refined, the better one first.
 
     A fit that stopped halfway costs more than the wrong solution well fitted, and its mirror image mirrors

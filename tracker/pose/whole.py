@@ -22,6 +22,8 @@ MOST_APART_PX, MOST_APART_SIDE_RATIO = 1.2, 0.04
 # unexplained; edges, which bring their own contrast, are the better judge of the pose then.
 MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO = 1.8, 0.035
 LEAST_EXPLAINED_RATIO = 0.6
+# True markers leave up to 0.05 of their contrast (two blurs, shadow and noise together), others from 0.065.
+TOLD_NOISES, TOLD_CONTRAST_RATIO, TOLD_EXPLAINED_RATIO = 1.2, 0.055, 0.55
 LEAST_CONTRAST_GREY = 4.0
 # White noise is not all: what the blur's shape and neighbouring texture add, as measured on rendered scenes.
 COVARIANCE_FACTOR = 1.6
@@ -51,8 +53,11 @@ def with_whole_shape(
     seen: Seen,
     *,
     expected: Rigid[Camera, Marker] | None = None,
-) -> Seen:
+) -> tuple[Seen, bool]:
     """The same by all pixels of the marker where they can be explained, else by its edges as it was.
+
+    And whether the marker's shape explains the pixels at all: another shape whose edges happen to lie where
+    the marker's would leaves twice as much unexplained as any true one.
 
     `expected` is the pose that the images before let expect.
     """
@@ -69,11 +74,12 @@ def with_whole_shape(
     )
     here = camera.px_from_camera(starts[0].move_points(model.corners_mm))
     reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)
+    told = any(_is_told(one, pixels.noise_grey) and _near(camera, model, one, here, reach) for one in fits)
     good = [
         one for one in fits if _explains(one, pixels.noise_grey) and _near(camera, model, one, here, reach)
     ]
     if not good:
-        return seen
+        return seen, told
     costs = [COST_SHARE * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in good]
     order = np.argsort(costs, kind="stable")
     best = good[order[0]]
@@ -88,7 +94,7 @@ def with_whole_shape(
         if gap < DECIDED_COST and turned > 1e-3:
             doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
             covariance = covariance + doubt * np.outer(apart, apart)
-    return replace(seen, camera_from_marker=pose, pose_covariance=covariance)
+    return replace(seen, camera_from_marker=pose, pose_covariance=covariance), told
 
 
 def _explains(one: WholeFit, noise_grey: float) -> bool:
@@ -97,6 +103,16 @@ def _explains(one: WholeFit, noise_grey: float) -> bool:
         one.contrast_grey > LEAST_CONTRAST_GREY
         and one.scale_grey < left
         and one.explained_ratio > LEAST_EXPLAINED_RATIO
+    )
+
+
+def _is_told(one: WholeFit, noise_grey: float) -> bool:
+    """Whether what is seen is this shape and no other."""
+    left = max(TOLD_NOISES * noise_grey, TOLD_CONTRAST_RATIO * one.contrast_grey)
+    return (
+        one.contrast_grey > LEAST_CONTRAST_GREY
+        and one.scale_grey < left
+        and one.explained_ratio > TOLD_EXPLAINED_RATIO
     )
 
 

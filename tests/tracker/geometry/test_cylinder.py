@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from tracker.geometry import cylinder_ring_mm, cylinder_silhouette_mm
@@ -26,6 +26,8 @@ def test_lines_of_sight_touch_the_cylinder_along_its_outline(
     start, end = np.array([x, y, 200.0]), np.array([x + dx, y + dy, 240.0])
     axis = (end - start) / np.linalg.norm(end - start)
     to_axis = start - (start @ axis) * axis
+    # On the wall itself, rounding decides on which side the eye is.
+    assume(abs(np.linalg.norm(to_axis) - radius_mm) > 1e-9)
     lines = cylinder_silhouette_mm(start, end, radius_mm)
     if np.linalg.norm(to_axis) <= radius_mm:
         assert lines == ()

@@ -14,7 +14,7 @@ NODES_REACH = 1.25
 # A point is lit by three nodes each way.
 AROUND = 9
 # Light changes from node to node by so much of the contrast, unless the image says otherwise.
-DARK_STEP_RATIO, CONTRAST_STEP_RATIO, SLOPE_RATIO = 0.15, 0.15, 0.5
+NODE_STEP_RATIO, SLOPE_RATIO = 0.15, 0.5
 
 
 @compiled
@@ -105,7 +105,7 @@ def hold_light(a, g, numbers, scale, nodes):
         return cost
     both = nodes * nodes
     for half in range(2):
-        stiff = (scale / ((DARK_STEP_RATIO if half == 0 else CONTRAST_STEP_RATIO) * contrast)) ** 2
+        stiff = (scale / (NODE_STEP_RATIO * contrast)) ** 2
         for r in range(nodes):
             for c in range(nodes):
                 i = LIGHT + half * both + r * nodes + c

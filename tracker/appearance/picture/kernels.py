@@ -10,12 +10,8 @@ BRIGHTEST = 254
 
 
 @compiled
-def collect(image, step, lens, rotation, translation, reach_mm, rays, values):
-    """Pixels (or means of step x step of them) that lie within `reach_mm` of the marker's centre lines.
-
-    Fills `rays` (n, 2), their directions with the lens taken out, and `values` (n,); returns how many.
-    """
-    height, width = image.shape
+def _extent(rotation, translation, lens, reach_mm, step, width, height):
+    """First and last column and row, in steps, of what lies within reach; empty where it cannot be."""
     derivative = np.empty((2, 3))
     p = np.empty(3)
     left, top, right, bottom = 1e9, 1e9, -1e9, -1e9
@@ -25,15 +21,27 @@ def collect(image, step, lens, rotation, translation, reach_mm, rays, values):
         for m in range(3):
             p[m] = rotation[m, 0] * x + rotation[m, 1] * y + translation[m]
         if p[2] < 1.0:
-            return 0
+            return 0, -1, 0, -1
         u, v = project_with_derivative(p, lens, derivative)
         left, right, top, bottom = min(left, u), max(right, u), min(top, v), max(bottom, v)
     if not (right - left < 1e5 and bottom - top < 1e5):
-        return 0
+        return 0, -1, 0, -1
     c0, c1 = max(int(left) // step, 0), min(int(right) // step + 1, width // step - 1)
     r0, r1 = max(int(top) // step, 0), min(int(bottom) // step + 1, height // step - 1)
+    return c0, c1, r0, r1
+
+
+@compiled
+def collect(image, step, lens, rotation, translation, reach_mm, rays, values):
+    """Pixels (or means of step x step of them) that lie within `reach_mm` of the marker's centre lines.
+
+    Fills `rays` (n, 2), their directions with the lens taken out, and `values` (n,); returns how many.
+    """
+    height, width = image.shape
+    c0, c1, r0, r1 = _extent(rotation, translation, lens, reach_mm, step, width, height)
     if c1 - c0 < 2 or r1 - r0 < 2:
         return 0
+    derivative, p = np.empty((2, 3)), np.empty(3)
     # The plane that the marker lies in: normal . point = distance.
     nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
     distance = nx * translation[0] + ny * translation[1] + nz * translation[2]

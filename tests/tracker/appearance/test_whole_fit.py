@@ -1,0 +1,68 @@
+"""The whole-shape fit against pictures whose truth is known."""
+
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import camera_of, code_model, facing_at_px, render
+from tracker.appearance import WholeFit, textures_of, whole_fits
+from tracker.camera.lens import lens_numbers
+from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+
+CAMERA = camera_of()
+MODEL = code_model()
+TEXTURES = textures_of(MODEL.square)
+
+
+def _beside(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:
+    """The same, off by about a third of a pixel."""
+    turn = rotation_from_vector([0.01, -0.012, 0.008])
+    return Rigid(
+        rotation=turn @ pose.rotation, translation_mm=pose.translation_mm * 1.004 + np.array([0.1, -0.1, 0.0])
+    )
+
+
+def _fit(image: np.ndarray, start: Rigid[Camera, Marker], side_px: float) -> WholeFit:
+    fits = whole_fits(
+        image,
+        lens_numbers(CAMERA),
+        TEXTURES,
+        [start],
+        side_mm=MODEL.side_mm,
+        side_px=side_px,
+        noise_grey=1.0,
+    )
+    assert len(fits) == 1
+    return fits[0]
+
+
+@pytest.mark.parametrize("side_px", [30.0, 60.0, 150.0])
+def test_a_pose_that_is_a_third_of_a_pixel_off_is_put_right(side_px: float) -> None:
+    pose = facing_at_px(CAMERA, (330.0, 220.0), side_px, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    found = _fit(render(CAMERA, MODEL, pose), _beside(pose), side_px).camera_from_marker
+    turned = vector_from_rotation(found.rotation @ pose.rotation.T)
+    assert np.degrees(np.linalg.norm(turned)) < 0.15
+    off_px = CAMERA.px_from_camera(found.move_points(MODEL.corners_mm)) - CAMERA.px_from_camera(
+        pose.move_points(MODEL.corners_mm)
+    )
+    assert np.abs(off_px).max() < 0.03
+
+
+def test_a_shadow_over_half_of_the_marker_does_not_move_it() -> None:
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    image = render(CAMERA, MODEL, pose).astype(np.float64)
+    columns = np.arange(image.shape[1])
+    shade = 1.0 - 0.5 / (1.0 + np.exp(-(columns - 330.0) / 6.0))
+    found = _fit(np.round(image * shade).astype(np.uint8), _beside(pose), 60.0).camera_from_marker
+    off_px = CAMERA.px_from_camera(found.move_points(MODEL.corners_mm)) - CAMERA.px_from_camera(
+        pose.move_points(MODEL.corners_mm)
+    )
+    assert np.abs(off_px).max() < 0.1
+
+
+def test_a_camera_that_bends_its_response_is_told_from_depth() -> None:
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    image = 255.0 * (render(CAMERA, MODEL, pose).astype(np.float64) / 255.0) ** (1.0 / 2.2)
+    fit = _fit(np.round(image).astype(np.uint8), _beside(pose), 60.0)
+    depth_mm = fit.camera_from_marker.translation_mm[2]
+    assert fit.response > 0.3
+    assert depth_mm == pytest.approx(pose.translation_mm[2], rel=4e-4)
