@@ -25,8 +25,9 @@ LEAST_EXPLAINED_RATIO = 0.6
 # True markers leave up to 0.05 of their contrast (two blurs, shadow and noise together), others from 0.065.
 TOLD_NOISES, TOLD_CONTRAST_RATIO, TOLD_EXPLAINED_RATIO = 1.2, 0.055, 0.55
 LEAST_CONTRAST_GREY = 4.0
-# White noise is not all: what the blur's shape and neighbouring texture add, as measured on rendered scenes.
-COVARIANCE_FACTOR = 1.6
+# White noise is not all: in shadow, blur and bent response the errors of neighbours are alike. Too wide in
+# plain light, where one and a half would do; too narrow would be worse.
+COVARIANCE_FACTOR = 4.0
 # Costs count each pixel as if it erred alone; half of that is left when the model's own errors are in.
 COST_SHARE = 0.5
 
