@@ -21,6 +21,7 @@ from tracker.marker import (
     templates_of,
 )
 from tracker.pose import (
+    FoundBy,
     Pixels,
     Prior,
     Seen,
@@ -162,23 +163,27 @@ class Tracker:
     def _track(self, pixels: Pixels, model: MarkerModel, captured_at_s: float) -> Sighting | None:
         """The marker where it is expected; None when nothing is expected there."""
         expected = self._priors[model.name].expected(captured_at_s)
-        if expected is None:
-            return None
-        corners = self.camera.px_from_camera(expected.move_points(model.corners_mm))
-        window = _window(self.camera, corners)
+        return None if expected is None else self._near(pixels, model, expected, found_by="track")
+
+    def _near(
+        self, pixels: Pixels, model: MarkerModel, start: Rigid[Camera, Marker], *, found_by: FoundBy
+    ) -> Sighting | None:
+        """What stands at about this pose; None when it would be outside the image, or nothing fits there."""
+        window = _window(self.camera, self.camera.px_from_camera(start.move_points(model.corners_mm)))
         if window is None:
             return None
+        expected = start if found_by == "track" else None
         left, top, right, bottom = window
         part = np.ascontiguousarray(pixels.image[top:bottom, left:right])
         gradient = gradient_of(part, left_px=left, top_px=top)
         self._stages.end("gradient")
-        found = occurrence_near(
-            self.camera, model, gradient, expected, first_reach_px=TRACK_REACH_PX, expected=expected
-        )
+        reach = SEARCH_REACH_PX if expected is None else TRACK_REACH_PX
+        found = occurrence_near(self.camera, model, gradient, start, first_reach_px=reach, expected=expected)
         self._stages.end("fit")
-        if found is not None:
-            found = with_target(self.camera, model, gradient, edgels_of(gradient), found)
-        sighting = judged(found, self.settings, model=model, image=part, gradient=gradient, found_by="track")
+        if found is None:
+            return None
+        found = with_target(self.camera, model, gradient, edgels_of(gradient), found)
+        sighting = judged(found, self.settings, model=model, image=part, gradient=gradient, found_by=found_by)
         self._stages.end("score")
         return self._exact(pixels, model, sighting, expected)
 
@@ -187,7 +192,7 @@ class Tracker:
         pixels: Pixels,
         model: MarkerModel,
         sighting: Sighting,
-        expected: Rigid[Camera, Marker] | None = None,
+        expected: Rigid[Camera, Marker] | None,
     ) -> Sighting:
         """What is seen, as exactly as the pixels hold it."""
         if not isinstance(sighting, Seen):
@@ -218,7 +223,7 @@ class Tracker:
                     best[model.name] = max(best[model.name], found, key=_worth)
             if all(_worth(sighting) > CERTAIN_WORTH for sighting in best.values()):
                 break
-        return {model.name: self._exact(pixels, model, best[model.name]) for model in models}
+        return best
 
     def _search_one(
         self,
@@ -229,7 +234,8 @@ class Tracker:
         best: Sighting = Unseen(reason=UnseenReason.NO_CANDIDATE)
         fits = 0
         for candidate in candidates:
-            sighting = self._at(pixels, model, candidate)
+            start = pose_from_corners(self.camera, candidate.corners_px, side_mm=model.side_mm)
+            sighting = None if start is None else self._near(pixels, model, start, found_by="search")
             if sighting is None:
                 continue
             best = max(best, sighting, key=_worth)
@@ -238,25 +244,6 @@ class Tracker:
             if fits >= MOST_FITS or _worth(best) > CERTAIN_WORTH:
                 break
         return best
-
-    def _at(self, pixels: Pixels, model: MarkerModel, candidate: Candidate) -> Sighting | None:
-        """What a candidate is; None when nothing can be fitted there."""
-        start = pose_from_corners(self.camera, candidate.corners_px, side_mm=model.side_mm)
-        window = _window(self.camera, candidate.corners_px)
-        if start is None or window is None:
-            return None
-        left, top, right, bottom = window
-        part = np.ascontiguousarray(pixels.image[top:bottom, left:right])
-        gradient = gradient_of(part, left_px=left, top_px=top)
-        self._stages.end("gradient")
-        found = occurrence_near(self.camera, model, gradient, start, first_reach_px=SEARCH_REACH_PX)
-        self._stages.end("fit")
-        if found is None:
-            return None
-        found = with_target(self.camera, model, gradient, edgels_of(gradient), found)
-        sighting = judged(found, self.settings, model=model, image=part, gradient=gradient, found_by="search")
-        self._stages.end("score")
-        return sighting
 
 
 def _one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:

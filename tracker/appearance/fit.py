@@ -101,7 +101,7 @@ def whole_fits(
 
     Args:
         image: the whole grey image (h, w).
-        lens: of `lens_numbers`.
+        lens: `CameraModel.lens`.
         textures: of the marker.
         starts: poses, the likeliest first; the pixels are taken by it.
         side_mm: side of the marker.

@@ -3,23 +3,16 @@
 `CameraModel.px_from_camera` is the reference; a test holds the two together.
 """
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from tracker.geometry import Array
 
-if TYPE_CHECKING:
-    from tracker.camera.model import CameraModel
-
-
-def lens_numbers(camera: "CameraModel") -> Array:
-    """fx, fy, cx, cy, OpenCV's 12 coefficients, the sensor's tilt matrix row by row, 1 for no lens: (26,)."""
-    return camera.lens
-
 
 def lens_of(matrix: Array, distortion: Array) -> Array:
-    """The same of K (3, 3) and OpenCV's coefficients."""
+    """Of K (3, 3) and OpenCV's coefficients (up to 14), the numbers (26,) that the loops take.
+
+    fx, fy, cx, cy, 12 coefficients, the sensor's tilt matrix row by row, 1 for no lens.
+    """
     coefficients = np.zeros(14)
     coefficients[: distortion.size] = distortion
     tx, ty = coefficients[12], coefficients[13]

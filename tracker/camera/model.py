@@ -23,7 +23,7 @@ class CameraModel:
         matrix: OpenCV's K (3, 3): focal lengths and principal point in px, no skew.
         distortion: OpenCV's coefficients, 4, 5, 8, 12 or 14 of them (k1 k2 p1 p2 k3 ...).
         size_wh_px: width and height of the images that it was calibrated on.
-        lens: the same as the compiled loops want it, see `lens_numbers`; made here.
+        lens: the same as the compiled loops want it, see `lens_of`; made here.
 
     Raises:
         InvalidInput: CAMERA_MODEL_INVALID, with the number that cannot be.

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.camera.lens import lens_numbers
 from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 from tracker.marker import ActiveEdges, reach_px
@@ -120,7 +119,7 @@ def _both(
         gradient.y,
         float(gradient.left_px),
         float(gradient.top_px),
-        lens_numbers(camera),
+        camera.lens,
         fitted.points_mm,
         fitted.normals,
         fitted.strength_ratio,
@@ -161,7 +160,7 @@ def projected_edges(
 ) -> tuple[Array, Array] | None:
     """Active edges as pixels (n, 2) and unit normals (n, 2), dark to bright; None behind the camera."""
     pixels, directions, in_front = project_edges(
-        pose.rotation, pose.translation_mm, lens_numbers(camera), active.points_mm, active.normals
+        pose.rotation, pose.translation_mm, camera.lens, active.points_mm, active.normals
     )
     return (pixels, directions) if in_front else None
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from tracker.appearance import Textures, WholeFit, whole_fits
 from tracker.camera import CameraModel
-from tracker.camera.lens import lens_numbers
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import MarkerModel
@@ -66,7 +65,7 @@ def with_whole_shape(
     starts = [seen.camera_from_marker, other_solution(seen.camera_from_marker)]
     fits = whole_fits(
         pixels.image,
-        lens_numbers(camera),
+        camera.lens,
         pixels.textures[model.name],
         starts,
         side_mm=model.side_mm,

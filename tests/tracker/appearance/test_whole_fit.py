@@ -5,7 +5,6 @@ import pytest
 
 from tests.tracker.scenes import Image8, Print, camera_of, code_model, facing_at_px, rendered
 from tracker.appearance import WholeFit, textures_of, whole_fits
-from tracker.camera.lens import lens_numbers
 from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
 
 CAMERA = camera_of()
@@ -28,7 +27,7 @@ def _image(pose: Rigid[Camera, Marker]) -> Image8:
 def _fit(image: Image8, start: Rigid[Camera, Marker], side_px: float) -> WholeFit:
     fits = whole_fits(
         image,
-        lens_numbers(CAMERA),
+        CAMERA.lens,
         TEXTURES,
         [start],
         side_mm=MODEL.side_mm,

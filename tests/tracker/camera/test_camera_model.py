@@ -9,7 +9,6 @@ import pytest
 from tests.tracker.scenes import STRAIGHT, camera_of
 from tracker import CameraModel, InvalidInput
 from tracker.camera.kernels import project_with_derivative
-from tracker.camera.lens import lens_numbers
 
 K = ((800.0, 0.0, 320.0), (0.0, 790.0, 240.0), (0.0, 0.0, 1.0))
 LENSES = {
@@ -114,7 +113,7 @@ def _points() -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
 @pytest.mark.parametrize("count", LENSES)
 def test_the_compiled_lens_is_opencvs(count: int) -> None:
     camera = CameraModel(matrix=np.array(K), distortion=np.array(LENSES[count]), size_wh_px=(640, 480))
-    lens, derivative = lens_numbers(camera), np.empty((2, 3))
+    lens, derivative = camera.lens, np.empty((2, 3))
     for point in _points():
         expected = cv2.projectPoints(
             point.reshape(1, 1, 3), np.zeros(3), np.zeros(3), camera.matrix, camera.distortion
@@ -126,7 +125,7 @@ def test_the_compiled_lens_is_opencvs(count: int) -> None:
 @pytest.mark.parametrize("count", LENSES)
 def test_its_derivative_is_that_of_finite_differences(count: int) -> None:
     camera = CameraModel(matrix=np.array(K), distortion=np.array(LENSES[count]), size_wh_px=(640, 480))
-    lens, derivative = lens_numbers(camera), np.empty((2, 3))
+    lens, derivative = camera.lens, np.empty((2, 3))
     for point in _points()[:40]:
         project_with_derivative(point, lens, derivative)
         steps = np.eye(3) * 1e-3
@@ -136,7 +135,7 @@ def test_its_derivative_is_that_of_finite_differences(count: int) -> None:
 
 def test_without_a_lens_the_short_way_is_the_long_one() -> None:
     camera = CameraModel(matrix=np.array(K), distortion=np.zeros(8), size_wh_px=(640, 480))
-    short, long = lens_numbers(camera), lens_numbers(camera).copy()
+    short, long = camera.lens, camera.lens.copy()
     assert short[25] == 1.0
     long[25] = 0.0
     derivatives = np.empty((2, 2, 3))
