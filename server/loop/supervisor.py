@@ -53,12 +53,19 @@ class Supervisor:
     """Keeps one tracking process running, from a thread of its own."""
 
     def __init__(
-        self, *, order: WorkerOrder, board: Board, watch: Watch | None = None, target: Target = run_worker
+        self,
+        *,
+        order: WorkerOrder,
+        board: Board,
+        watch: Watch | None = None,
+        target: Target = run_worker,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._order = order
         self._board = board
         self._watch = watch or Watch()
         self._target = target
+        self._clock = clock
         self._context = multiprocessing.get_context("forkserver")
         self._stop = threading.Event()
         self._asleep, self._awake = multiprocessing.Pipe(duplex=False)
@@ -101,7 +108,7 @@ class Supervisor:
             self._post(ProcessState.RESTARTING, trouble)
             self._wait_until_allowed(trouble)
             self._restarts += 1
-            self._restarted_at_s.append(time.monotonic())
+            self._restarted_at_s.append(self._clock())
 
     def _run_once(self) -> Trouble:
         """Start a process, watch it to its end, and say how it ended."""
@@ -166,17 +173,16 @@ class Supervisor:
         """Returns when it may be started again; until then it is given up, and says so."""
         watch = self._watch
         while not self._stop.is_set():
-            now_s = time.monotonic()
+            now_s = self._clock()
             while self._restarted_at_s and now_s - self._restarted_at_s[0] >= watch.window_s:
                 self._restarted_at_s.popleft()
             if len(self._restarted_at_s) < watch.restarts:
                 return
-            left_s = watch.window_s - (now_s - self._restarted_at_s[0])
             if self._board.posted.process.state is not ProcessState.GIVEN_UP:
                 given_up = _given_up(watch, trouble)
                 log.error(given_up.message, code=given_up.code, remedy=given_up.remedy)
                 self._post(ProcessState.GIVEN_UP, given_up)
-            wait([self._asleep], timeout=left_s)
+            wait([self._asleep], timeout=watch.look_every_s)
 
     def _post(self, state: ProcessState, trouble: Trouble | None, ring: ImageRing | None = None) -> None:
         self._board.post(ProcessStatus(state=state, restarts=self._restarts, trouble=trouble), ring)
