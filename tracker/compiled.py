@@ -2,7 +2,8 @@
 
 Kept on disk (`cache`), so that nothing compiles in theatre; without the interpreter's lock (`nogil`), so that
 capture goes on meanwhile; with IEEE division (`error_model="numpy"`), so that a division by zero is inf, not
-an exception from a place without a sentence.
+an exception from a place without a sentence. Sums may be taken in another order (`fastmath`), so that several
+are taken at once; what is not a number stays one.
 """
 
 from collections.abc import Callable
@@ -15,4 +16,9 @@ Function = TypeVar("Function", bound=Callable[..., object])
 
 def compiled(function: Function) -> Function:
     """The same function as machine code. `tracker.warm_up` calls each one, so that none is compiled later."""
-    return cast("Function", numba.njit(cache=True, nogil=True, error_model="numpy")(function))
+    return cast(
+        "Function",
+        numba.njit(
+            cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "arcp", "nsz"}
+        )(function),
+    )

@@ -4,9 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracker.appearance.kernels import EVEN, robust_cost, whole_fit
+from tracker.appearance.equations.kernels import EVEN
+from tracker.appearance.kernels import robust_cost, scores_spread, whole_fit
 from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, nodes_of_plane, typical_contrast
-from tracker.appearance.picture.kernels import collect, thinned
+from tracker.appearance.picture.kernels import collect
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -21,18 +22,23 @@ FOCUS_PX2, PIXEL_PX2, LEAST_BLUR_PX2 = 0.36, 1.0 / 12.0, 0.07
 ROUNDS = 14
 MOST_MOVE_PX = 0.7
 # Residuals over so many sd lose their say.
-CUT = 3.0
+CUT = 4.0
 # Where the picture is this much flatter than at its steepest a pixel says little of the pose: few are enough.
 LEAST_SLOPE_RATIO, FLAT_STRIDE = 0.12, 10
-# The other solution is tried by a part of the pixels first, and let go when it is worse by so much.
-FEW, FEW_ROUNDS, OUT_OF_QUESTION_SD2 = 4, 8, 60.0
+# So many pixels bring a pose near; all of them then make it exact.
+FEW_PIXELS = 200
+# The other planar solution is let go when those few pixels speak against it by so much.
+OUT_OF_QUESTION_SD2 = 30.0
 MOST_PIXELS = 30_000
-# Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide.
-NODES = 6
+# Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide, a highlight
+# less. Small markers have not the pixels for a fine one.
+NODES, NODES_SMALL, SMALL_PX = 10, 6, 45.0
 # What even light leaves unexplained, in units of the noise and of the contrast, before light may vary.
+EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
 # Light varies where that explains this much more; a compressed picture's blocks it does not explain.
 UNEVEN_LEAVES_RATIO = 0.75
-EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
+# Errors within one of so many parts a side are taken to be alike.
+BLOCKS = 7
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,7 +47,8 @@ class WholeFit:
 
     Attributes:
         camera_from_marker: the pose.
-        covariance: (6, 6) [mm, rad] of white noise alone: translation, then turn, left-multiplied.
+        covariance: (6, 6) [mm, rad] by what is left unexplained: translation, then turn, left-multiplied.
+        alike_ratio: by how much the variance is larger than if each pixel erred alone.
         scale_grey: sd of what is not explained, in grey levels.
         contrast_grey: bright less dark, at the marker's centre.
         explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
@@ -52,6 +59,7 @@ class WholeFit:
 
     camera_from_marker: Rigid[Camera, Marker]
     covariance: Array
+    alike_ratio: float
     scale_grey: float
     contrast_grey: float
     explained_ratio: float
@@ -108,21 +116,20 @@ def whole_fits(
         side_px: about how wide it is in the image.
         noise_grey: sd of the image's noise.
     """
-    seen = _samples(image, lens, textures, starts[0], side_mm=side_mm, side_px=side_px)
-    done: list[Fitted] = []
-    for start in starts:
-        if done and not _worth_fitting(seen, done[0], start):
-            continue
-        one = _fitted(seen, start)
-        if one is not None:
-            done.append(one)
+    step = max(1, int(np.ceil(side_px / WIDEST_PX)))
+    focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
+    seen = _samples(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=focus)
+    few = _some(seen)
+    near = _in_question(few, [_near(few, start, focus) for start in starts])
+    done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
     if not done:
         return []
     if done[0].scale_grey > max(
         EVEN_LEAVES_NOISES * noise_grey,
         EVEN_LEAVES_CONTRAST_RATIO * float(typical_contrast(done[0].numbers, 0)),
     ):
-        uneven = [one for one in (_in_uneven_light(seen, one) for one in done) if one is not None]
+        nodes = NODES if side_px > SMALL_PX else NODES_SMALL
+        uneven = [one for one in (_in_uneven_light(seen, one, nodes) for one in done) if one is not None]
         if uneven and uneven[0].scale_grey < UNEVEN_LEAVES_RATIO * done[0].scale_grey:
             done = uneven
     scale = min(one.scale_grey for one in done)
@@ -136,62 +143,77 @@ def _samples(
     start: Rigid[Camera, Marker],
     *,
     side_mm: float,
-    side_px: float,
+    step: int,
+    blur_px2: Array,
 ) -> Samples:
-    """The pixels that tell of the pose, as seen from a start."""
-    step = max(1, int(np.ceil(side_px / WIDEST_PX)))
+    """The pixels that tell of the pose, as seen from a start at this blur (3,)."""
     rays, values = np.empty((MOST_PIXELS, 2)), np.empty(MOST_PIXELS)
     count = collect(
-        image, step, lens, start.rotation, start.translation_mm, REACH_RATIO * side_mm, rays, values
-    )
-    own = step * step * PIXEL_PX2
-    count = thinned(
-        rays[:count],
-        values[:count],
+        image,
+        step,
         lens,
         start.rotation,
         start.translation_mm,
         side_mm,
+        REACH_RATIO,
         textures.arrays,
-        np.array([FOCUS_PX2 + own, FOCUS_PX2 + own, 0.0]),
+        blur_px2,
         LEAST_SLOPE_RATIO,
         FLAT_STRIDE,
+        rays,
+        values,
     )
     return Samples(
         rays=rays[:count], values=values[:count], lens=lens, textures=textures, side_mm=side_mm, step=step
     )
 
 
-def _worth_fitting(seen: Samples, best: Fitted, start: Rigid[Camera, Marker]) -> bool:
-    """Whether the pose beside this start may explain the pixels as well as the best one, by a few of them."""
-    few = replace(
-        seen, rays=np.ascontiguousarray(seen.rays[::FEW]), values=np.ascontiguousarray(seen.values[::FEW])
+def _some(seen: Samples) -> Samples:
+    """A few of the pixels, from everywhere."""
+    every = max(len(seen.values) // FEW_PIXELS, 1)
+    return replace(
+        seen,
+        rays=np.ascontiguousarray(seen.rays[::every]),
+        values=np.ascontiguousarray(seen.values[::every]),
     )
-    one = _fitted(few, start, rounds=FEW_ROUNDS)
-    if one is None:
-        return False
-    return _cost(few, one, best.scale_grey) < _cost(few, best, best.scale_grey) + OUT_OF_QUESTION_SD2
 
 
-def _fitted(seen: Samples, start: Rigid[Camera, Marker], *, rounds: int = ROUNDS) -> Fitted | None:
-    """The pose near a start in even light."""
-    own = seen.step * seen.step * PIXEL_PX2
+def _in_question(few: Samples, fits: list[Fitted | None]) -> list[Fitted]:
+    """Those fits to the same few pixels that may be the best of all."""
+    near = [one for one in fits if one is not None]
+    if len(near) < 2:
+        return near
+    scale = min(one.scale_grey for one in near)
+    costs = [_cost(few, one, scale) for one in near]
+    return [one for one, cost in zip(near, costs, strict=True) if cost < min(costs) + OUT_OF_QUESTION_SD2]
+
+
+def _near(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> Fitted | None:
+    """The pose near a start in even light, by a few pixels."""
     numbers = np.zeros(EVEN)
-    numbers[BLUR : BLUR + 2] = FOCUS_PX2 + own
-    return _from(seen, start.rotation.copy(), start.translation_mm.copy(), numbers, nodes=0, rounds=rounds)
+    numbers[BLUR : BLUR + 3] = blur_px2
+    return _from(few, start.rotation, start.translation_mm, numbers, nodes=0, scale_grey=0.0)
 
 
-def _in_uneven_light(seen: Samples, even: Fitted) -> Fitted | None:
+def _at_all(seen: Samples, near: Fitted) -> Fitted | None:
+    """The same by all pixels."""
+    return _from(
+        seen, near.rotation, near.translation_mm, near.numbers, nodes=near.nodes, scale_grey=near.scale_grey
+    )
+
+
+def _in_uneven_light(seen: Samples, even: Fitted, nodes: int) -> Fitted | None:
     """The same pose where light may vary over the marker."""
-    numbers = np.zeros(LIGHT + 2 * NODES * NODES)
-    nodes_of_plane(even.numbers, NODES, numbers)
-    return _from(seen, even.rotation.copy(), even.translation_mm.copy(), numbers, nodes=NODES, rounds=ROUNDS)
+    numbers = np.zeros(LIGHT + 2 * nodes * nodes)
+    nodes_of_plane(even.numbers, nodes, numbers)
+    return _from(seen, even.rotation, even.translation_mm, numbers, nodes=nodes, scale_grey=0.0)
 
 
 def _from(
-    seen: Samples, rotation: Array, translation_mm: Array, numbers: Array, *, nodes: int, rounds: int
+    seen: Samples, rotation: Array, translation_mm: Array, numbers: Array, *, nodes: int, scale_grey: float
 ) -> Fitted | None:
-    matrix, scale, weight, count, _ = whole_fit(
+    rotation, translation_mm, numbers = rotation.copy(), translation_mm.copy(), numbers.copy()
+    matrix, scale, weight, good = whole_fit(
         seen.rays,
         seen.values,
         seen.lens,
@@ -201,12 +223,13 @@ def _from(
         seen.textures.arrays,
         numbers,
         nodes,
+        scale_grey,
         LEAST_BLUR_PX2 + seen.step * seen.step * PIXEL_PX2,
-        rounds,
+        ROUNDS,
         CUT,
         MOST_MOVE_PX * seen.step,
     )
-    if count == 0:
+    if not good:
         return None
     return Fitted(
         rotation=rotation,
@@ -240,10 +263,28 @@ def _cost(seen: Samples, one: Fitted, scale_grey: float) -> float:
 def _record(seen: Samples, one: Fitted, scale_of_all: float) -> WholeFit:
     size = np.sqrt(np.diag(one.matrix))
     inverse = np.linalg.inv(one.matrix / np.outer(size, size)) / np.outer(size, size)
+    alone = inverse[:6, :6] * one.scale_grey**2
+    together = scores_spread(
+        seen.rays,
+        seen.values,
+        seen.lens,
+        one.rotation,
+        one.translation_mm,
+        seen.side_mm,
+        seen.textures.arrays,
+        one.numbers,
+        one.nodes,
+        one.scale_grey,
+        CUT,
+        np.ascontiguousarray(inverse[:6]),
+        BLOCKS,
+    )
+    alike = max(float(np.trace(np.linalg.solve(alone, together))) / 6.0, 1.0)
     u, _, vt = np.linalg.svd(one.rotation)
     return WholeFit(
         camera_from_marker=Rigid(rotation=u @ vt, translation_mm=one.translation_mm),
-        covariance=inverse[:6, :6] * one.scale_grey**2,
+        covariance=alone * alike,
+        alike_ratio=alike,
         scale_grey=one.scale_grey,
         contrast_grey=float(typical_contrast(one.numbers, one.nodes)),
         explained_ratio=one.explained_ratio,

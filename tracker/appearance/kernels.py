@@ -2,15 +2,15 @@
 
 import numpy as np
 
+from tracker.appearance.equations.kernels import EVEN, equations, trust, typical_sd, weighed_pixel
 from tracker.appearance.light.kernels import (
     AROUND,
     BLUR,
     LIGHT,
-    PLANE,
+    NODES_REACH,
     RESPONSE,
     cell_of,
     even_light,
-    hold_light,
     light_up,
     shaped_by,
 )
@@ -18,108 +18,11 @@ from tracker.appearance.picture.kernels import predict
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive, turn_by
 
-EVEN = LIGHT + PLANE
-# A camera's response is bent by so much; gamma 2.2 is half.
-RESPONSE_SD = 0.3
-# A step that changes what it changes by less than a seventh of its standard deviation ends the fit.
-SETTLED_SD2 = 0.02
-
-
-@compiled
-def _even_equations(rows, at, values, lit, numbers, scale, cut, a, g, sizes):
-    """Gauss-Newton's matrix (16, 16) and right side (16,) in even light; returns robust cost and weight."""
-    a[:, :] = 0.0
-    g[:] = 0.0
-    row = np.empty(EVEN)
-    cost, total = 0.0, 0.0
-    unit = 1.0 / (cut * scale) ** 2
-    response = numbers[RESPONSE]
-    for i in range(len(values)):
-        s, u, v, contrast = rows[i, 0], at[i, 0], at[i, 1], lit[i, 1]
-        shaped = shaped_by(s, response)
-        r = values[i] - lit[i, 0] - contrast * shaped
-        sizes[i] = abs(r)
-        z = r * r * unit
-        # Geman and McClure: what is far off belongs to something else and has no say.
-        w = 1.0 / (1.0 + z)
-        cost += z * w
-        w *= w
-        total += w
-        slope = contrast * (1.0 + response * (1.0 - 2.0 * s))
-        for k in range(9):
-            row[k] = slope * rows[i, 1 + k]
-        row[RESPONSE] = contrast * s * (1.0 - s)
-        row[LIGHT], row[LIGHT + 1], row[LIGHT + 2] = 1.0, u, v
-        row[LIGHT + 3], row[LIGHT + 4], row[LIGHT + 5] = shaped, shaped * u, shaped * v
-        wr = w * r
-        for m in range(EVEN):
-            wm = w * row[m]
-            g[m] += wr * row[m]
-            # The whole square, although it is symmetric: rows of fixed length are added four at a time.
-            for k in range(EVEN):
-                a[m, k] += wm * row[k]
-    return cost / unit, total
-
-
-@compiled
-def _uneven_equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes):
-    """The same in uneven light, of which each pixel sees nine nodes."""
-    a[:, :] = 0.0
-    g[:] = 0.0
-    row, index, weight = np.empty(LIGHT), np.empty(AROUND, np.int64), np.empty(AROUND)
-    where, share = np.empty(2 * AROUND, np.int64), np.empty(2 * AROUND)
-    cost, total, both = 0.0, 0.0, nodes * nodes
-    unit = 1.0 / (cut * scale) ** 2
-    response = numbers[RESPONSE]
-    for i in range(len(values)):
-        s, contrast = rows[i, 0], lit[i, 1]
-        shaped = shaped_by(s, response)
-        r = values[i] - lit[i, 0] - contrast * shaped
-        sizes[i] = abs(r)
-        z = r * r * unit
-        w = 1.0 / (1.0 + z)
-        cost += z * w
-        w *= w
-        total += w
-        slope = contrast * (1.0 + response * (1.0 - 2.0 * s))
-        for k in range(9):
-            row[k] = slope * rows[i, 1 + k]
-        row[RESPONSE] = contrast * s * (1.0 - s)
-        cell_of(at[i, 0], at[i, 1], nodes, index, weight)
-        for k in range(AROUND):
-            where[k], share[k] = LIGHT + index[k], weight[k]
-            where[AROUND + k], share[AROUND + k] = LIGHT + both + index[k], weight[k] * shaped
-        wr = w * r
-        for m in range(LIGHT):
-            wm = w * row[m]
-            g[m] += wr * row[m]
-            for k in range(LIGHT):
-                a[m, k] += wm * row[k]
-            for k in range(2 * AROUND):
-                a[m, where[k]] += wm * share[k]
-        for m in range(2 * AROUND):
-            g[where[m]] += wr * share[m]
-            for k in range(2 * AROUND):
-                a[where[m], where[k]] += w * share[m] * share[k]
-    for m in range(LIGHT):
-        for k in range(LIGHT, len(g)):
-            a[k, m] = a[m, k]
-    return cost / unit, total
-
-
-@compiled
-def _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes):
-    light_up(at, numbers, nodes, lit)
-    if nodes == 0:
-        return _even_equations(rows, at, values, lit, numbers, scale, cut, a, g, sizes)
-    return _uneven_equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
-
-
-@compiled
-def _typical(sizes):
-    """The sd of normally distributed residuals of these sizes, from at most 600 of them."""
-    every = len(sizes) // 600 + 1
-    return 1.4826 * np.median(sizes[::every])
+# A step that changes what it changes by less than a fifth of its standard deviation ends the fit.
+SETTLED_SD2 = 0.04
+# Nor does one that lowers the cost by less: the step before it was within a standard deviation already.
+SETTLED_COST_SD2 = 0.3
+LEAST_ANSWER_RATIO = 0.3
 
 
 @compiled
@@ -143,17 +46,6 @@ def corner_motion_px(rotation, translation, lens, side_mm, step):
 
 
 @compiled
-def _hold(a, g, numbers, scale, nodes):
-    """Add to the normal equations what is known beforehand; returns what it costs."""
-    for m in range(3):
-        a[BLUR + m, BLUR + m] += (scale / (1.0 + numbers[BLUR] + numbers[BLUR + 1])) ** 2
-    straight = (scale / RESPONSE_SD) ** 2
-    a[RESPONSE, RESPONSE] += straight
-    g[RESPONSE] -= straight * numbers[RESPONSE]
-    return straight * numbers[RESPONSE] ** 2 + hold_light(a, g, numbers, scale, nodes)
-
-
-@compiled
 def _advance(rotation, translation, numbers, step, share, least_blur):
     """Move by a share of a step, in place; False where that turns the face away."""
     before = numbers[BLUR : BLUR + 3].copy()
@@ -168,13 +60,6 @@ def _advance(rotation, translation, numbers, step, share, least_blur):
         rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
     )
     return facing < 0.0
-
-
-@compiled
-def _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes):
-    """The normal equations with what is known beforehand in them; returns their cost and weight."""
-    cost, total = _equations(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
-    return cost + _hold(a, g, numbers, scale, nodes), total
 
 
 @compiled
@@ -200,75 +85,140 @@ def _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px):
 
 @compiled
 def whole_fit(
-    rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, least_blur, rounds, cut, most_px
+    rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, least_blur, rounds, cut,
+    most_px
 ):  # fmt: skip
     """Fit pose, blur, response and light to the pixels, in place, by damped Gauss-Newton.
 
-    `numbers`: of blur, response and light, in and out; (16,) with 0 nodes, whose light is found first, else
-    (10 + 2 nodes^2,), whose light is given. Returns the matrix at the end with what is known beforehand in
-    it, the scale of the residuals in grey levels, the mean weight, how many pixels (0: it failed) and rounds.
+    `numbers`: of blur, response and light, in and out; (16,) with 0 nodes, else (10 + 2 nodes^2,). `scale` of
+    the residuals in grey levels, as far as it is known; where it is 0, even light is found first too.
+    Returns the matrix at the end with what is known beforehand in it, the scale, the mean weight, and whether
+    it is a fit.
     """
     n, count = len(values), len(numbers)
-    rows, at, lit, sizes = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.empty(n)
+    rows, at, lit, own = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     a, g, step = np.zeros((count, count)), np.zeros(count), np.zeros(count)
-    old_rotation, old_translation, old = rotation.copy(), translation.copy(), numbers.copy()
-    failed = (a, 0.0, 0.0, 0, 0)
+    failed = (a, 0.0, 0.0, False)
     blur = numbers[BLUR : BLUR + 3]
-    if n < 2 * EVEN:
+    if n < 2 * EVEN or not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
         return failed
-    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
-        return failed
-    if nodes == 0 and not even_light(rows, at, values, numbers, 2.0, cut):
-        return failed
-    # Once with any scale, for the sizes of the residuals; then with theirs.
-    _equations(rows, at, values, lit, numbers, nodes, 1.0, cut, a, g, sizes)
-    scale = max(_typical(sizes), 0.5)
-    cost, total = _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
+    if scale == 0.0:
+        if nodes == 0 and not even_light(rows, at, values, numbers, 2.0, cut):
+            return failed
+        light_up(at, numbers, nodes, lit)
+        scale = typical_sd(rows, values, lit, numbers[RESPONSE], own)
+    trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
+    cost, total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
+    old_rotation, old_translation, old = rotation.copy(), translation.copy(), numbers.copy()
     old_a, old_g = a.copy(), g.copy()
-    damping, done = 1e-6, 0
+    damping = 1e-6
     for _ in range(rounds):
-        done += 1
         old_a[:, :], old_g[:] = a, g
         gain, share = _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px)
         if share == 0.0:
             return failed
         old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
-        new_cost = np.inf
+        if gain < SETTLED_SD2 * scale * scale and share == 1.0:
+            _advance(rotation, translation, numbers, step, share, least_blur)
+            break
+        new_cost, new_total = np.inf, 0.0
         if _advance(rotation, translation, numbers, step, share, least_blur) and predict(
             rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True
         ):
-            new_cost, total = _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
-        if not new_cost <= cost * (1.0 + 1e-9):
+            new_cost, new_total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
+        fallen = (cost - new_cost) / (scale * scale)
+        if not fallen >= 0.0:
             rotation[:, :], translation[:], numbers[:] = old_rotation, old_translation, old
             a[:, :], g[:] = old_a, old_g
-            if damping > 1.0:
+            # As low as the picture's first order allows, or else a step too far.
+            if fallen > -SETTLED_COST_SD2 or damping > 1.0:
                 break
             damping = max(100.0 * damping, 1e-2)
             continue
-        damping, cost = 0.1 * damping, new_cost
-        if gain < SETTLED_SD2 * scale * scale and share == 1.0:
+        damping, cost, total = 0.1 * damping, new_cost, new_total
+        if share == 1.0 and fallen < SETTLED_COST_SD2:
             break
-        typical = max(_typical(sizes), 0.3)
+        typical = typical_sd(rows, values, lit, numbers[RESPONSE], own)
         if abs(typical - scale) > 0.1 * scale:
             scale = typical
-            cost, total = _weighed(rows, at, values, lit, numbers, nodes, scale, cut, a, g, sizes)
-    return a, scale, total / n, n, done
+            trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
+            cost, total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
+    return a, scale, total / own.sum(), True
 
 
 @compiled
 def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, cut):
     """The robust sum of squared residuals of a fit, in units of `scale`; infinite where it cannot be seen."""
     n = len(values)
-    rows, at, lit = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2))
+    rows, at, lit, own = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     blur = numbers[BLUR : BLUR + 3]
     if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
         return np.inf
     light_up(at, numbers, nodes, lit)
+    trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
     cost, unit = 0.0, 1.0 / (cut * scale) ** 2
     for i in range(n):
         r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[i, 0], numbers[RESPONSE])
-        cost += r * r * unit / (1.0 + r * r * unit)
+        z = r * r * own[i] * unit
+        cost += z / (1.0 + z)
     return cost * cut * cut
+
+
+@compiled
+def scores_spread(
+    rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, cut, inverse, blocks
+):  # fmt: skip
+    """The covariance (6, 6) of the pose that the residuals themselves show, neighbours taken together.
+
+    `inverse`: (6, numbers), the pose's rows of the inverse of the fit's matrix. Residuals of one of
+    blocks x blocks parts of the marker may err alike; those of two parts do not.
+    """
+    n = len(values)
+    rows, at, lit, own = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
+    moved, seen = np.zeros((blocks * blocks, 6)), np.zeros(blocks * blocks)
+    spread = np.zeros((6, 6))
+    blur = numbers[BLUR : BLUR + 3]
+    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
+        return spread
+    light_up(at, numbers, nodes, lit)
+    trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
+    row, index, weight = np.empty(LIGHT), np.empty(AROUND, np.int64), np.empty(AROUND)
+    unit, both = 1.0 / (cut * scale) ** 2, nodes * nodes
+    weights, stiffness = 0.0, 0.0
+    for i in range(n):
+        shaped, r, w, _ = weighed_pixel(rows, i, values[i], lit, numbers[RESPONSE], own, unit, row)
+        z = r * r * own[i] * unit
+        weights += w
+        stiffness += own[i] * (1.0 - 3.0 * z) / (1.0 + z) ** 3
+        c = min(max(int((at[i, 0] + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
+        b = min(max(int((at[i, 1] + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
+        block = b * blocks + c
+        seen[block] = 1.0
+        if nodes > 0:
+            cell_of(at[i, 0], at[i, 1], nodes, index, weight)
+        for m in range(6):
+            one = 0.0
+            for k in range(LIGHT):
+                one += inverse[m, k] * row[k]
+            if nodes == 0:
+                u, v = at[i, 0], at[i, 1]
+                one += inverse[m, LIGHT] + inverse[m, LIGHT + 1] * u + inverse[m, LIGHT + 2] * v
+                one += shaped * (
+                    inverse[m, LIGHT + 3] + inverse[m, LIGHT + 4] * u + inverse[m, LIGHT + 5] * v
+                )
+            else:
+                for k in range(AROUND):
+                    at_node = LIGHT + index[k]
+                    one += weight[k] * (inverse[m, at_node] + shaped * inverse[m, both + at_node])
+            moved[block, m] += one * w * r
+    count = seen.sum()
+    for block in range(blocks * blocks):
+        for m in range(6):
+            for k in range(6):
+                spread[m, k] += moved[block, m] * moved[block, k]
+    # The fit's matrix counts weights; how the scores answer to a change of the pose is less.
+    answer = weights / max(stiffness, LEAST_ANSWER_RATIO * weights)
+    return spread * (answer**2 * count / max(count - 6.0, 1.0))
 
 
 @compiled

@@ -36,6 +36,7 @@ class Textures:
         sizes: (k,), texels a side.
         blurs_ratio: (k,), sd of the blur in sides, ascending.
         texels_ratio: (k,), width of a texel in sides.
+        steepest: (k,), the steepest slope of each, by one side.
     """
 
     texels: Texels
@@ -43,11 +44,12 @@ class Textures:
     sizes: npt.NDArray[np.int64]
     blurs_ratio: Array
     texels_ratio: Array
+    steepest: Array
 
     @cached_property
     def arrays(self) -> tuple[np.ndarray, ...]:
         """As the compiled loops take them."""
-        return self.texels, self.starts, self.sizes, self.blurs_ratio, self.texels_ratio
+        return self.texels, self.starts, self.sizes, self.blurs_ratio, self.texels_ratio, self.steepest
 
 
 def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
@@ -76,6 +78,7 @@ def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
         sizes=np.array(sizes, np.int64),
         blurs_ratio=blurs,
         texels_ratio=np.asarray(TEXEL_BLURS * blurs, np.float64),
+        steepest=np.array([np.hypot(part[..., 1], part[..., 2]).max() for part in parts], np.float64),
     )
 
 

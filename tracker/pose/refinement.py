@@ -23,6 +23,8 @@ DECIDED_COST = 18.0
 # that are near to each other. Measured on rendered scenes, where the truth is known.
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
 UNDECIDED_COST = 2.0
+# Nearer than this, two solutions are one.
+LEAST_TURN_RAD = 1e-3
 EXPECTED_TURN_SD_DEG = 4.0
 MOST_MIRRORINGS = 5
 # A hand turns a drill by less than this between two images; farther is the other solution.
@@ -89,15 +91,10 @@ def refined_pose(
         first, poses = second, poses[::-1]
     fit = _fit(poses[0], matrices[first], numbers[first], active, side_px)
     gap = abs(costs[1] - costs[0]) / variance
-    if expected is not None and turned_over(poses[0], poses[1], expected):
-        gap = min(gap, UNDECIDED_COST)
-    if fit is None or gap > DECIDED_COST:
-        return fit
-    apart = difference(poses[0], poses[1])
-    if float(np.linalg.norm(apart[3:])) < 1e-3:
-        return fit
-    doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
-    return replace(fit, covariance=fit.covariance + doubt * np.outer(apart, apart), doubt_ratio=doubt)
+    if fit is None:
+        return None
+    doubt, spread = doubt_between(poses[0], poses[1], gap=gap, expected=expected)
+    return replace(fit, covariance=fit.covariance + spread, doubt_ratio=doubt)
 
 
 def _both(
@@ -136,7 +133,27 @@ def _both(
     return both
 
 
-def turned_over(
+def doubt_between(
+    better: Rigid[Camera, Marker],
+    worse: Rigid[Camera, Marker],
+    *,
+    gap: float,
+    expected: Rigid[Camera, Marker] | None,
+) -> tuple[float, Array]:
+    """Probability 0..0.5 that the worse of two planar solutions is the true one, and what it adds (6, 6).
+
+    `gap` is by how much its squared residuals are larger, in units of their variance.
+    """
+    apart = _difference(better, worse)
+    if expected is not None and _turned_over(better, worse, expected):
+        gap = min(gap, UNDECIDED_COST)
+    if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
+        return 0.0, np.zeros((6, 6))
+    doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
+    return doubt, doubt * np.outer(apart, apart)
+
+
+def _turned_over(
     better: Rigid[Camera, Marker], worse: Rigid[Camera, Marker], expected: Rigid[Camera, Marker]
 ) -> bool:
     """Whether the better pose is one that no hand reaches from the expected one, and the worse is at hand."""
@@ -194,7 +211,7 @@ def _fit(
     )
 
 
-def difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
+def _difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
     """What takes pose `a` to pose `b`, in the coordinates of the covariance."""
     return np.concatenate(
         [b.translation_mm - a.translation_mm, vector_from_rotation(b.rotation @ a.rotation.T)]

@@ -12,23 +12,47 @@ from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import MarkerModel
 from tracker.pose.occurrence import side_px_of
 from tracker.pose.planar import other_solution
-from tracker.pose.refinement import DECIDED_COST, difference, surprise, turned_over
+from tracker.pose.refinement import doubt_between, surprise
 from tracker.pose.sighting import Seen
 
 # Edges place a pose to a fraction of a pixel: a whole-shape fit that ends farther away fitted something else.
 MOST_APART_PX, MOST_APART_SIDE_RATIO = 1.2, 0.04
-# Uneven light (a shadow's edge, glare) leaves more than noise and a twenty-eighth of the contrast
-# unexplained; edges, which bring their own contrast, are the better judge of the pose then.
-MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO = 1.8, 0.035
-LEAST_EXPLAINED_RATIO = 0.6
-# True markers leave up to 0.05 of their contrast (two blurs, shadow and noise together), others from 0.065.
-TOLD_NOISES, TOLD_CONTRAST_RATIO, TOLD_EXPLAINED_RATIO = 1.2, 0.055, 0.55
 LEAST_CONTRAST_GREY = 4.0
-# White noise is not all: in shadow, blur and bent response the errors of neighbours are alike. Too wide in
-# plain light, where one and a half would do; too narrow would be worse.
-COVARIANCE_FACTOR = 4.0
+# Beyond what the residuals themselves tell: measured on rendered scenes, where the truth is known.
+COVARIANCE_FACTOR = 1.6
 # Costs count each pixel as if it erred alone; half of that is left when the model's own errors are in.
 COST_SHARE = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limits:
+    """What a fit may leave unexplained.
+
+    Attributes:
+        noises: sd of what is left, in units of the image's noise; or else
+        contrast_ratio: the same in units of the contrast.
+        explained_ratio: least mean weight of the pixels.
+    """
+
+    noises: float
+    contrast_ratio: float
+    explained_ratio: float
+
+    def allow(self, one: WholeFit, noise_grey: float) -> bool:
+        """Whether so much is explained in an image of this noise."""
+        left = max(self.noises * noise_grey, self.contrast_ratio * one.contrast_grey)
+        return (
+            one.contrast_grey > LEAST_CONTRAST_GREY
+            and one.scale_grey < left
+            and one.explained_ratio > self.explained_ratio
+        )
+
+
+# Where more than a twenty-eighth of the contrast is left, edges, which bring their own contrast, are the
+# better judge of the pose.
+EXACT = Limits(noises=1.8, contrast_ratio=0.035, explained_ratio=0.6)
+# True markers leave up to 0.05 of their contrast (two blurs, shadow and noise together), others from 0.065.
+TOLD = Limits(noises=1.2, contrast_ratio=0.055, explained_ratio=0.55)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,48 +98,22 @@ def with_whole_shape(
     )
     here = camera.px_from_camera(starts[0].move_points(model.corners_mm))
     reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)
-    told = any(_is_told(one, pixels.noise_grey) and _near(camera, model, one, here, reach) for one in fits)
-    good = [
-        one for one in fits if _explains(one, pixels.noise_grey) and _near(camera, model, one, here, reach)
-    ]
+    near = [one for one in fits if _is_near(camera, model, one, here, reach)]
+    told = any(TOLD.allow(one, pixels.noise_grey) for one in near)
+    good = [one for one in near if EXACT.allow(one, pixels.noise_grey)]
     if not good:
         return seen, told
     costs = [COST_SHARE * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in good]
-    order = np.argsort(costs, kind="stable")
-    best = good[order[0]]
-    pose, covariance = best.camera_from_marker, COVARIANCE_FACTOR * best.covariance
-    if len(good) > 1:
-        other = good[order[1]].camera_from_marker
-        gap = float(costs[order[1]] - costs[order[0]])
-        apart = difference(pose, other)
-        turned = float(np.linalg.norm(apart[3:]))
-        if expected is not None and turned_over(pose, other, expected):
-            gap = min(gap, 2.0)
-        if gap < DECIDED_COST and turned > 1e-3:
-            doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
-            covariance = covariance + doubt * np.outer(apart, apart)
+    first, *others = np.argsort(costs, kind="stable")
+    pose, covariance = good[first].camera_from_marker, COVARIANCE_FACTOR * good[first].covariance
+    for k in others:
+        gap = float(costs[k] - costs[first])
+        covariance = (
+            covariance + doubt_between(pose, good[k].camera_from_marker, gap=gap, expected=expected)[1]
+        )
     return replace(seen, camera_from_marker=pose, pose_covariance=covariance), told
 
 
-def _explains(one: WholeFit, noise_grey: float) -> bool:
-    left = max(MOST_LEFT_NOISES * noise_grey, MOST_LEFT_CONTRAST_RATIO * one.contrast_grey)
-    return (
-        one.contrast_grey > LEAST_CONTRAST_GREY
-        and one.scale_grey < left
-        and one.explained_ratio > LEAST_EXPLAINED_RATIO
-    )
-
-
-def _is_told(one: WholeFit, noise_grey: float) -> bool:
-    """Whether what is seen is this shape and no other."""
-    left = max(TOLD_NOISES * noise_grey, TOLD_CONTRAST_RATIO * one.contrast_grey)
-    return (
-        one.contrast_grey > LEAST_CONTRAST_GREY
-        and one.scale_grey < left
-        and one.explained_ratio > TOLD_EXPLAINED_RATIO
-    )
-
-
-def _near(camera: CameraModel, model: MarkerModel, one: WholeFit, here: Array, reach: float) -> bool:
+def _is_near(camera: CameraModel, model: MarkerModel, one: WholeFit, here: Array, reach: float) -> bool:
     there = camera.px_from_camera(one.camera_from_marker.move_points(model.corners_mm))
     return float(np.abs(there - here).max()) < reach

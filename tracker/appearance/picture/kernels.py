@@ -1,5 +1,7 @@
 """The compiled loops of the picture: which pixels see it, and what each of them sees."""
 
+import math
+
 import numpy as np
 
 from tracker.camera.kernels import project_with_derivative
@@ -7,6 +9,8 @@ from tracker.compiled import compiled
 
 MOST_TAPS = 13
 BRIGHTEST = 254
+# White paper around the square, in sides; what is seen beyond so many sd of the blur is not mixed in.
+PAPER_RATIO, FAR_SDS = 0.2, 4.0
 
 
 @compiled
@@ -32,62 +36,6 @@ def _extent(rotation, translation, lens, reach_mm, step, width, height):
 
 
 @compiled
-def collect(image, step, lens, rotation, translation, reach_mm, rays, values):
-    """Pixels (or means of step x step of them) that lie within `reach_mm` of the marker's centre lines.
-
-    Fills `rays` (n, 2), their directions with the lens taken out, and `values` (n,); returns how many.
-    """
-    height, width = image.shape
-    c0, c1, r0, r1 = _extent(rotation, translation, lens, reach_mm, step, width, height)
-    if c1 - c0 < 2 or r1 - r0 < 2:
-        return 0
-    derivative, p = np.empty((2, 3)), np.empty(3)
-    # The plane that the marker lies in: normal . point = distance.
-    nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
-    distance = nx * translation[0] + ny * translation[1] + nz * translation[2]
-    x, y = translation[0] / translation[2], translation[1] / translation[2]
-    n = 0
-    p[2] = 1.0
-    for r in range(r0, r1 + 1):
-        for c in range(c0, c1 + 1):
-            if n >= len(values):
-                return n
-            u, v = step * c + 0.5 * (step - 1), step * r + 0.5 * (step - 1)
-            # Newton from the neighbour: two steps for the first of a row, one for the others.
-            for _ in range(4 if c == c0 else 1):
-                p[0], p[1] = x, y
-                pu, pv = project_with_derivative(p, lens, derivative)
-                a, b, d, e = derivative[0, 0], derivative[0, 1], derivative[1, 0], derivative[1, 1]
-                det = a * e - b * d
-                du, dv = u - pu, v - pv
-                x += (e * du - b * dv) / det
-                y += (a * dv - d * du) / det
-            along = distance / (nx * x + ny * y + nz)
-            qx, qy, qz = along * x - translation[0], along * y - translation[1], along - translation[2]
-            px = rotation[0, 0] * qx + rotation[1, 0] * qy + rotation[2, 0] * qz
-            py = rotation[0, 1] * qx + rotation[1, 1] * qy + rotation[2, 1] * qz
-            if abs(px) > reach_mm or abs(py) > reach_mm:
-                continue
-            if step == 1:
-                value = np.float64(image[r, c])
-                bright = image[r, c]
-            else:
-                total, bright = 0, 0
-                for i in range(step):
-                    for j in range(step):
-                        one = image[r * step + i, c * step + j]
-                        total += one
-                        bright = max(bright, one)
-                value = total / (step * step)
-            if bright >= BRIGHTEST:
-                # Brighter than the camera can tell: it says nothing of where an edge is.
-                continue
-            rays[n, 0], rays[n, 1], values[n] = x, y, value
-            n += 1
-    return n
-
-
-@compiled
 def _footprint(rotation, translation, lens, side_mm, ahead):
     """Into `ahead` (2, 2): by how many sides the marker's plane moves under a pixel's step right and down."""
     derivative = np.empty((2, 3))
@@ -108,13 +56,27 @@ def _footprint(rotation, translation, lens, side_mm, ahead):
 
 
 @compiled
-def _spread(ahead, blur, blurs, offsets, weights):
-    """How a blur (3,) in px^2 is made of one picture and taps along a line.
+def paper_seen(at, lens, rotation, translation, side_mm, blur, share):
+    """Into `share` (n,): how much of what each pixel sees lies on the marker's paper, 0..1."""
+    ahead = np.empty((2, 2))
+    share[:] = 1.0
+    if not _footprint(rotation, translation, lens, side_mm, ahead):
+        return
+    m00, _, m11 = _in_sides(ahead, blur)
+    # In half sides, as `at` is.
+    sx, sy = 2.0 * np.sqrt(max(m00, 1e-12)), 2.0 * np.sqrt(max(m11, 1e-12))
+    edge = 1.0 + 2.0 * PAPER_RATIO
+    for i in range(len(share)):
+        x, y = (edge - abs(at[i, 0])) / sx, (edge - abs(at[i, 1])) / sy
+        if x < FAR_SDS:
+            share[i] *= 1.0 - 0.5 * math.erfc(x * np.sqrt(0.5))
+        if y < FAR_SDS:
+            share[i] *= 1.0 - 0.5 * math.erfc(y * np.sqrt(0.5))
 
-    Returns the picture's number, how many taps, the line's direction, and the variance along and across it
-    that is left to first order, in sides^2.
-    """
-    # The blur in the marker's plane: ahead blur ahead'.
+
+@compiled
+def _in_sides(ahead, blur):
+    """A blur (3,) in px^2 as variances in the marker's plane, in sides^2: along x, between, along y."""
     m00 = ahead[0, 0] ** 2 * blur[0] + 2 * ahead[0, 0] * ahead[0, 1] * blur[2] + ahead[0, 1] ** 2 * blur[1]
     m11 = ahead[1, 0] ** 2 * blur[0] + 2 * ahead[1, 0] * ahead[1, 1] * blur[2] + ahead[1, 1] ** 2 * blur[1]
     m01 = (
@@ -122,13 +84,115 @@ def _spread(ahead, blur, blurs, offsets, weights):
         + (ahead[0, 0] * ahead[1, 1] + ahead[0, 1] * ahead[1, 0]) * blur[2]
         + ahead[0, 1] * ahead[1, 1] * blur[1]
     )
+    return m00, m01, m11
+
+
+@compiled
+def _steep(texels, first, size, texel, least2, x, y):
+    """Whether the picture is steep at the texel next to (x, y) in sides."""
+    c = min(max(int(x / texel + 0.5 * size), 0), size - 1)
+    r = min(max(int(0.5 * size - y / texel), 0), size - 1)
+    i = first + 3 * (r * size + c)
+    return texels[i + 1] ** 2 + texels[i + 2] ** 2 > least2
+
+
+@compiled
+def _value(image, step, r, c):
+    """The mean of a block of step x step pixels, -1 where it is brighter than the camera can tell."""
+    total = 0
+    for i in range(step):
+        for j in range(step):
+            one = image[r * step + i, c * step + j]
+            if one >= BRIGHTEST:
+                return -1.0
+            total += one
+    return total / (step * step)
+
+
+@compiled
+def collect(
+    image, step, lens, rotation, translation, side_mm, reach_ratio, tex, blur, slope_ratio, stride, rays,
+    values
+):  # fmt: skip
+    """Pixels (or means of step x step of them) within `reach_ratio` sides of the marker's centre lines.
+
+    Those where its picture at this blur (3,) is at least `slope_ratio` as steep as anywhere, and every so
+    many of the others. Fills `rays` (n, 2), their directions with the lens taken out, and `values` (n,);
+    returns how many.
+    """
+    texels, starts, sizes, blurs, widths, steepest = tex
+    height, width = image.shape
+    reach_mm = reach_ratio * side_mm
+    c0, c1, r0, r1 = _extent(rotation, translation, lens, reach_mm, step, width, height)
+    ahead = np.empty((2, 2))
+    if c1 - c0 < 2 or r1 - r0 < 2 or not _footprint(rotation, translation, lens, side_mm, ahead):
+        return 0
+    m00, _, m11 = _in_sides(ahead, blur)
+    level = _level_of(np.sqrt(max(m00, m11)), blurs)
+    first, size, texel = starts[level], sizes[level], widths[level]
+    least2 = (slope_ratio * steepest[level]) ** 2
+    derivative, p = np.empty((2, 3)), np.empty(3)
+    # The plane that the marker lies in: normal . point = distance.
+    nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
+    distance = nx * translation[0] + ny * translation[1] + nz * translation[2]
+    x, y = translation[0] / translation[2], translation[1] / translation[2]
+    n, flat = 0, 0
+    p[2] = 1.0
+    for r in range(r0, r1 + 1):
+        for c in range(c0, c1 + 1):
+            if n >= len(values):
+                return n
+            u, v = step * c + 0.5 * (step - 1), step * r + 0.5 * (step - 1)
+            # Newton from the neighbour: some steps for the first of a row, one for the others.
+            for _ in range(4 if c == c0 else 1):
+                p[0], p[1] = x, y
+                pu, pv = project_with_derivative(p, lens, derivative)
+                a, b, d, e = derivative[0, 0], derivative[0, 1], derivative[1, 0], derivative[1, 1]
+                det = a * e - b * d
+                du, dv = u - pu, v - pv
+                x += (e * du - b * dv) / det
+                y += (a * dv - d * du) / det
+            along = distance / (nx * x + ny * y + nz)
+            qx, qy, qz = along * x - translation[0], along * y - translation[1], along - translation[2]
+            px = (rotation[0, 0] * qx + rotation[1, 0] * qy + rotation[2, 0] * qz) / side_mm
+            py = (rotation[0, 1] * qx + rotation[1, 1] * qy + rotation[2, 1] * qz) / side_mm
+            if abs(px) > reach_ratio or abs(py) > reach_ratio:
+                continue
+            if not _steep(texels, first, size, texel, least2, px, py):
+                flat += 1
+                if flat % stride != 0:
+                    continue
+            value = _value(image, step, r, c)
+            if value < 0.0:
+                # It says nothing of where an edge is.
+                continue
+            rays[n, 0], rays[n, 1], values[n] = x, y, value
+            n += 1
+    return n
+
+
+@compiled
+def _level_of(blur_ratio, blurs):
+    """The picture whose blur is next to this one, in sides."""
+    level = 0
+    while level < len(blurs) - 1 and blurs[level] * blurs[level + 1] < blur_ratio * blur_ratio:
+        level += 1
+    return level
+
+
+@compiled
+def _spread(ahead, blur, blurs, offsets, weights):
+    """How a blur (3,) in px^2 is made of one picture and taps along a line.
+
+    Returns the picture's number, how many taps, the line's direction, and the variance along and across it
+    that is left to first order, in sides^2.
+    """
+    m00, m01, m11 = _in_sides(ahead, blur)
     mean, half = 0.5 * (m00 + m11), np.sqrt((0.5 * (m00 - m11)) ** 2 + m01**2)
     larger, smaller = mean + half, max(mean - half, 1e-8)
     angle = 0.5 * np.arctan2(2.0 * m01, m00 - m11)
     ex, ey = np.cos(angle), np.sin(angle)
-    level, wanted = 0, np.sqrt(smaller)
-    while level < len(blurs) - 1 and blurs[level] * blurs[level + 1] < wanted * wanted:
-        level += 1
+    level = _level_of(np.sqrt(smaller), blurs)
     has = blurs[level] ** 2
     across = smaller - has
     more = larger - smaller
@@ -169,15 +233,18 @@ def _picture(texels, start, size, texel, x, y, out):
     i = start + 3 * (r * size + c)
     j = i + 3 * size
     a, b, d, e = (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy
-    out[0] += w * (a * texels[i] + b * texels[i + 3] + d * texels[j] + e * texels[j + 3])
     out[1] += w * (a * texels[i + 1] + b * texels[i + 4] + d * texels[j + 1] + e * texels[j + 4])
     out[2] += w * (a * texels[i + 2] + b * texels[i + 5] + d * texels[j + 2] + e * texels[j + 5])
-    xx0, xx1 = texels[i + 4] - texels[i + 1], texels[j + 4] - texels[j + 1]
-    out[3] += w * ((1 - fy) * xx0 + fy * xx1) / texel
-    yy0, yy1 = texels[i + 2] - texels[j + 2], texels[i + 5] - texels[j + 5]
-    out[4] += w * ((1 - fx) * yy0 + fx * yy1) / texel
-    xy0, xy1 = texels[i + 1] - texels[j + 1], texels[i + 4] - texels[j + 4]
-    out[5] += w * ((1 - fx) * xy0 + fx * xy1) / texel
+    # Slopes are by one side to the right and upwards; rows go down.
+    xx = (1 - fy) * (texels[i + 4] - texels[i + 1]) + fy * (texels[j + 4] - texels[j + 1])
+    yy = (1 - fx) * (texels[i + 2] - texels[j + 2]) + fx * (texels[i + 5] - texels[j + 5])
+    xy = (1 - fx) * (texels[i + 1] - texels[j + 1]) + fx * (texels[i + 4] - texels[j + 4])
+    out[3] += w * xx / texel
+    out[4] += w * yy / texel
+    out[5] += w * xy / texel
+    # Straight lines between texels cut the bends off; the curvature puts them back.
+    bends = 0.5 * texel * (fx * (1 - fx) * xx + fy * (1 - fy) * yy)
+    out[0] += w * (a * texels[i] + b * texels[i + 3] + d * texels[j] + e * texels[j + 3] - bends)
 
 
 @compiled
@@ -187,7 +254,7 @@ def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, fre
     Columns of rows: the picture 0..1, its derivatives by translation (3) and turn (3), by blur (3).
     False where the marker cannot be seen like that.
     """
-    texels, starts, sizes, blurs, widths = tex
+    texels, starts, sizes, blurs, widths, _ = tex
     ahead, offsets, weights = np.empty((2, 2)), np.empty(MOST_TAPS), np.empty(MOST_TAPS)
     if translation[2] < 1.0 or not _footprint(rotation, translation, lens, side_mm, ahead):
         return False
@@ -233,21 +300,3 @@ def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, fre
         rows[i, 8] = 0.5 * (b0 * b0 * xx + 2.0 * b0 * b1 * xy + b1 * b1 * yy)
         rows[i, 9] = a0 * b0 * xx + (a0 * b1 + a1 * b0) * xy + a1 * b1 * yy
     return True
-
-
-@compiled
-def thinned(rays, values, lens, rotation, translation, side_mm, tex, blur, slope_ratio, stride):
-    """Keep, in place, the pixels at the picture's edges and every so many others; how many there are."""
-    n = len(values)
-    rows, at = np.zeros((n, 10)), np.empty((n, 2))
-    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
-        return 0
-    steepest = 0.0
-    for i in range(n):
-        steepest = max(steepest, rows[i, 1] ** 2 + rows[i, 2] ** 2 + rows[i, 3] ** 2)
-    least, kept = slope_ratio * slope_ratio * steepest, 0
-    for i in range(n):
-        if i % stride == 0 or rows[i, 1] ** 2 + rows[i, 2] ** 2 + rows[i, 3] ** 2 > least:
-            rays[kept, 0], rays[kept, 1], values[kept] = rays[i, 0], rays[i, 1], values[i]
-            kept += 1
-    return kept
