@@ -34,8 +34,8 @@ SETTLED_SD2, STRAIGHT_SD2 = 0.04, 5.0
 OUT_OF_QUESTION_SD2 = 30.0
 MOST_PIXELS = 30_000
 # Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide, a highlight
-# less. Small markers have not the pixels for a fine one.
-NODES, NODES_SMALL, SMALL_PX = 10, 6, 45.0
+# less.
+NODES = 10
 # What even light leaves unexplained, in units of the noise and of the contrast, before light may vary.
 EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
 # Light varies where that explains this much more; a compressed picture's blocks it does not explain.
@@ -132,8 +132,7 @@ def whole_fits(
         EVEN_LEAVES_NOISES * noise_grey,
         EVEN_LEAVES_CONTRAST_RATIO * float(typical_contrast(done[0].numbers, 0)),
     ):
-        nodes = NODES if side_px > SMALL_PX else NODES_SMALL
-        uneven = [one for one in (_in_uneven_light(seen, one, nodes) for one in done) if one is not None]
+        uneven = [one for one in (_in_uneven_light(seen, one) for one in done) if one is not None]
         if uneven and uneven[0].scale_grey < UNEVEN_LEAVES_RATIO * done[0].scale_grey:
             done = uneven
     scale = min(one.scale_grey for one in done)
@@ -222,11 +221,11 @@ def _on(seen: Samples, near: Fitted) -> Fitted | None:
     )
 
 
-def _in_uneven_light(seen: Samples, even: Fitted, nodes: int) -> Fitted | None:
+def _in_uneven_light(seen: Samples, even: Fitted) -> Fitted | None:
     """The same pose where light may vary over the marker."""
-    numbers = np.zeros(LIGHT + 2 * nodes * nodes)
-    nodes_of_plane(even.numbers, nodes, numbers)
-    return _from(seen, even.rotation, even.translation_mm, numbers, nodes=nodes)
+    numbers = np.zeros(LIGHT + 2 * NODES * NODES)
+    nodes_of_plane(even.numbers, NODES, numbers)
+    return _from(seen, even.rotation, even.translation_mm, numbers, nodes=NODES, settled=STRAIGHT_SD2)
 
 
 def _from(

@@ -48,9 +48,8 @@ class Limits:
         )
 
 
-# Where more than a twenty-eighth of the contrast is left, edges, which bring their own contrast, are the
-# better judge of the pose.
-EXACT = Limits(noises=1.8, contrast_ratio=0.035, explained_ratio=0.6)
+# Where more is left, edges, which bring their own contrast, are the better judge of the pose.
+EXACT = Limits(noises=1.8, contrast_ratio=0.055, explained_ratio=0.6)
 # True markers leave up to 0.05 of their contrast (two blurs, shadow and noise together), others from 0.065.
 TOLD = Limits(noises=1.2, contrast_ratio=0.055, explained_ratio=0.55)
 
@@ -100,16 +99,18 @@ def with_whole_shape(
     reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)
     near = [one for one in fits if _is_near(camera, model, one, here, reach)]
     told = any(TOLD.allow(one, pixels.noise_grey) for one in near)
-    good = [one for one in near if EXACT.allow(one, pixels.noise_grey)]
-    if not good:
+    if not near:
         return seen, told
-    costs = [COST_SHARE * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in good]
+    # The better one must be exact by itself: where it just is not, the worse one would be left alone.
+    costs = [COST_SHARE * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in near]
     first, *others = np.argsort(costs, kind="stable")
-    pose, covariance = good[first].camera_from_marker, COVARIANCE_FACTOR * good[first].covariance
+    if not EXACT.allow(near[first], pixels.noise_grey):
+        return seen, told
+    pose, covariance = near[first].camera_from_marker, COVARIANCE_FACTOR * near[first].covariance
     for k in others:
         gap = float(costs[k] - costs[first])
         covariance = (
-            covariance + doubt_between(pose, good[k].camera_from_marker, gap=gap, expected=expected)[1]
+            covariance + doubt_between(pose, near[k].camera_from_marker, gap=gap, expected=expected)[1]
         )
     return replace(seen, camera_from_marker=pose, pose_covariance=covariance), told
 
