@@ -19,6 +19,7 @@ from tracker.marker import (
     target_coverage_ratio,
 )
 from tracker.pose.corners import measured_corners_px
+from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.refinement import Fit, projected_edges, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 
@@ -31,6 +32,8 @@ PLAIN_LIKENESS = 0.9
 # Blur, glare and covers leave fewer edges than are asked for. With this part of that, pixels may still speak;
 # not where nothing looks like the model before it is fitted.
 WEAK_RATIO, WORTH_EXPLAINING = 0.6, 0.45
+# Farther than this the pose by edges is not within reach of the fit to all pixels.
+EDGES_OFF_PX = 0.6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +41,7 @@ class Occurrence:
     """A marker laid on the edges of an image.
 
     Attributes:
+        camera: that saw it.
         fit: the pose.
         corners_px: (4, 2), of the black square at that pose, through the lens.
         seen_corners_px: (4, 2), as the sides next to each show them.
@@ -46,6 +50,7 @@ class Occurrence:
         points_px: (n, 2), where they are at that pose; `normals_px` (n, 2) their unit normals.
     """
 
+    camera: CameraModel
     fit: Fit
     corners_px: Array
     seen_corners_px: Array
@@ -102,6 +107,7 @@ def occurrence_near(
         gradient, active, *projected, side_px=side_px_of(fitted), shift_px=fit.shift_px
     )
     return Occurrence(
+        camera=camera,
         fit=fit,
         corners_px=fitted,
         seen_corners_px=measured_corners_px(
@@ -169,6 +175,24 @@ def _corners_px_by_pixels(
     return found.seen_corners_px if by_edges and alike > 0.0 and explanation.is_near else None
 
 
+def _pose_at(found: Occurrence, model: MarkerModel, corners_px: Array) -> tuple[Rigid[Camera, Marker], Array]:
+    """The pose by edges with its covariance (6, 6); where pixels say that they were off, that of the corners.
+
+    The corners as edges show them are no such word: those of bent paper are off its flat pose.
+    """
+    fit = found.fit
+    moved = float(np.abs(corners_px - found.corners_px).max())
+    pose = None
+    if corners_px is not found.seen_corners_px and moved > EDGES_OFF_PX:
+        pose = pose_from_corners(found.camera, corners_px, side_mm=model.side_mm)
+    if pose is None:
+        return fit.camera_from_marker, fit.covariance
+    before = fit.camera_from_marker.rotation
+    poses = (pose, other_solution(pose))
+    nearer = max(poses, key=lambda one: float(np.sum(one.rotation * before)))
+    return nearer, fit.covariance * (1.0 + (moved / EDGES_OFF_PX) ** 2)
+
+
 def judged(
     found: Occurrence | None,
     settings: ScoreSettings,
@@ -204,9 +228,10 @@ def judged(
     if corners is None:
         reason = UnseenReason.SCORE_TOO_LOW if weak else UnseenReason.SHAPE_DIFFERS
         return Unseen(reason=reason, best_score_ratio=score)
+    pose, covariance = _pose_at(found, model, corners)
     return Seen(
-        camera_from_marker=found.fit.camera_from_marker,
-        pose_covariance=found.fit.covariance,
+        camera_from_marker=pose,
+        pose_covariance=covariance,
         corners_px=corners,
         score_ratio=score,
         target_score_ratio=target,

@@ -19,7 +19,7 @@ from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, W
 from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 
-ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 6, 4, 3
+ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 9, 4, 3
 WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
 # Light without highlights has a quadratic and a step.
@@ -45,8 +45,10 @@ LEAST_AREA_RATIO = 3 / FIELDS**2 - 1e-9
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
 MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
+# Edges of what is smeared are found at either end of its way, an sd and three quarters of it off the middle.
+MOST_MOVED_BLURS = 1.75
 # Blurred over more of its side than this, one square is like another.
-MOST_BLUR_SIDE_RATIO = 0.135
+MOST_BLUR_SIDE_RATIO = 0.15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,7 +105,7 @@ class Explanation:
             and self.inside_ratio < LEAST_AREA_RATIO
             and self.hidden_ratio <= MOST_HIDDEN_RATIO
             and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
-            and self.moved_px <= max(px, ratio * self.side_px)
+            and self.moved_px <= max(px, ratio * self.side_px, MOST_MOVED_BLURS * self.blur_px[1])
             and self.blur_px[1] <= MOST_BLUR_SIDE_RATIO * self.side_px
         )
 
