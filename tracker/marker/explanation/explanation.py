@@ -19,7 +19,8 @@ from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, W
 from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 
-ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 9, 4, 3
+FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 3, 6, 4, 3
+LEAST_HOPE = 0.55
 WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
 # Light without highlights has a quadratic and a step.
@@ -120,7 +121,10 @@ def explanation_of(
     fit = Fit(image, pictures_of(square), corners_px, side_px)
     fit.look()
     first = fit.place
-    if not fit.walk(ROUNDS, weights_beside_a_cover(fit.seen, fit.picture)):
+    if not fit.walk(FIRST_ROUNDS, weights_beside_a_cover(fit.seen, fit.picture)):
+        return None
+    # Even of a marker under a cover or glare most can be explained by now.
+    if float(fit.weight[inside_square()].mean()) < LEAST_HOPE or not fit.walk(ROUNDS, fit.weight):
         return None
     start = fit.place
     best = _told(fit)
