@@ -59,8 +59,8 @@ def test_pieces_over_the_border_are_told_from_those_inside() -> None:
     rest, labels = np.zeros((30, 30)), np.empty((30, 30), np.int64)
     rest[0:8, 10:14] = 1.0  # from the paper into the square
     rest[12:16, 12:17] = -1.0
-    rest[20, 20] = 1.0  # a speck: less than the limit, with its neighbours
-    areas = wrong_pieces(rest, np.ones((30, 30)), 3, 0.5, 3, labels)
+    rest[20, 20] = 5.0  # a speck: it and its neighbours are too few
+    areas = wrong_pieces(rest, np.ones((30, 30)), 3, 0.5, 10, labels)
     assert areas.tolist() == [16]
     assert (labels[2:6, 11:13] == -1).all()
     assert (labels[13:15, 13:16] == 1).all()
