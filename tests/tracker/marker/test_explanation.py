@@ -1,6 +1,7 @@
 """What blur, uneven light and a cover make of a marker, and what they do not make of another square."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -157,8 +158,17 @@ def _dotted() -> Image8:
     return picture
 
 
+def _dazzling(image: Image8, side_px: float, from_deg: float) -> Image8:
+    """A highlight four times as bright as paper, over a third of the square."""
+    u, v = _u_v()
+    u = u - 0.35 * side_px * np.cos(np.radians(from_deg))
+    v = v - 0.35 * side_px * np.sin(np.radians(from_deg))
+    light = 400.0 * np.exp(-0.5 * (u * u + v * v) / (0.25 * side_px) ** 2)
+    return np.asarray(np.clip(np.rint(image + light), 0, 255), dtype=np.uint8)
+
+
 @pytest.mark.parametrize("turns", [1, 2, 3])
-@pytest.mark.parametrize("degraded", [_under_glare, _covered, _in_shadow])
+@pytest.mark.parametrize("degraded", [_dazzling, _covered, _in_shadow])
 def test_a_turn_of_the_marker_is_not_explained_by_what_hides_the_difference(
     degraded: Degraded, turns: int
 ) -> None:
@@ -176,6 +186,10 @@ def test_the_outline_alone_explains_nothing() -> None:
     """Of what all squares share it takes more than that to be this one."""
     pose = placed(CAMERA, MIDDLE, 45.0)
     image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
+    free = _explained(image, pose, 45.0)
+    assert free is not None
+    assert free.explains
+    assert not replace(free, inner_hidden_ratio=0.6).explains
     u, v = _u_v()
     image[(np.abs(u) < 0.26 * 45.0) & (np.abs(v) < 0.7 * 45.0) & (v > -0.26 * 45.0)] = 120
     found = _explained(image, pose, 45.0)
