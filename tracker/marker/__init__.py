@@ -3,7 +3,7 @@
 from tracker.marker.active_edges import ActiveEdges
 from tracker.marker.contradiction import Contradiction, contradiction_of
 from tracker.marker.explanation import Explanation, explanation_of
-from tracker.marker.glance import templates_of
+from tracker.marker.looks import Templates, templates_of
 from tracker.marker.model import MarkerModel, refuse_alike
 from tracker.marker.score import (
     Agreement,
@@ -23,6 +23,7 @@ __all__ = [
     "Explanation",
     "MarkerModel",
     "ScoreSettings",
+    "Templates",
     "candidate_rounds",
     "contradiction_of",
     "edge_crossings",
