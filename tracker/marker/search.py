@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import cv2
@@ -47,6 +48,8 @@ MOST_PEEKED, LEAST_PEEKED = 100, 40
 MOST_CLOSER, LEAST_CLOSER = 24, 8
 # Of four sides, where they are is known better than of two.
 MOST_CLOSER_OF_FOUR = 8
+# Where one outline is as like as this, those that are so far behind are not it.
+SURE_LIKENESS, FAR_BEHIND = 0.94, 0.08
 # An outline is looked at closely at the level where it is no wider than this: a cell is a pixel or two.
 CLOSER_SIDE_PX = 32.0
 
@@ -64,7 +67,7 @@ class Candidate:
     likeness: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Level:
     """The image at a half, a quarter of its size, or as it is.
 
@@ -77,6 +80,12 @@ class Level:
     image: GreyImage
     scale: int
     noise_grey: float
+
+    @cached_property
+    def soft(self) -> GreyImage:
+        """The image in even light and a little soft: for a peek."""
+        even = even_image(self.image, window_px=WINDOW_PX, noise_grey=self.noise_grey)
+        return np.asarray(cv2.blur(even, (3, 3)), dtype=np.uint8)
 
     def full_px(self, quads: Quads) -> Quads:
         """Points of this level in px of the whole image."""
@@ -197,9 +206,8 @@ def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Temp
     """Outlines of which a corner is seen, and of the rest as much as is not covered."""
     step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
     corners = corner_quads_of(level.image, segments, least_step_grey=step)
-    even = even_image(level.image, window_px=WINDOW_PX, noise_grey=level.noise_grey)
     most = max(MOST_PEEKED // len(templates), LEAST_PEEKED)
-    quads = likely(even, corners, templates, most=most)
+    quads = likely(level.soft, corners, templates, most=most)
     likeness = glance_past_cover(level.image, quads, templates)
     return level, quads, likeness, max(MOST_CLOSER // len(templates), LEAST_CLOSER)
 
@@ -208,6 +216,8 @@ def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int) -> Quads:
     """The likeliest outlines and turns (q, 4), each with the model's own first corner first."""
     flat = likeness.ravel()
     best = np.argpartition(-flat, most)[:most] if len(flat) > most else np.arange(len(flat))
+    if len(best) and flat[best].max() > SURE_LIKENESS:
+        best = best[flat[best] > flat[best].max() - FAR_BEHIND]
     q, turn = np.divmod(best, 4)
     corner = (np.arange(4) - turn[:, None]) % 4
     return np.ascontiguousarray(quads[q[:, None], corner])

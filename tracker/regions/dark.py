@@ -7,7 +7,8 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage, straight_pieces
-from tracker.regions.kernels import find_runs, region_quads, regions_of, trace_borders
+from tracker.regions.borders.kernels import trace_borders
+from tracker.regions.kernels import find_runs, region_quads, regions_of
 
 Int32 = npt.NDArray[np.int32]
 

@@ -16,7 +16,7 @@ from tracker.marker.looks.templates import (
 )
 from tracker.outlines import Quads
 
-STEPS = 8
+STEPS = 6
 # Against steps that noise makes: sum of squares of a picture's cells, 1, times their share of noise.
 DAMPING = np.float32(0.3)
 

@@ -1,6 +1,5 @@
 """A glance at what is inside an outline: enough to let most outlines go before any edge is matched."""
 
-import cv2
 import numpy as np
 
 from tracker.edges import GreyImage
@@ -60,16 +59,15 @@ def likely(even: GreyImage, quads: Quads, templates: Templates, *, most: int) ->
     """Of many outlines (q, 4, 2) those that look most like a model at a first peek of 8x8 pixels.
 
     Args:
-        even: the image in even light (h, w), 128 where it is as bright as around.
+        even: the image in even light (h, w), 128 where it is as bright as around, soft enough for a peek.
         quads: the outlines, parallelograms.
         templates: of the models.
         most: how many to keep for each model.
     """
     if len(quads) <= most:
         return quads
-    soft = np.asarray(cv2.blur(even, (3, 3)), dtype=np.uint8)
     pictures = np.concatenate([template.peeked for template in templates.each])
-    each = peek(soft, quads, PEEK_CELLS, pictures, DARK, LIGHT)
+    each = peek(even, quads, PEEK_CELLS, pictures, DARK, LIGHT)
     alike = each.reshape(len(templates), -1, len(quads)).max(axis=1)
     kept = np.zeros(len(quads), np.bool_)
     for m in range(len(templates)):
