@@ -160,9 +160,8 @@ def _looks(image: GreyImage, levels: Levels, templates: Templates) -> Iterator[L
         half = levels[1]
         regions = _regions(half)
         yield _of_four_sides(half, regions, templates)
-        both = np.concatenate([border_segments(regions), _edge_segments(half.image)])
-        yield _at_corners(half, both, templates)
-    yield _at_corners(level, _edge_segments(level.image), templates)
+        yield _at_corners(half, _edge_segments(half.image, LEAST_PIECE_PX), templates)
+    yield _at_corners(level, _edge_segments(level.image, LEAST_PIECE_PX), templates)
     if level.scale > 1:
         # What is small in a large image.
         whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
@@ -196,9 +195,9 @@ def _of_four_sides(level: Level, regions: Regions, templates: Templates) -> Look
     return level, quads, glance(level.image, quads, templates), MOST_CLOSER_OF_FOUR
 
 
-def _edge_segments(image: GreyImage) -> npt.NDArray[np.float32]:
+def _edge_segments(image: GreyImage, least_px: float) -> npt.NDArray[np.float32]:
     edgels = edgels_of(gradient_of(image))
-    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_PIECE_PX)
+    pieces = segments_of(edgels, chains_of(edgels), least_length_px=least_px)
     return np.concatenate([pieces, joined_segments(pieces)])
 
 

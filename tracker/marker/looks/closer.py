@@ -18,7 +18,9 @@ from tracker.outlines import Quads
 
 STEPS = 6
 # Against steps that noise makes: sum of squares of a picture's cells, 1, times their share of noise.
-DAMPING = np.float32(0.3)
+DAMPING = np.float32(1.0)
+# Against what perspective hardly does: a parallelogram becomes another shape.
+STIFFNESS = np.float32(10.0)
 
 
 def looked_closer(image: GreyImage, quads: Quads, template: Template) -> tuple[Quads, Float32]:
@@ -43,6 +45,7 @@ def looked_closer(image: GreyImage, quads: Quads, template: Template) -> tuple[Q
         COVERS,
         STEPS,
         DAMPING,
+        STIFFNESS,
         CELLS,
         RING,
         AROUND_CELLS,

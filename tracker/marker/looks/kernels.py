@@ -96,8 +96,11 @@ def _likeliest(seen, columns, mean, spread, left, sizes, shared, sums, squares):
 
 
 @compiled
-def _factor(basis, cover, damping, matrix):
-    """Cholesky factor, the lower half, of the damped normal matrix of the cells that a cover leaves."""
+def _factor(basis, cover, damping, stiffness, matrix):
+    """Cholesky factor, the lower half, of the damped normal matrix of the cells that a cover leaves.
+
+    What makes a parallelogram another shape is damped more, by the stiffness: perspective does little of it.
+    """
     matrix[:] = 0.0
     for i in range(len(basis)):
         if cover[i] == 0.0:
@@ -108,6 +111,10 @@ def _factor(basis, cover, damping, matrix):
                 matrix[j, k] += value * basis[i, k]
     for j in range(2, UNKNOWN):
         matrix[j, j] += damping
+        for k in range(2, UNKNOWN):
+            # Corners take turns: one diagonal goes apart, the other together.
+            if (j - k) % 2 == 0:
+                matrix[j, k] += stiffness if (j - k) % 4 == 0 else -stiffness
     for j in range(UNKNOWN):
         for k in range(j + 1):
             total = matrix[j, k]
@@ -157,6 +164,7 @@ def look_closer(
     covers,
     steps,
     damping,
+    stiffness,
     cells,
     ring,
     around,
@@ -191,7 +199,7 @@ def look_closer(
                         found[q] = quad[0]
                 if p != picture or c != cover:
                     picture, cover = p, c
-                    _factor(basis[p], covers[c], damping, matrix)
+                    _factor(basis[p], covers[c], damping, stiffness, matrix)
             if step == steps:
                 break
             right[:] = 0.0
