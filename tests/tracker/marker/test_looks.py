@@ -89,6 +89,17 @@ def test_an_outline_that_is_off_by_a_tenth_of_its_side_is_moved_to_where_it_fits
     assert np.median(likeness) > 0.9
 
 
+def test_a_skewed_outline_becomes_what_a_tilted_square_can_look_like(templates: Templates) -> None:
+    """Smear leaves corners free to run; a square of this size is seen as a parallelogram, within a pixel."""
+    image, corners = _scene()
+    picture = _smeared(image, 8, 30)
+    off = np.random.default_rng(7).normal(0.0, 0.07 * SIDE_PX, (12, 4, 2))
+    found, _ = looked_closer(picture, (corners + off).astype(np.float32), templates.each[0])
+    apart = np.abs(found[:, 0] - found[:, 1] + found[:, 2] - found[:, 3]).max(axis=1)
+    assert np.median(np.abs(off[:, 0] - off[:, 1] + off[:, 2] - off[:, 3]).max(axis=1)) > 3.0
+    assert np.median(apart) < 1.2
+
+
 def test_what_fits_is_not_moved(templates: Templates) -> None:
     image, corners = _scene()
     known = corners[None].astype(np.float32)

@@ -127,6 +127,20 @@ def _factor(basis, cover, damping, stiffness, matrix):
 
 
 @compiled
+def _straighten(quad, weight, right):
+    """Add to the right-hand side what pulls the outline towards a parallelogram."""
+    ax, ay = 0.5 * (quad[1] - quad[0] + quad[2] - quad[3])
+    bx, by = 0.5 * (quad[3] - quad[0] + quad[2] - quad[1])
+    x, y = quad[0] - quad[1] + quad[2] - quad[3]
+    det = ax * by - ay * bx
+    along, down = weight * (x * by - y * bx) / det, weight * (ax * y - ay * x) / det
+    for k in range(4):
+        sign = 1 - 2 * (k % 2)
+        right[2 + 2 * k] += sign * along
+        right[3 + 2 * k] += sign * down
+
+
+@compiled
 def _solve(factor, right):
     for j in range(UNKNOWN):
         total = right[j]
@@ -184,7 +198,7 @@ def look_closer(
     quad = np.empty((1, 4, 2), np.float32)
     for q in range(len(quads)):
         quad[0] = quads[q]
-        picture, cover, worst = -1, -1, 0.0
+        picture, cover, worst, alike = -1, -1, 0.0, 0.0
         for step in range(steps + 1):
             seen = sample_quads(image, quad, cells, ring)
             even_light(seen, cells + 2 * ring, around, floor_grey, floor_ratio)
@@ -207,6 +221,7 @@ def look_closer(
                 value = seen[0, i] * covers[cover, i]
                 for j in range(UNKNOWN):
                     right[j] += value * basis[picture, i, j]
+            _straighten(quad[0], stiffness * alike, right)
             _solve(matrix, right)
             if right[0] < LEAST_GAIN:
                 break
