@@ -44,7 +44,7 @@ LEAST_PIECE_PX = 4.0
 NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
 # Of many models each has its share, so that they cost little more than one.
-MOST_PEEKED, LEAST_PEEKED = 100, 40
+MOST_PEEKED, LEAST_PEEKED = 60, 40
 MOST_CLOSER, LEAST_CLOSER = 24, 8
 # Of four sides, where they are is known better than of two.
 MOST_CLOSER_OF_FOUR = 8
