@@ -12,7 +12,7 @@ MOST_STEP_SIDES = 0.12
 # A step leads nowhere where so little of the picture is seen.
 LEAST_GAIN = 0.1
 # An outline is moved where that takes away so much of what is unlike.
-MOST_UNLIKE_RATIO = 0.75
+MOST_UNLIKE_RATIO = 0.95
 # It is asked anew which picture and which cover it is after so many steps.
 ASKED_EVERY = 3
 
