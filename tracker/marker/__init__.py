@@ -2,7 +2,7 @@
 
 from tracker.marker.active_edges import ActiveEdges
 from tracker.marker.explanation import Contradiction, Explanation, contradiction_of, explanation_of
-from tracker.marker.glance import templates_of
+from tracker.marker.looks import Templates, templates_of
 from tracker.marker.model import MarkerModel, refuse_alike
 from tracker.marker.score import (
     Agreement,
@@ -22,6 +22,7 @@ __all__ = [
     "Explanation",
     "MarkerModel",
     "ScoreSettings",
+    "Templates",
     "candidate_rounds",
     "contradiction_of",
     "edge_crossings",
