@@ -1,13 +1,14 @@
 """From the marker's edges to its pose, and to the tool behind it."""
 
-from tracker.pose.occurrence import Occurrence, judged, occurrence_near, side_px_of, with_target
+from tracker.pose.judgement import Scene, judged
+from tracker.pose.occurrence import Occurrence, occurrence_near, side_px_of, with_target
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import Fit, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.steady import Steady, SteadyPose, SteadySettings
 from tracker.pose.tool import ToolModel
-from tracker.pose.whole import Pixels, with_whole_shape
+from tracker.pose.whole import Pixels
 
 __all__ = [
     "Fit",
@@ -15,6 +16,7 @@ __all__ = [
     "Occurrence",
     "Pixels",
     "Prior",
+    "Scene",
     "Seen",
     "Sighting",
     "Steady",
@@ -30,5 +32,4 @@ __all__ = [
     "refined_pose",
     "side_px_of",
     "with_target",
-    "with_whole_shape",
 ]

@@ -17,14 +17,14 @@ from tests.tracker.scenes import (
     rendered,
 )
 from tracker import Seen, Sighting
+from tracker.appearance import textures_of
 from tracker.edges import edgels_of, gradient_of
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import ScoreSettings
-from tracker.pose import judged, occurrence_near, pose_from_corners, with_target
+from tracker.pose import Pixels, Scene, judged, occurrence_near, pose_from_corners, with_target
 
 CAMERA = camera_of((200, 160), focal_px=400.0)
 MODEL = code_model()
-SETTINGS = ScoreSettings()
 
 
 def _smeared(image: Image8, way_px: float, from_deg: float) -> Image8:
@@ -42,9 +42,18 @@ def _accepted(image: Image8, pose: Rigid[Camera, Marker]) -> Sighting:
     assert start is not None
     gradient = gradient_of(image)
     found = occurrence_near(CAMERA, MODEL, gradient, start, first_reach_px=2.5)
-    if found is not None:
-        found = with_target(CAMERA, MODEL, gradient, edgels_of(gradient), found)
-    return judged(found, SETTINGS, model=MODEL, image=image, gradient=gradient, found_by="search")
+    assert found is not None
+    found = with_target(CAMERA, MODEL, gradient, edgels_of(gradient), found)
+    scene = Scene(
+        camera=CAMERA,
+        model=MODEL,
+        pixels=Pixels(image=image, noise_grey=1.5, textures={MODEL.name: textures_of(MODEL.square)}),
+        window=image,
+        gradient=gradient,
+        settings=ScoreSettings(),
+        expected=None,
+    )
+    return judged(scene, found)
 
 
 @pytest.mark.parametrize("from_deg", [10, 55, 100, 145])

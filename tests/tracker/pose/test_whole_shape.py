@@ -10,7 +10,7 @@ from tests.tracker.scenes import Print, camera_of, code_model, facing_at_px, ren
 from tracker import Tracker
 from tracker.appearance import WholeFit, textures_of, whole_fits
 from tracker.geometry import Camera, Marker, Rigid
-from tracker.pose import Pixels, Seen, other_solution, whole, with_whole_shape
+from tracker.pose import Pixels, Seen, other_solution, whole
 
 CAMERA = camera_of()
 MODEL = code_model()
@@ -47,10 +47,12 @@ def test_where_the_better_fit_just_fails_the_worse_does_not_stand_in(
     monkeypatch: pytest.MonkeyPatch, found: Seen
 ) -> None:
     fit = _fit_at(POSE)
-    better = replace(fit, cost_sd2=500.0, scale_grey=1.01 * whole.EXACT.contrast_ratio * fit.contrast_grey)
+    better = replace(
+        fit, cost_sd2=500.0, scale_grey=1.01 * whole.MOST_LEFT_CONTRAST_RATIO * fit.contrast_grey
+    )
     worse = replace(better, camera_from_marker=other_solution(POSE), cost_sd2=520.0, scale_grey=3.0)
     _given(monkeypatch, [better, worse])
-    exact, _ = with_whole_shape(CAMERA, MODEL, PIXELS, found)
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
     assert exact is found
 
 
@@ -60,7 +62,7 @@ def test_two_solutions_that_explain_alike_are_both_in_the_covariance(
     better = replace(_fit_at(POSE), cost_sd2=500.0)
     worse = replace(better, camera_from_marker=other_solution(POSE), cost_sd2=505.0)
     _given(monkeypatch, [worse, better])
-    exact, _ = with_whole_shape(CAMERA, MODEL, PIXELS, found)
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
     assert np.array_equal(exact.camera_from_marker.rotation, POSE.rotation)
     turned_deg = np.degrees(np.sqrt(np.linalg.eigvalsh(exact.pose_covariance[3:, 3:])[-1]))
     assert turned_deg > 10.0

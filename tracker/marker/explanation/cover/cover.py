@@ -18,6 +18,8 @@ MOST_RIM = 10
 WIDE_BLUR_FIELDS = 0.6
 MOST_CLEAR_RATIO = 0.1
 SAME_COVER_CONTRAST, MOST_SLOPE = 0.35, 0.12
+# Of what covers a part inside, the strip of paper that is looked at shows at least this much.
+LEAST_END_RATIO = 0.3
 # Light is nowhere under this part of the brightest: a field that is dark is ink, not night.
 LEAST_GAIN_RATIO = 0.08
 # A part lies on one side of a line: so many directions, and places in half sides.
@@ -88,7 +90,7 @@ def _goes_on(piece: Mask, covers: Mask, left: Left, contrast: Array) -> bool:
         alike = abs(float(np.median(seen[end])) - grey) < SAME_COVER_CONTRAST * float(
             np.median(contrast[end])
         )
-        if not alike or end.sum() < 0.5 * piece.sum():
+        if not alike or end.sum() < LEAST_END_RATIO * piece.sum():
             continue
         v, u = np.nonzero(piece | end)
         area = np.zeros(piece.shape, np.uint8)
