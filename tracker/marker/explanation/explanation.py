@@ -48,8 +48,9 @@ MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
 # Edges of what is smeared are found at either end of its way, an sd and three quarters of it off the middle.
 MOST_MOVED_BLURS = 1.75
-# Blurred over more of its side than this, one square is like another.
-MOST_BLUR_SIDE_RATIO = 0.15
+# Blurred over so much of its side, one square is like another: like this one under highlights, and in every
+# other light unless all is explained. Smear leaves one direction sharp.
+BLURRED_SIDE_RATIO, LEAST_LIKENESS_BLURRED, MOST_BLUR_SIDE_RATIO = 0.1, 0.98, 0.16
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,6 +100,10 @@ class Explanation:
             else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
         )
         least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
+        if self.blur_px[1] > BLURRED_SIDE_RATIO * self.side_px:
+            if self.under_highlights:
+                return False
+            least = LEAST_LIKENESS_BLURRED
         return (
             not self.is_turned
             and min(self.likeness, self.inner_likeness)
@@ -107,6 +112,7 @@ class Explanation:
             and self.hidden_ratio <= MOST_HIDDEN_RATIO
             and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
             and self.moved_px <= max(px, ratio * self.side_px, MOST_MOVED_BLURS * self.blur_px[1])
+            and self.blur_px[0] <= BLURRED_SIDE_RATIO * self.side_px
             and self.blur_px[1] <= MOST_BLUR_SIDE_RATIO * self.side_px
         )
 
@@ -203,7 +209,7 @@ def _is_covered(found: Explanation) -> bool:
 def _explanation(fit: Fit) -> Explanation:
     hidden, inside = covered(fit.left, blur_fields=fit.blur_fields)
     visible = ~hidden & fit.visible
-    telling = visible & (fit.seen < SATURATED_GREY)
+    telling = visible & (fit.seen < SATURATED_GREY) & fit.clear
     shape = _shape(fit.picture)
     return Explanation(
         side_px=fit.side_px,

@@ -14,6 +14,7 @@ from tracker.marker.explanation.kernels import (
     PLACE,
     SPREAD,
     WIDE,
+    clear_of_beyond,
     picture_at,
     sample_fields,
     unit_to_px,
@@ -115,6 +116,13 @@ class Fit:
     def picture(self) -> npt.NDArray[np.float32]:
         """The model as it is fitted, dark 0 to bright 1."""
         return np.asarray(self.shown[0])
+
+    @property
+    def clear(self) -> Mask:
+        """Where blur brings in little of what lies beyond the marker's paper."""
+        clear = np.empty((WIDE, WIDE), np.bool_)
+        clear_of_beyond(self.blur, clear)
+        return clear
 
     @property
     def blur_fields(self) -> float:

@@ -17,10 +17,12 @@ PLACE, BLUR = 6, 3
 SATURATED_GREY = 250.0
 OUTLIER_CONTRAST = 0.2
 MOST_STEP_PX = 0.7
-LEAST_BLUR_PX, MOST_BLUR_PX = 0.3, 3.6
+LEAST_BLUR_PX, MOST_BLUR_PX = 0.3, 4.5
 SETTLED_FIELDS, SETTLED_BLUR = 0.01, 0.02
 # Fewer fields than this are like anything.
 LEAST_COUNT = 40
+# White paper around the square, in sides; what lies so many sd of the blur away is a thirtieth of a field.
+PAPER_RATIO, FAR_SDS = 0.2, 1.85
 LEAST_WEIGHT = 1e-3
 
 
@@ -238,9 +240,11 @@ def walk(
     size = n + m + free
     a, g, solution = np.empty((size, size)), np.empty(size), np.empty(size)
     predicted, values = np.zeros((WIDE, WIDE)), np.empty((WIDE, WIDE))
+    clear = np.empty((WIDE, WIDE), np.bool_)
+    clear_of_beyond(blur, clear)
     for r in range(WIDE):
         for c in range(WIDE):
-            if not visible[r, c]:
+            if not (visible[r, c] and clear[r, c]):
                 weight[r, c] = 0.0
     contrast = 0.0
     ended = False
@@ -261,10 +265,11 @@ def walk(
         contrast = _laid_over(seen, shown, light, gains, solution, gain, visible, free, predicted, rest, lit)
         if not contrast > 1.0:
             return 0.0
+        clear_of_beyond(blur, clear)
         for r in range(WIDE):
             for c in range(WIDE):
                 off = rest[r, c] / (OUTLIER_CONTRAST * max(lit[r, c], 0.25 * contrast))
-                weight[r, c] = 1.0 / (1.0 + off * off) ** 2 if visible[r, c] else 0.0
+                weight[r, c] = 1.0 / (1.0 + off * off) ** 2 if visible[r, c] and clear[r, c] else 0.0
                 gain[r, c] = max(lit[r, c], 0.05 * contrast)
         if ended or turn == rounds - 1:
             break
@@ -272,6 +277,17 @@ def walk(
             # What changes nothing ends the walk after the light has been fitted once more.
             ended = not _step(corners, blur, solution[n + m :], field_px)
     return contrast
+
+
+@compiled
+def clear_of_beyond(blur, clear):
+    """Into `clear` (WIDE, WIDE): where a blur (3,), in fields, brings in little from beyond the paper."""
+    edge = 1.0 + 2.0 * PAPER_RATIO
+    most_u = edge - FAR_SDS * np.sqrt(max(blur[0], 0.0)) * 2.0 / FIELDS
+    most_v = edge - FAR_SDS * np.sqrt(max(blur[1], 0.0)) * 2.0 / FIELDS
+    for r in range(WIDE):
+        for c in range(WIDE):
+            clear[r, c] = abs(u_of(c)) < most_u and abs(u_of(r)) < most_v
 
 
 @compiled
