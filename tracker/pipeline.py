@@ -1,6 +1,7 @@
 """The stages of the tracker in order, and nothing else."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -48,6 +49,27 @@ LEAST_LIKENESS_ALONE, WIDE_PX, WHOLE_COVERAGE_RATIO = 0.9, 36.0, 0.85
 # Seen (2), with score and target score of 0.9 on average.
 CERTAIN_WORTH = 3.8
 WINDOW_MARGIN_PX, WINDOW_SIDE_RATIO, LEAST_WINDOW_PX = 8.0, 0.15, 24
+# While others are tracked, what is out of view costs one round of a search in so many images.
+IMAGES_A_ROUND = 2
+
+
+@dataclass(slots=True)
+class _Watch:
+    """A search of one image for markers that are out of view, spread over the images after it. Mutable.
+
+    Attributes:
+        pixels: of the image that is searched, which may be some images old.
+        models: what is looked for.
+        rounds: candidates for each of them, at rising cost.
+        best: what was made of them until now.
+        images: how many there were since the search began.
+    """
+
+    pixels: Pixels
+    models: list[MarkerModel]
+    rounds: Iterator[list[list[Candidate]]]
+    best: dict[str, Sighting]
+    images: int = 0
 
 
 def _window(camera: CameraModel, corners_px: Array) -> tuple[int, int, int, int] | None:
@@ -94,13 +116,17 @@ class Tracker:
         self._templates = templates_of(self.models)
         self._textures = {model.name: textures_of(model.square) for model in self.models}
         self._priors = {model.name: Prior() for model in models}
+        self._watch: _Watch | None = None
+        # What the last whole search said of each marker that it did not find.
+        self._unseen = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
         self._stages = Stages(clock)
 
     def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
         """What this image says of each marker, using what is known from the images before it.
 
         A marker that was seen is looked for where it is expected; one that is not there is searched for in
-        the whole of the same image.
+        the whole of the same image. A marker that was not seen while others are costs a part of a search:
+        it may come into view for a fraction of a second before it is found.
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
@@ -118,8 +144,14 @@ class Tracker:
             if isinstance(sighting, Seen):
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
-        if missing:
-            seen.update(self._search(pixels, missing))
+        # Where none is in view there is time to look for all.
+        lost = [model for model in missing if not seen or self._expected(model, captured_at_s) is not None]
+        lost_names = {model.name for model in lost}
+        if lost:
+            said = self._search(pixels, lost)
+            self._keep_unseen(said)
+            seen |= said
+        seen |= self._look_out_for(pixels, [model for model in missing if model.name not in lost_names])
         seen = _one_for_each_place(seen)
         for name, prior in self._priors.items():
             prior.learn(seen[name], captured_at_s)
@@ -162,8 +194,11 @@ class Tracker:
 
     def _track(self, pixels: Pixels, model: MarkerModel, captured_at_s: float) -> Sighting | None:
         """The marker where it is expected; None when nothing is expected there."""
-        expected = self._priors[model.name].expected(captured_at_s)
+        expected = self._expected(model, captured_at_s)
         return None if expected is None else self._near(pixels, model, expected, found_by="track")
+
+    def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:
+        return self._priors[model.name].expected(captured_at_s)
 
     def _near(
         self, pixels: Pixels, model: MarkerModel, start: Rigid[Camera, Marker], *, found_by: FoundBy
@@ -213,17 +248,61 @@ class Tracker:
         return compared.likeness >= LEAST_LIKENESS_ALONE
 
     def _search(self, pixels: Pixels, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
-        best: dict[str, Sighting] = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
-        which = [self.models.index(model) for model in models]
-        for candidates in candidate_rounds(pixels.image, self._templates[which]):
-            self._stages.end("candidates")
-            for model, own in zip(models, candidates, strict=True):
-                if _worth(best[model.name]) <= CERTAIN_WORTH:
-                    found = self._search_one(pixels, model, own)
-                    best[model.name] = max(best[model.name], found, key=_worth)
-            if all(_worth(sighting) > CERTAIN_WORTH for sighting in best.values()):
+        watch = self._watch_of(pixels, models)
+        while self._go_on(watch):
+            if all(_worth(sighting) > CERTAIN_WORTH for sighting in watch.best.values()):
                 break
-        return best
+        return watch.best
+
+    def _watch_of(self, pixels: Pixels, models: Sequence[MarkerModel]) -> _Watch:
+        """A search that has not begun."""
+        which = [self.models.index(model) for model in models]
+        return _Watch(
+            pixels=pixels,
+            models=list(models),
+            rounds=candidate_rounds(pixels.image, self._templates[which]),
+            best={model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models},
+        )
+
+    def _go_on(self, watch: _Watch) -> bool:
+        """One more round of a search; False when there is none."""
+        candidates = next(watch.rounds, None)
+        self._stages.end("candidates")
+        if candidates is None:
+            return False
+        for model, own in zip(watch.models, candidates, strict=True):
+            if _worth(watch.best[model.name]) <= CERTAIN_WORTH:
+                found = self._search_one(watch.pixels, model, own)
+                watch.best[model.name] = max(watch.best[model.name], found, key=_worth)
+        return True
+
+    def _look_out_for(self, pixels: Pixels, models: list[MarkerModel]) -> dict[str, Sighting]:
+        """What can be said of markers out of view for a part of the cost of a search.
+
+        An image is searched round after round while others pass. What is found in it has come into view: only
+        then the image at hand is searched as a whole.
+        """
+        if not models:
+            self._watch = None
+            return {}
+        if self._watch is None or list(self._watch.best) != [model.name for model in models]:
+            # The caller may write the next image into the same memory.
+            self._watch = self._watch_of(replace(pixels, image=pixels.image.copy()), models)
+        watch = self._watch
+        is_over = watch.images % IMAGES_A_ROUND == 0 and not self._go_on(watch)
+        watch.images += 1
+        if is_over:
+            self._keep_unseen(watch.best)
+        said: dict[str, Sighting] = {model.name: self._unseen[model.name] for model in models}
+        found = [model for model in models if isinstance(watch.best[model.name], Seen)]
+        if found:
+            said |= self._search(pixels, found)
+        if is_over or found:
+            self._watch = None
+        return said
+
+    def _keep_unseen(self, said: Mapping[str, Sighting]) -> None:
+        self._unseen.update({name: one for name, one in said.items() if isinstance(one, Unseen)})
 
     def _search_one(
         self,
