@@ -193,4 +193,5 @@ def judged(
         target_coverage_ratio=agreement.target_coverage_ratio,
         fit_error_px2=agreement.fit_error_px2,
         found_by=found_by,
+        lead_sd2=found.fit.lead_sd2,
     )

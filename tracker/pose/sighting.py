@@ -36,6 +36,8 @@ class Seen:
         target_coverage_ratio: length found, by the length of all edges inside the occurrence, 0..1.
         fit_error_px2: mean squared distance of the common edgels to the model's edges.
         found_by: "search" (whole image, no prior) or "track" (where it was expected).
+        lead_sd2: by how much this image and those before speak for this pose against the other planar
+            solution, in squared residuals by their variance; infinite where no other fits.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -47,6 +49,7 @@ class Seen:
     target_coverage_ratio: float
     fit_error_px2: float
     found_by: FoundBy
+    lead_sd2: float = float("inf")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
