@@ -84,7 +84,7 @@ def test_what_the_images_say_adds_up_and_is_bounded() -> None:
 
 
 def test_the_lead_is_that_over_another_solution_not_over_the_same_one() -> None:
-    near = Rigid.from_matrix(TRUTH.matrix)
+    near: Rigid[Camera, Marker] = Rigid.from_matrix(TRUTH.matrix)
     assert lead_between([1.0, 1.5, 9.0], [TRUTH, near, other_solution(TRUTH)], 0) == pytest.approx(8.0)
     assert lead_between([1.0], [TRUTH], 0) == float("inf")
     assert lead_between([1.0, 1.5], [TRUTH, near], 0) == float("inf")
