@@ -11,7 +11,7 @@ from tracker.appearance import textures_of
 from tracker.camera import CameraModel
 from tracker.edges import GreyImage, edgels_of, gradient_of
 from tracker.errors import InvalidInput
-from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import (
     Candidate,
     MarkerModel,
@@ -33,6 +33,7 @@ from tracker.pose import (
     occurrence_near,
     pose_from_corners,
     side_px_of,
+    window_around,
     with_target,
     with_whole_shape,
 )
@@ -48,9 +49,9 @@ MOST_FITS = 4
 LEAST_LIKENESS_ALONE, WIDE_PX, WHOLE_COVERAGE_RATIO = 0.9, 36.0, 0.85
 # Seen (2), with score and target score of 0.9 on average.
 CERTAIN_WORTH = 3.8
-WINDOW_MARGIN_PX, WINDOW_SIDE_RATIO, LEAST_WINDOW_PX = 8.0, 0.15, 24
 # While others are tracked, what is out of view costs one round of a search in so many images.
 IMAGES_A_ROUND = 2
+PIXELS_FOR_NOISE = 125_000
 
 
 @dataclass(slots=True)
@@ -70,21 +71,6 @@ class _Watch:
     rounds: Iterator[list[list[Candidate]]]
     best: dict[str, Sighting]
     images: int = 0
-
-
-def _window(camera: CameraModel, corners_px: Array) -> tuple[int, int, int, int] | None:
-    """Left, top, right, bottom of the part of the image in which a marker expected at these corners can be.
-
-    None where too little of it would be inside the image.
-    """
-    margin = TRACK_REACH_PX + WINDOW_MARGIN_PX + WINDOW_SIDE_RATIO * side_px_of(corners_px)
-    width, height = camera.size_wh_px
-    left, top = np.floor(corners_px.min(axis=0) - margin).astype(int)
-    right, bottom = np.ceil(corners_px.max(axis=0) + margin).astype(int)
-    left, top, right, bottom = max(left, 0), max(top, 0), min(right, width), min(bottom, height)
-    if right - left < LEAST_WINDOW_PX or bottom - top < LEAST_WINDOW_PX:
-        return None
-    return left, top, right, bottom
 
 
 class Tracker:
@@ -190,7 +176,9 @@ class Tracker:
         return np.asarray(grey, dtype=np.uint8)
 
     def _pixels(self, grey: GreyImage) -> Pixels:
-        return Pixels(image=grey, noise_grey=noise_grey(grey), textures=self._textures)
+        # Noise is alike everywhere: some rows tell it.
+        every = max(grey.size // PIXELS_FOR_NOISE, 1)
+        return Pixels(image=grey, noise_grey=noise_grey(grey[::every]), textures=self._textures)
 
     def _track(self, pixels: Pixels, model: MarkerModel, captured_at_s: float) -> Sighting | None:
         """The marker where it is expected; None when nothing is expected there."""
@@ -204,7 +192,8 @@ class Tracker:
         self, pixels: Pixels, model: MarkerModel, start: Rigid[Camera, Marker], *, found_by: FoundBy
     ) -> Sighting | None:
         """What stands at about this pose; None when it would be outside the image, or nothing fits there."""
-        window = _window(self.camera, self.camera.px_from_camera(start.move_points(model.corners_mm)))
+        corners = self.camera.px_from_camera(start.move_points(model.corners_mm))
+        window = window_around(corners, reach_px=TRACK_REACH_PX, size_wh_px=self.camera.size_wh_px)
         if window is None:
             return None
         expected = start if found_by == "track" else None

@@ -8,6 +8,7 @@ from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.steady import Steady, SteadyPose, SteadySettings
 from tracker.pose.tool import ToolModel
 from tracker.pose.whole import Pixels, with_whole_shape
+from tracker.pose.window import window_around
 
 __all__ = [
     "Fit",
@@ -29,6 +30,7 @@ __all__ = [
     "pose_from_corners",
     "refined_pose",
     "side_px_of",
+    "window_around",
     "with_target",
     "with_whole_shape",
 ]

@@ -11,6 +11,8 @@ from tracker.pose.sighting import Seen, Sighting
 
 # A hand changes its mind within a tenth of a second: farther ahead a straight line is a guess.
 LONGEST_AHEAD_S = 0.25
+# A highlight or a hand may hide a marker for some images; where it was then is where it is.
+LONGEST_UNSEEN_S = 0.07
 # Two poses nearer in time than this say nothing about speed.
 LEAST_INTERVAL_S = 1e-3
 MOST_SPEED_MM_S = 1500.0
@@ -48,9 +50,10 @@ class Prior:
         )
 
     def learn(self, sighting: Sighting, at_s: float) -> None:
-        """Take in what an image said; a marker that is not seen is forgotten."""
+        """Take in what an image said; a marker that is not seen for a while is forgotten."""
         if not isinstance(sighting, Seen):
-            self.pose = None
+            if not 0.0 < at_s - self.at_s <= LONGEST_UNSEEN_S:
+                self.pose = None
             return
         interval = at_s - self.at_s
         self.velocity_mm_s, self.turning_rad_s = np.zeros(3), np.zeros(3)
