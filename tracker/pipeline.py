@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import cv2
 import numpy as np
@@ -18,6 +19,7 @@ from tracker.marker import (
     ScoreSettings,
     candidate_rounds,
     contradiction_of,
+    practice_image,
     refuse_alike,
     templates_of,
 )
@@ -31,11 +33,13 @@ from tracker.pose import (
     UnseenReason,
     judged,
     occurrence_near,
+    one_for_each_place,
     pose_from_corners,
     side_px_of,
     window_around,
     with_target,
     with_whole_shape,
+    worth_of,
 )
 from tracker.regions import noise_grey
 from tracker.stages import Stages
@@ -82,9 +86,13 @@ class Tracker:
     Attributes:
         stage_ms: time of each stage of the last image, by name; empty where no clock was given.
 
+    The first tracker of a process loads the compiled loops, so that no image has to wait for them.
+
     Raises:
         InvalidInput: MARKER_NAMES_NOT_UNIQUE, or MARKERS_ALIKE.
     """
+
+    _has_loaded: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -105,7 +113,18 @@ class Tracker:
         self._watch: _Watch | None = None
         # What the last whole search said of each marker that it did not find.
         self._unseen = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
+        self._stages = Stages(None)
+        if self.models and not Tracker._has_loaded:
+            Tracker._has_loaded = True
+            self._practise()
         self._stages = Stages(clock)
+
+    def _practise(self) -> None:
+        """Run the loops of a search once: they are made, or read, when they are first called."""
+        image = practice_image(self.models[0].square, size_wh_px=self.camera.size_wh_px)
+        self._search(self._pixels(image), self.models[:1])
+        for _ in candidate_rounds(image, self._templates[:1]):
+            pass
 
     def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
         """What this image says of each marker, using what is known from the images before it.
@@ -138,7 +157,7 @@ class Tracker:
             self._keep_unseen(said)
             seen |= said
         seen |= self._look_out_for(pixels, [model for model in missing if model.name not in lost_names])
-        seen = _one_for_each_place(seen)
+        seen = one_for_each_place(seen)
         for name, prior in self._priors.items():
             prior.learn(seen[name], captured_at_s)
         self.stage_ms = self._stages.taken_ms
@@ -151,7 +170,7 @@ class Tracker:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         self._stages.start()
-        seen = _one_for_each_place(self._search(self._pixels(self._grey(image)), self.models))
+        seen = one_for_each_place(self._search(self._pixels(self._grey(image)), self.models))
         self.stage_ms = self._stages.taken_ms
         return seen
 
@@ -239,7 +258,7 @@ class Tracker:
     def _search(self, pixels: Pixels, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
         watch = self._watch_of(pixels, models)
         while self._go_on(watch):
-            if all(_worth(sighting) > CERTAIN_WORTH for sighting in watch.best.values()):
+            if all(worth_of(sighting) > CERTAIN_WORTH for sighting in watch.best.values()):
                 break
         return watch.best
 
@@ -260,9 +279,9 @@ class Tracker:
         if candidates is None:
             return False
         for model, own in zip(watch.models, candidates, strict=True):
-            if _worth(watch.best[model.name]) <= CERTAIN_WORTH:
+            if worth_of(watch.best[model.name]) <= CERTAIN_WORTH:
                 found = self._search_one(watch.pixels, model, own)
-                watch.best[model.name] = max(watch.best[model.name], found, key=_worth)
+                watch.best[model.name] = max(watch.best[model.name], found, key=worth_of)
         return True
 
     def _look_out_for(self, pixels: Pixels, models: list[MarkerModel]) -> dict[str, Sighting]:
@@ -306,33 +325,9 @@ class Tracker:
             sighting = None if start is None else self._near(pixels, model, start, found_by="search")
             if sighting is None:
                 continue
-            best = max(best, sighting, key=_worth)
+            best = max(best, sighting, key=worth_of)
             fits += 1
             # Candidates come likeliest first: one that leaves nothing open ends the search.
-            if fits >= MOST_FITS or _worth(best) > CERTAIN_WORTH:
+            if fits >= MOST_FITS or worth_of(best) > CERTAIN_WORTH:
                 break
         return best
-
-
-def _one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
-    """Where two markers are claimed on one square, the one that fits it better; the other is not there."""
-    kept = dict(sightings)
-    names = sorted(sightings, key=lambda name: _worth(sightings[name]), reverse=True)
-    places: list[Seen] = []
-    for name in names:
-        sighting = sightings[name]
-        if not isinstance(sighting, Seen):
-            continue
-        centre, side = sighting.corners_px.mean(axis=0), side_px_of(sighting.corners_px)
-        if any(np.linalg.norm(other.corners_px.mean(axis=0) - centre) < 0.5 * side for other in places):
-            kept[name] = Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=sighting.score_ratio)
-        else:
-            places.append(sighting)
-    return kept
-
-
-def _worth(sighting: Sighting) -> float:
-    """What is seen is worth more than what is not, and a better score more than a worse one."""
-    if isinstance(sighting, Seen):
-        return 2.0 + sighting.score_ratio + sighting.target_score_ratio
-    return sighting.best_score_ratio

@@ -1,6 +1,7 @@
 """From the marker's edges to its pose, and to the tool behind it."""
 
 from tracker.pose.occurrence import Occurrence, judged, occurrence_near, side_px_of, with_target
+from tracker.pose.places import one_for_each_place, worth_of
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import Fit, refined_pose
@@ -26,6 +27,7 @@ __all__ = [
     "UnseenReason",
     "judged",
     "occurrence_near",
+    "one_for_each_place",
     "other_solution",
     "pose_from_corners",
     "refined_pose",
@@ -33,4 +35,5 @@ __all__ = [
     "window_around",
     "with_target",
     "with_whole_shape",
+    "worth_of",
 ]
