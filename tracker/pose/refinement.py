@@ -9,7 +9,7 @@ from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import LEAST_RESPONSE_RATIO
-from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
+from tracker.pose.kernels import PARAMETERS, pose_inverse, project_edges, refine_both
 from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surprise
 
 __all__ = ["Fit", "doubt_between", "projected_edges", "refined_pose", "surprise"]
@@ -158,15 +158,12 @@ def _fit(
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES
-    scale = np.sqrt(matrix.diagonal())
-    scales = scale[:, None] * scale
-    try:
-        inverse = np.linalg.inv(matrix / scales) / scales
-    except np.linalg.LinAlgError:
+    inverse, is_told = pose_inverse(matrix)
+    if not is_told:
         return None
     return Fit(
         camera_from_marker=pose,
-        covariance=inverse[:6, :6] * variance,
+        covariance=inverse * variance,
         cost_px2=cost,
         residual_px=float(np.sqrt(squares / weights)),
         shift_px=shift,

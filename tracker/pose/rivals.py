@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
+from tracker.pose.kernels import turn_between
 
 # Costs of both solutions this much apart (in units of the residuals' variance) leave no doubt: the odds of
 # the worse one are under 1 in 10,000.
@@ -81,8 +82,7 @@ def doubt_between(
 
 def _turn_rad(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> float:
     """By how much one pose is turned from the other."""
-    turned = vector_from_rotation(a.rotation @ b.rotation.T)
-    return float(np.sqrt(turned @ turned))
+    return float(turn_between(a.rotation, b.rotation))
 
 
 def _turn_sd2(pose: Rigid[Camera, Marker], other: Rigid[Camera, Marker]) -> float:

@@ -6,9 +6,10 @@ import pytest
 from tests.tracker.pipeline.stepped import CAMERA, MODEL, pose_of
 from tests.tracker.scenes import Image8, Print, code_image, rendered
 from tracker.edges import edgels_of, gradient_of
-from tracker.geometry import Camera, Marker, Rigid, vector_from_rotation
+from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
 from tracker.marker import ScoreSettings
 from tracker.pose import Prior, Seen, judged, occurrence_near, other_solution, with_target
+from tracker.pose.kernels import pose_inverse, turn_between
 from tracker.pose.prior import MOST_LEAD_SD2
 from tracker.pose.rivals import Expected, doubt_between, lead_between, surprise
 
@@ -96,3 +97,19 @@ def test_an_even_race_leaves_even_doubt_and_a_covariance_that_reaches_the_other(
     reach_deg = np.degrees(np.sqrt(np.trace(spread[3:, 3:])))
     assert reach_deg == pytest.approx(_turned_deg(TRUTH, other_solution(TRUTH)) * np.sqrt(0.5))
     assert doubt_between(TRUTH, other_solution(TRUTH), gap=19.0, expected=None)[0] == 0.0
+
+
+@pytest.mark.parametrize("angle_deg", [0.0, 1e-4, 30.0, 179.0, 180.0])
+def test_the_turn_between_rotations_is_exact_from_nothing_to_half_a_turn(angle_deg: float) -> None:
+    axis = np.array([0.36, -0.48, 0.8])
+    turned = rotation_from_vector(axis * np.radians(angle_deg)) @ TRUTH.rotation
+    assert np.degrees(turn_between(turned, TRUTH.rotation)) == pytest.approx(angle_deg, abs=1e-5)
+
+
+def test_the_pose_s_part_of_an_inverse_is_that_of_the_whole_inverse() -> None:
+    rows = np.random.default_rng(3).normal(size=(20, 7)) * [1.0, 1.0, 0.1, 90.0, 80.0, 70.0, 1.0]
+    matrix = rows.T @ rows
+    inverse, is_told = pose_inverse(matrix)
+    assert is_told
+    np.testing.assert_allclose(inverse, np.linalg.inv(matrix)[:6, :6], rtol=1e-6, atol=1e-12)
+    assert not pose_inverse(np.zeros((7, 7)))[1]
