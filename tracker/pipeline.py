@@ -1,7 +1,7 @@
 """The stages of the tracker in order, and nothing else."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import cv2
@@ -53,9 +53,10 @@ MOST_FITS = 4
 LEAST_LIKENESS_ALONE, WIDE_PX, WHOLE_COVERAGE_RATIO = 0.9, 36.0, 0.85
 # Seen (2), with score and target score of 0.9 on average.
 CERTAIN_WORTH = 3.8
-# While others are tracked, what is out of view costs one round of a search in so many images.
-IMAGES_A_ROUND = 2
 PIXELS_FOR_NOISE = 125_000
+# While others are tracked, what is out of view costs one part of a search in so many of so many images: most
+# images cost no more than what is in view.
+SEARCHED_IMAGES, OF_IMAGES = 2, 5
 
 
 @dataclass(slots=True)
@@ -67,13 +68,15 @@ class _Watch:
         models: what is looked for.
         rounds: candidates for each of them, at rising cost.
         best: what was made of them until now.
-        images: how many there were since the search began.
+        waiting: models whose candidates of this round have not been looked at.
+        images: how many have passed since it began.
     """
 
     pixels: Pixels
     models: list[MarkerModel]
     rounds: Iterator[list[list[Candidate]]]
     best: dict[str, Sighting]
+    waiting: list[tuple[MarkerModel, list[Candidate]]] = field(default_factory=list)
     images: int = 0
 
 
@@ -273,21 +276,22 @@ class Tracker:
         )
 
     def _go_on(self, watch: _Watch) -> bool:
-        """One more round of a search; False when there is none."""
-        candidates = next(watch.rounds, None)
-        self._stages.end("candidates")
-        if candidates is None:
-            return False
-        for model, own in zip(watch.models, candidates, strict=True):
-            if worth_of(watch.best[model.name]) <= CERTAIN_WORTH:
-                found = self._search_one(watch.pixels, model, own)
-                watch.best[model.name] = max(watch.best[model.name], found, key=worth_of)
+        """A part of a search: a round's candidates, or a look at those of one model; False at the end."""
+        if not watch.waiting:
+            candidates = next(watch.rounds, None)
+            self._stages.end("candidates")
+            watch.waiting = [pair for pair in zip(watch.models, candidates or [], strict=False) if pair[1]]
+            return candidates is not None
+        model, own = watch.waiting.pop(0)
+        if worth_of(watch.best[model.name]) <= CERTAIN_WORTH:
+            found = self._search_one(watch.pixels, model, own)
+            watch.best[model.name] = max(watch.best[model.name], found, key=worth_of)
         return True
 
     def _look_out_for(self, pixels: Pixels, models: list[MarkerModel]) -> dict[str, Sighting]:
         """What can be said of markers out of view for a part of the cost of a search.
 
-        An image is searched round after round while others pass. What is found in it has come into view: only
+        An image is searched part after part while others pass. What is found in it has come into view: only
         then the image at hand is searched as a whole.
         """
         if not models:
@@ -297,8 +301,9 @@ class Tracker:
             # The caller may write the next image into the same memory.
             self._watch = self._watch_of(replace(pixels, image=pixels.image.copy()), models)
         watch = self._watch
-        is_over = watch.images % IMAGES_A_ROUND == 0 and not self._go_on(watch)
+        is_turn = SEARCHED_IMAGES * watch.images % OF_IMAGES < SEARCHED_IMAGES
         watch.images += 1
+        is_over = is_turn and not self._go_on(watch)
         if is_over:
             self._keep_unseen(watch.best)
         said: dict[str, Sighting] = {model.name: self._unseen[model.name] for model in models}
