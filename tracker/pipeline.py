@@ -126,7 +126,7 @@ class Tracker:
         """Run the loops of a search once: they are made, or read, when they are first called."""
         image = practice_image(self.models[0].square, size_wh_px=self.camera.size_wh_px)
         self._search(self._pixels(image), self.models[:1])
-        for _ in candidate_rounds(image, self._templates[:1]):
+        for _ in candidate_rounds(image, self._templates[[0]]):
             pass
 
     def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
