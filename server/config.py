@@ -88,6 +88,7 @@ class TrackerConfig(Section):
     accept_score_ratio: Ratio = 0.7
     accept_target_score_ratio: Ratio = 0.55
     accept_inner_coverage_ratio: Ratio = 0.6
+    explained_share: Ratio = 0.6
     fit_error_weight: Ratio = 0.25
 
 

@@ -18,7 +18,5 @@ def compiled(function: Function) -> Function:
     """The same function as machine code. `tracker.warm_up` calls each one, so that none is compiled later."""
     return cast(
         "Function",
-        numba.njit(
-            cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "arcp", "nsz"}
-        )(function),
+        numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})(function),
     )

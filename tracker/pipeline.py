@@ -18,7 +18,6 @@ from tracker.marker import (
     MarkerModel,
     ScoreSettings,
     candidate_rounds,
-    contradiction_of,
     practice_image,
     refuse_alike,
     templates_of,
@@ -27,6 +26,7 @@ from tracker.pose import (
     FoundBy,
     Pixels,
     Prior,
+    Scene,
     Seen,
     Sighting,
     Unseen,
@@ -35,10 +35,8 @@ from tracker.pose import (
     occurrence_near,
     one_for_each_place,
     pose_from_corners,
-    side_px_of,
     window_around,
     with_target,
-    with_whole_shape,
     worth_of,
 )
 from tracker.regions import noise_grey
@@ -49,8 +47,6 @@ SEARCH_REACH_PX = 2.5
 # A hand in theatre moves the marker by a few pixels from image to image; prediction takes most of it.
 TRACK_REACH_PX = 6.0
 MOST_FITS = 4
-# Other squares reach 0.89 at 16 px. On wider markers bent paper leaves as much unexplained as another shape.
-LEAST_LIKENESS_ALONE, WIDE_PX, WHOLE_COVERAGE_RATIO = 0.9, 36.0, 0.85
 # Seen (2), with score and target score of 0.9 on average.
 CERTAIN_WORTH = 3.8
 PIXELS_FOR_NOISE = 125_000
@@ -229,34 +225,19 @@ class Tracker:
         if found is None:
             return None
         found = with_target(self.camera, model, gradient, edgels_of(gradient), found)
-        sighting = judged(found, self.settings, model=model, image=part, gradient=gradient, found_by=found_by)
         self._stages.end("score")
-        return self._exact(pixels, model, sighting, expected)
-
-    def _exact(
-        self,
-        pixels: Pixels,
-        model: MarkerModel,
-        sighting: Sighting,
-        expected: Rigid[Camera, Marker] | None,
-    ) -> Sighting:
-        """What is seen, as exactly as the pixels hold it."""
-        if not isinstance(sighting, Seen):
-            return sighting
-        exact, told = with_whole_shape(self.camera, model, pixels, sighting, expected=expected)
-        self._stages.end("whole")
-        # What was seen in the image before is known to be the marker. What is found anew and small, or partly
-        # hidden, must look like it pixel by pixel, or else, through smear, field by field.
-        if told or exact.found_by == "track" or self._alike(pixels, model, exact):
-            return exact
-        return Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=exact.score_ratio)
-
-    def _alike(self, pixels: Pixels, model: MarkerModel, seen: Seen) -> bool:
-        side = side_px_of(seen.corners_px)
-        if side > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO:
-            return True
-        compared = contradiction_of(pixels.image, model.square, seen.corners_px, side_px=side)
-        return compared.likeness >= LEAST_LIKENESS_ALONE
+        scene = Scene(
+            camera=self.camera,
+            model=model,
+            pixels=pixels,
+            window=part,
+            gradient=gradient,
+            settings=self.settings,
+            expected=expected,
+        )
+        sighting = judged(scene, found)
+        self._stages.end("judgement")
+        return sighting
 
     def _search(self, pixels: Pixels, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
         watch = self._watch_of(pixels, models)

@@ -3,7 +3,8 @@
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.marker import MarkerModel, candidate_rounds, templates_of
+from tracker.edges import GreyImage
+from tracker.marker import MarkerModel, candidate_rounds, explanation_of, templates_of
 from tracker.pipeline import Tracker
 
 SIDE_PX = 64
@@ -25,6 +26,7 @@ def warm_up() -> None:
     model = MarkerModel.from_image(marker, side_mm=25.0, name="warm-up")
     tracker = Tracker(camera=camera, models=[model])
     tracker.search(image)
+    _explain(model, image)
     # A search stops at the first round that finds it; here every round must run, with more outlines than
     # are looked at closely.
     image[150:230, 20:300] = np.tile(np.kron([[200, 200], [200, 20]], np.ones((10, 10))), (4, 14))
@@ -32,6 +34,15 @@ def warm_up() -> None:
         pass
     for at_s in (0.0, 0.03, 0.06):
         tracker.step(image, captured_at_s=at_s)
+
+
+def _explain(model: MarkerModel, image: GreyImage) -> None:
+    """Ask what explains a square that no light explains: half in shadow, with a spot of full brightness."""
+    lit = image.astype(np.float64) * np.where(np.arange(image.shape[1]) < LEFT_PX + 0.6 * SIDE_PX, 1.0, 0.4)
+    lit[TOP_PX + 2 : TOP_PX + 14, LEFT_PX + 20 : LEFT_PX + 44] = 255.0
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * SIDE_PX
+    corners += np.array([LEFT_PX - 0.5, TOP_PX - 0.5])
+    explanation_of(np.rint(lit).astype(np.uint8), model.square, corners, side_px=float(SIDE_PX))
 
 
 if __name__ == "__main__":

@@ -73,14 +73,14 @@ def test_poses_are_as_near_to_the_truth_as_they_have_been(measured: Offline) -> 
 
 
 def test_every_stage_of_both_ways_is_timed(measured: Offline) -> None:
-    assert set(measured.timed[1].step_stage_ms) == {"grey", "gradient", "fit", "score", "whole"}
+    assert set(measured.timed[1].step_stage_ms) == {"grey", "gradient", "fit", "score", "judgement"}
     assert set(measured.timed[0].search_stage_ms) >= {
         "grey",
         "gradient",
         "candidates",
         "fit",
         "score",
-        "whole",
+        "judgement",
     }
 
 

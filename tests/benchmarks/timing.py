@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from tests.benchmarks.offline import Timed
 from tests.benchmarks.tables import Table, median, number, pair
 
-STAGES = ("grey", "gradient", "candidates", "fit", "score", "whole")
+STAGES = ("grey", "gradient", "candidates", "fit", "score", "judgement")
 
 
 def stage_table(title: str, timed: Sequence[Timed]) -> Table:

@@ -25,14 +25,17 @@ MOST_MOVE_PX = 0.7
 CUT = 4.0
 # Where the picture is this much flatter than at its steepest a pixel says little of the pose: few are enough.
 LEAST_SLOPE_RATIO, FLAT_STRIDE = 0.12, 10
-# So many pixels bring a pose near; all of them then make it exact.
-FEW_PIXELS = 200
+# So many pixels bring a pose near, some more nearer; all of them then make it exact.
+FEW_PIXELS, SOME_PIXELS = 200, 800
+# A fit is at its end when a step promises less, in units of the residuals' variance. From near its end, by
+# some of the pixels, a longer straight step may end it.
+SETTLED_SD2, STRAIGHT_SD2 = 0.04, 5.0
 # The other planar solution is let go when those few pixels speak against it by so much.
 OUT_OF_QUESTION_SD2 = 30.0
 MOST_PIXELS = 30_000
 # Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide, a highlight
-# less. Small markers have not the pixels for a fine one.
-NODES, NODES_SMALL, SMALL_PX = 10, 6, 45.0
+# less.
+NODES = 10
 # What even light leaves unexplained, in units of the noise and of the contrast, before light may vary.
 EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
 # Light varies where that explains this much more; a compressed picture's blocks it does not explain.
@@ -54,7 +57,7 @@ class WholeFit:
         explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
         blur_px2: (3,), variances of the blur along u, along v, and between, in px of the image.
         response: bend of the camera's response, 0 where grey levels are proportional to light.
-        cost_sd2: robust sum of squared residuals in units of the smaller scale of both solutions.
+        cost_sd2: robust sum of squared residuals in units of the smaller scale of both; 0 of one alone.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -91,6 +94,7 @@ class Fitted:
     matrix: Array
     scale_grey: float
     explained_ratio: float
+    looked: tuple[Array, ...]
 
 
 def whole_fits(
@@ -119,7 +123,7 @@ def whole_fits(
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
     seen = _samples(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=focus)
-    few = _some(seen)
+    few = _some(seen, FEW_PIXELS)
     near = _in_question(few, [_near(few, start, focus) for start in starts])
     done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
     if not done:
@@ -128,12 +132,12 @@ def whole_fits(
         EVEN_LEAVES_NOISES * noise_grey,
         EVEN_LEAVES_CONTRAST_RATIO * float(typical_contrast(done[0].numbers, 0)),
     ):
-        nodes = NODES if side_px > SMALL_PX else NODES_SMALL
-        uneven = [one for one in (_in_uneven_light(seen, one, nodes) for one in done) if one is not None]
+        uneven = [one for one in (_in_uneven_light(seen, one) for one in done) if one is not None]
         if uneven and uneven[0].scale_grey < UNEVEN_LEAVES_RATIO * done[0].scale_grey:
             done = uneven
     scale = min(one.scale_grey for one in done)
-    return [_record(seen, one, scale) for one in done]
+    costs = [_cost(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
+    return [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
 
 
 def _samples(
@@ -168,9 +172,11 @@ def _samples(
     )
 
 
-def _some(seen: Samples) -> Samples:
-    """A few of the pixels, from everywhere."""
-    every = max(len(seen.values) // FEW_PIXELS, 1)
+def _some(seen: Samples, count: int) -> Samples:
+    """About so many of the pixels, from everywhere."""
+    every = max(len(seen.values) // count, 1)
+    if every == 1:
+        return seen
     return replace(
         seen,
         rays=np.ascontiguousarray(seen.rays[::every]),
@@ -192,28 +198,48 @@ def _near(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> Fitted
     """The pose near a start in even light, by a few pixels."""
     numbers = np.zeros(EVEN)
     numbers[BLUR : BLUR + 3] = blur_px2
-    return _from(few, start.rotation, start.translation_mm, numbers, nodes=0, scale_grey=0.0)
+    return _from(few, start.rotation, start.translation_mm, numbers, nodes=0)
 
 
 def _at_all(seen: Samples, near: Fitted) -> Fitted | None:
     """The same by all pixels."""
+    some = _some(seen, SOME_PIXELS)
+    nearer = near if some is seen else _on(some, near)
+    return None if nearer is None else _on(seen, nearer)
+
+
+def _on(seen: Samples, near: Fitted) -> Fitted | None:
+    """The same from near its end."""
     return _from(
-        seen, near.rotation, near.translation_mm, near.numbers, nodes=near.nodes, scale_grey=near.scale_grey
+        seen,
+        near.rotation,
+        near.translation_mm,
+        near.numbers,
+        nodes=near.nodes,
+        scale_grey=near.scale_grey,
+        settled=STRAIGHT_SD2,
     )
 
 
-def _in_uneven_light(seen: Samples, even: Fitted, nodes: int) -> Fitted | None:
+def _in_uneven_light(seen: Samples, even: Fitted) -> Fitted | None:
     """The same pose where light may vary over the marker."""
-    numbers = np.zeros(LIGHT + 2 * nodes * nodes)
-    nodes_of_plane(even.numbers, nodes, numbers)
-    return _from(seen, even.rotation, even.translation_mm, numbers, nodes=nodes, scale_grey=0.0)
+    numbers = np.zeros(LIGHT + 2 * NODES * NODES)
+    nodes_of_plane(even.numbers, NODES, numbers)
+    return _from(seen, even.rotation, even.translation_mm, numbers, nodes=NODES, settled=STRAIGHT_SD2)
 
 
 def _from(
-    seen: Samples, rotation: Array, translation_mm: Array, numbers: Array, *, nodes: int, scale_grey: float
+    seen: Samples,
+    rotation: Array,
+    translation_mm: Array,
+    numbers: Array,
+    *,
+    nodes: int,
+    scale_grey: float = 0.0,
+    settled: float = SETTLED_SD2,
 ) -> Fitted | None:
     rotation, translation_mm, numbers = rotation.copy(), translation_mm.copy(), numbers.copy()
-    matrix, scale, weight, good = whole_fit(
+    matrix, scale, weight, good, looked = whole_fit(
         seen.rays,
         seen.values,
         seen.lens,
@@ -228,6 +254,7 @@ def _from(
         ROUNDS,
         CUT,
         MOST_MOVE_PX * seen.step,
+        settled,
     )
     if not good:
         return None
@@ -239,6 +266,7 @@ def _from(
         matrix=matrix,
         scale_grey=float(scale),
         explained_ratio=float(weight),
+        looked=looked,
     )
 
 
@@ -260,19 +288,14 @@ def _cost(seen: Samples, one: Fitted, scale_grey: float) -> float:
     )
 
 
-def _record(seen: Samples, one: Fitted, scale_of_all: float) -> WholeFit:
+def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit:
     size = np.sqrt(np.diag(one.matrix))
     inverse = np.linalg.inv(one.matrix / np.outer(size, size)) / np.outer(size, size)
     alone = inverse[:6, :6] * one.scale_grey**2
     together = scores_spread(
-        seen.rays,
         seen.values,
-        seen.lens,
-        one.rotation,
-        one.translation_mm,
-        seen.side_mm,
-        seen.textures.arrays,
-        one.numbers,
+        one.looked,
+        float(one.numbers[RESPONSE]),
         one.nodes,
         one.scale_grey,
         CUT,
@@ -290,5 +313,5 @@ def _record(seen: Samples, one: Fitted, scale_of_all: float) -> WholeFit:
         explained_ratio=one.explained_ratio,
         blur_px2=one.numbers[BLUR : BLUR + 3].copy(),
         response=float(one.numbers[RESPONSE]),
-        cost_sd2=_cost(seen, one, scale_of_all),
+        cost_sd2=cost_sd2,
     )

@@ -18,9 +18,7 @@ from tracker.appearance.picture.kernels import predict
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive, turn_by
 
-# A step that changes what it changes by less than a fifth of its standard deviation ends the fit.
-SETTLED_SD2 = 0.04
-# Nor does one that lowers the cost by less: the step before it was within a standard deviation already.
+# A step that lowered the cost by less was within a standard deviation, and the next is within a tenth.
 SETTLED_COST_SD2 = 0.3
 LEAST_ANSWER_RATIO = 0.3
 
@@ -86,19 +84,21 @@ def _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px):
 @compiled
 def whole_fit(
     rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, least_blur, rounds, cut,
-    most_px
+    most_px, settled
 ):  # fmt: skip
     """Fit pose, blur, response and light to the pixels, in place, by damped Gauss-Newton.
 
     `numbers`: of blur, response and light, in and out; (16,) with 0 nodes, else (10 + 2 nodes^2,). `scale` of
-    the residuals in grey levels, as far as it is known; where it is 0, even light is found first too.
-    Returns the matrix at the end with what is known beforehand in it, the scale, the mean weight, and whether
-    it is a fit.
+    the residuals in grey levels, as far as it is known; where it is 0, even light is found first too. A step
+    that promises to lower the cost by less than `settled`, in units of the residuals' variance, is the last.
+    Returns the matrix at the end with what is known beforehand in it, the scale, the mean weight, whether it
+    is a fit, and what the pixels saw when last looked at: `rows`, `at`, `lit` and `own`.
     """
     n, count = len(values), len(numbers)
     rows, at, lit, own = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
+    seen = (rows, at, lit, own)
     a, g, step = np.zeros((count, count)), np.zeros(count), np.zeros(count)
-    failed = (a, 0.0, 0.0, False)
+    failed = (a, 0.0, 0.0, False, seen)
     blur = numbers[BLUR : BLUR + 3]
     if n < 2 * EVEN or not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
         return failed
@@ -118,13 +118,11 @@ def whole_fit(
         if share == 0.0:
             return failed
         old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
-        if gain < SETTLED_SD2 * scale * scale and share == 1.0:
-            _advance(rotation, translation, numbers, step, share, least_blur)
+        facing = _advance(rotation, translation, numbers, step, share, least_blur)
+        if facing and gain < settled * scale * scale and share == 1.0:
             break
         new_cost, new_total = np.inf, 0.0
-        if _advance(rotation, translation, numbers, step, share, least_blur) and predict(
-            rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True
-        ):
+        if facing and predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
             new_cost, new_total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
         fallen = (cost - new_cost) / (scale * scale)
         if not fallen >= 0.0:
@@ -143,7 +141,7 @@ def whole_fit(
             scale = typical
             trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
             cost, total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
-    return a, scale, total / own.sum(), True
+    return a, scale, total / own.sum(), True, seen
 
 
 @compiled
@@ -165,35 +163,28 @@ def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers
 
 
 @compiled
-def scores_spread(
-    rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, cut, inverse, blocks
-):  # fmt: skip
+def scores_spread(values, seen, response, nodes, scale, cut, inverse, blocks):
     """The covariance (6, 6) of the pose that the residuals themselves show, neighbours taken together.
 
-    `inverse`: (6, numbers), the pose's rows of the inverse of the fit's matrix. Residuals of one of
-    blocks x blocks parts of the marker may err alike; those of two parts do not.
+    `seen`: of `whole_fit`. `inverse`: (6, numbers), the pose's rows of the inverse of the fit's matrix.
+    Residuals of one of blocks x blocks parts of the marker may err alike; those of two parts do not.
     """
+    rows, at, lit, own = seen
     n = len(values)
-    rows, at, lit, own = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
-    moved, seen = np.zeros((blocks * blocks, 6)), np.zeros(blocks * blocks)
+    moved, there = np.zeros((blocks * blocks, 6)), np.zeros(blocks * blocks)
     spread = np.zeros((6, 6))
-    blur = numbers[BLUR : BLUR + 3]
-    if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
-        return spread
-    light_up(at, numbers, nodes, lit)
-    trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
     row, index, weight = np.empty(LIGHT), np.empty(AROUND, np.int64), np.empty(AROUND)
     unit, both = 1.0 / (cut * scale) ** 2, nodes * nodes
     weights, stiffness = 0.0, 0.0
     for i in range(n):
-        shaped, r, w, _ = weighed_pixel(rows, i, values[i], lit, numbers[RESPONSE], own, unit, row)
+        shaped, r, w, _ = weighed_pixel(rows, i, values[i], lit, response, own, unit, row)
         z = r * r * own[i] * unit
         weights += w
         stiffness += own[i] * (1.0 - 3.0 * z) / (1.0 + z) ** 3
         c = min(max(int((at[i, 0] + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
         b = min(max(int((at[i, 1] + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
         block = b * blocks + c
-        seen[block] = 1.0
+        there[block] = 1.0
         if nodes > 0:
             cell_of(at[i, 0], at[i, 1], nodes, index, weight)
         for m in range(6):
@@ -211,7 +202,7 @@ def scores_spread(
                     at_node = LIGHT + index[k]
                     one += weight[k] * (inverse[m, at_node] + shaped * inverse[m, both + at_node])
             moved[block, m] += one * w * r
-    count = seen.sum()
+    count = there.sum()
     for block in range(blocks * blocks):
         for m in range(6):
             for k in range(6):

@@ -1,6 +1,6 @@
 """Edges: gradient, edgels placed to sub-pixel, chains and their straight pieces."""
 
-from tracker.edges.chains import Chains, chains_of, joined_segments, segments_of
+from tracker.edges.chains import Chains, chains_of, joined_segments, segments_of, straight_pieces
 from tracker.edges.edgels import Edgels, edgels_of
 from tracker.edges.gradient import Gradient, GreyImage, gradient_of
 
@@ -14,4 +14,5 @@ __all__ = [
     "gradient_of",
     "joined_segments",
     "segments_of",
+    "straight_pieces",
 ]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from tracker.edges.edgels import Edgels, Int32
+from tracker.edges.edgels import Edgels, Float32, Int32
 from tracker.edges.kernels import cut_straight, join_collinear, link, walk
 
 # Walked along a chain, the dark side is on the right hand. So the outline of a dark square is walked
@@ -42,15 +42,21 @@ def chains_of(edgels: Edgels) -> Chains:
 
 def segments_of(edgels: Edgels, chains: Chains, *, least_length_px: float) -> npt.NDArray[np.float32]:
     """Straight pieces (s, 4) of the chains: start x, y and end x, y, dark side on the right hand."""
-    pieces = cut_straight(
-        edgels.x,
-        edgels.y,
-        chains.order,
-        chains.starts,
-        np.float32(STRAIGHT_TOLERANCE_PX),
-        np.float32(least_length_px),
-    )
-    return np.asarray(pieces, dtype=np.float32)
+    off, least = np.float32(STRAIGHT_TOLERANCE_PX), np.float32(least_length_px)
+    return np.asarray(cut_straight(edgels.x, edgels.y, chains.order, chains.starts, off, least), np.float32)
+
+
+def straight_pieces(
+    x: Float32, y: Float32, starts: Int32, *, off_px: float, least_length_px: float
+) -> npt.NDArray[np.float32]:
+    """Straight pieces (s, 4) of lines of points x, y (n,) that start at `starts`, and several joined to one.
+
+    No point is off a piece by more than `off_px`.
+    """
+    order = np.arange(len(x), dtype=np.int32)
+    pieces = cut_straight(x, y, order, starts, np.float32(off_px), np.float32(least_length_px))
+    pieces = np.asarray(pieces, dtype=np.float32)
+    return np.concatenate([pieces, joined_segments(pieces)])
 
 
 def joined_segments(segments: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:

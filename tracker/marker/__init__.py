@@ -1,9 +1,8 @@
 """The marker: its model and active edges, its occurrences in an image, and their scores."""
 
 from tracker.marker.active_edges import ActiveEdges
-from tracker.marker.contradiction import Contradiction, contradiction_of
-from tracker.marker.explanation import Explanation, explanation_of
-from tracker.marker.glance import templates_of
+from tracker.marker.explanation import Contradiction, Explanation, contradiction_of, explanation_of
+from tracker.marker.looks import Templates, templates_of
 from tracker.marker.model import MarkerModel, refuse_alike
 from tracker.marker.practice import practice_image
 from tracker.marker.score import (
@@ -24,6 +23,7 @@ __all__ = [
     "Explanation",
     "MarkerModel",
     "ScoreSettings",
+    "Templates",
     "candidate_rounds",
     "contradiction_of",
     "edge_crossings",

@@ -26,12 +26,15 @@ class ScoreSettings:
         accept_target_score_ratio: least target score, 0..1.
         accept_inner_coverage_ratio: least coverage of the edges inside the square alone, 0..1: the outline
             is what all square markers share, the inside is what makes this one unique.
+        explained_share: what part of the least score and least inner coverage is enough where blur, light
+            and covers explain every pixel, 0..1; 1 asks the same of all.
         fit_error_weight: the paper's fit error weighing factor, here on the normalised fit error, 0..1.
     """
 
     accept_score_ratio: float = 0.7
     accept_target_score_ratio: float = 0.55
     accept_inner_coverage_ratio: float = 0.6
+    explained_share: float = 0.6
     fit_error_weight: float = 0.25
 
     def __post_init__(self) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import cv2
@@ -10,14 +11,30 @@ import numpy.typing as npt
 
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
-from tracker.marker.glance import glance, glance_past_cover, likely, nudged
+from tracker.marker.looks import (
+    Template,
+    Templates,
+    glance,
+    glance_past_cover,
+    likely,
+    looked_closer,
+)
+from tracker.marker.looks.kernels import distinct
 from tracker.outlines import Quads, corner_quads_of
-from tracker.regions import dark_mask, even_image, noise_grey, quads_of_mask
+from tracker.regions import (
+    Regions,
+    border_segments,
+    dark_mask,
+    even_image,
+    noise_grey,
+    quads_of,
+    regions_of_mask,
+)
 
 # An image over a megapixel is first looked at at half its size.
 MOST_PIXELS_AT_ONCE = 1_000_000
 LEAST_LEVEL_PX = 12
-# At a glance (cells of a twelfth of the side, corners off by a pixel or two) a marker in sight has 0.8 to 1.
+# At a closer look a marker in sight has 0.8 to 1.
 LEAST_LIKENESS = 0.76
 MOST_CANDIDATES = 4
 # Two outlines nearer than this at all corners are one.
@@ -27,9 +44,14 @@ LEAST_PIECE_PX = 4.0
 NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
 # Of many models each has its share, so that they cost little more than one.
-MOST_PEEKED, LEAST_PEEKED = 100, 40
-MOST_NUDGED, LEAST_NUDGED = 8, 4
-NUDGES = (0.07, 0.035)
+MOST_PEEKED, LEAST_PEEKED = 60, 40
+MOST_CLOSER, LEAST_CLOSER = 24, 8
+# Of four sides, where they are is known better than of two.
+MOST_CLOSER_OF_FOUR = 8
+# Where one outline is as like as this, those that are so far behind are not it.
+SURE_LIKENESS, FAR_BEHIND = 0.94, 0.08
+# An outline is looked at closely at the level where it is no wider than this: a cell is a pixel or two.
+CLOSER_SIDE_PX = 32.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +67,7 @@ class Candidate:
     likeness: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Level:
     """The image at a half, a quarter of its size, or as it is.
 
@@ -59,13 +81,42 @@ class Level:
     scale: int
     noise_grey: float
 
+    @cached_property
+    def soft(self) -> GreyImage:
+        """The image in even light and a little soft: for a peek."""
+        even = even_image(self.image, window_px=WINDOW_PX, noise_grey=self.noise_grey)
+        return np.asarray(cv2.blur(even, (3, 3)), dtype=np.uint8)
+
     def full_px(self, quads: Quads) -> Quads:
         """Points of this level in px of the whole image."""
         return np.asarray(quads * np.float32(self.scale) + np.float32(0.5 * (self.scale - 1)), np.float32)
 
+    def own_px(self, quads: Quads) -> Quads:
+        """Points of the whole image in px of this level."""
+        return np.asarray((quads - np.float32(0.5 * (self.scale - 1))) / np.float32(self.scale), np.float32)
 
-def candidate_rounds(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[list[list[Candidate]]]:
-    """For each model (m, ...) of the templates its next candidates, the likeliest first, at rising cost.
+
+class Levels:
+    """The image at falling sizes, each made when it is asked for."""
+
+    def __init__(self, first: Level) -> None:
+        self._made = [first]
+
+    def __getitem__(self, k: int) -> Level:
+        while len(self._made) <= k:
+            self._made.append(halved(self._made[-1]))
+        return self._made[k]
+
+    def for_side(self, side_px: float) -> int:
+        """At which level a side of so many px of the whole image is looked at closely."""
+        k, least = 0, 2 * LEAST_LEVEL_PX
+        while side_px > CLOSER_SIDE_PX * self[k].scale and min(self[k].image.shape) >= least:
+            k += 1
+        return k
+
+
+def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[list[Candidate]]]:
+    """For each model (m) of the templates its next candidates, the likeliest first, at rising cost.
 
     The first round finds a marker that stands free in ordinary light; the later ones are for what is blurred,
     partly covered, in the dark, small. Who has found its marker stops asking.
@@ -74,40 +125,47 @@ def candidate_rounds(image: GreyImage, templates: npt.NDArray[np.float32]) -> It
         image: grey (h, w).
         templates: as `templates_of` makes them.
     """
-    given: list[list[Candidate]] = [[] for _ in range(len(templates))]
-    for level, quads, likeness in _looks(image, templates):
-        full = level.full_px(quads)
-        fresh = [_best(full, likeness[:, m], known) for m, known in enumerate(given)]
-        for known, new in zip(given, fresh, strict=True):
-            known.extend(new)
+    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
+        return
+    given = [np.empty((0, 4, 2), np.float32) for _ in templates.each]
+    levels = Levels(first_level(image))
+    for level, quads, likeness, most in _looks(image, levels, templates):
+        fresh: list[list[Candidate]] = []
+        for m, template in enumerate(templates.each):
+            turned = _top(level.full_px(quads), likeness[:, m], most)
+            closer, alike = _closer(levels, turned, template)
+            order = np.argsort(-alike, kind="stable")
+            best = distinct(
+                closer, alike, order, given[m], MOST_CANDIDATES, LEAST_LIKENESS, SAME_OUTLINE_SIDE_RATIO
+            )
+            given[m] = np.concatenate([given[m], closer[best]])
+            fresh.append([_candidate(closer[k], alike[k]) for k in best])
         yield fresh
 
 
-Look: TypeAlias = tuple[Level, Quads, npt.NDArray[np.float32]]
+def _candidate(corners_px: npt.NDArray[np.float32], likeness: np.float32) -> Candidate:
+    return Candidate(corners_px=corners_px.astype(np.float64), likeness=float(likeness))
 
 
-def _looks(image: GreyImage, templates: npt.NDArray[np.float32]) -> Iterator[Look]:
-    """Outlines (q, 4, 2) in px of a level and their likeness (q, m, 4), look after look."""
-    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
-        return
-    level = first_level(image)
-    dark = _by_darkness(level)
-    yield level, dark, glance(level.image, dark, templates)
-    if min(level.image.shape) < 2 * LEAST_LEVEL_PX:
-        yield _at_corners(level, _edge_segments(level.image), templates)
-        return
-    yield _at_corners(level, _edge_segments(level.image), templates)
-    half = halved(level)
-    dark = _by_darkness(half)
-    yield half, dark, glance(half.image, dark, templates)
+Look: TypeAlias = tuple[Level, Quads, npt.NDArray[np.float32], int]
+
+
+def _looks(image: GreyImage, levels: Levels, templates: Templates) -> Iterator[Look]:
+    """Outlines (q, 4, 2) in px of a level, their likeness (q, m, 4), how many to look at, look after look."""
+    level = levels[0]
+    regions = _regions(level)
+    yield _of_four_sides(level, regions, templates)
+    yield _at_corners(level, border_segments(regions), templates)
+    if min(level.image.shape) >= 2 * LEAST_LEVEL_PX:
+        half = levels[1]
+        regions = _regions(half)
+        yield _of_four_sides(half, regions, templates)
+        yield _at_corners(half, _edge_segments(half.image, LEAST_PIECE_PX), templates)
+    yield _at_corners(level, _edge_segments(level.image, LEAST_PIECE_PX), templates)
     if level.scale > 1:
         # What is small in a large image.
         whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
-        dark = _by_darkness(whole)
-        yield whole, dark, glance(whole.image, dark, templates)
-    both = np.concatenate([_edge_segments(half.image), _dark_segments(half)])
-    yield _at_corners(half, both, templates)
-    yield _at_corners(level, _dark_segments(level), templates)
+        yield _of_four_sides(whole, _regions(whole), templates)
 
 
 def first_level(image: GreyImage) -> Level:
@@ -126,63 +184,51 @@ def halved(level: Level) -> Level:
     return Level(image=half, scale=2 * level.scale, noise_grey=noise_grey(half))
 
 
-def _by_darkness(level: Level) -> Quads:
-    return quads_of_mask(_dark_mask(level))
-
-
-def _dark_mask(level: Level) -> npt.NDArray[np.uint8]:
+def _regions(level: Level) -> Regions:
     darker = max(NOISE_SDS * level.noise_grey, LEAST_DARKER_GREY)
-    return dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker)
+    return regions_of_mask(dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker))
 
 
-def _edge_segments(image: GreyImage) -> npt.NDArray[np.float32]:
+def _of_four_sides(level: Level, regions: Regions, templates: Templates) -> Look:
+    """Outlines that dark regions fill."""
+    quads = quads_of(regions)
+    return level, quads, glance(level.image, quads, templates), MOST_CLOSER_OF_FOUR
+
+
+def _edge_segments(image: GreyImage, least_px: float) -> npt.NDArray[np.float32]:
     edgels = edgels_of(gradient_of(image))
-    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_PIECE_PX)
+    pieces = segments_of(edgels, chains_of(edgels), least_length_px=least_px)
     return np.concatenate([pieces, joined_segments(pieces)])
 
 
-def _dark_segments(level: Level) -> npt.NDArray[np.float32]:
-    """The straight pieces of the dark regions' outlines: they stand where edges are too faint to follow."""
-    light = cv2.blur(cv2.bitwise_not(_dark_mask(level)), (3, 3))
-    return _edge_segments(np.asarray(light, dtype=np.uint8))
-
-
-def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: npt.NDArray[np.float32]) -> Look:
+def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Templates) -> Look:
     """Outlines of which a corner is seen, and of the rest as much as is not covered."""
     step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
     corners = corner_quads_of(level.image, segments, least_step_grey=step)
-    even = even_image(level.image, window_px=WINDOW_PX, noise_grey=level.noise_grey)
     most = max(MOST_PEEKED // len(templates), LEAST_PEEKED)
-    quads = likely(even, corners, templates, most=most)
+    quads = likely(level.soft, corners, templates, most=most)
     likeness = glance_past_cover(level.image, quads, templates)
-    # The best ones are moved until they sit.
-    for share in NUDGES:
-        quads = nudged(_top(quads, likeness), share)
-        likeness = glance_past_cover(level.image, quads, templates)
-    return level, quads, likeness
+    return level, quads, likeness, max(MOST_CLOSER // len(templates), LEAST_CLOSER)
 
 
-def _top(quads: Quads, likeness: npt.NDArray[np.float32]) -> Quads:
-    """The likeliest outlines of each model."""
-    most = max(MOST_NUDGED // likeness.shape[1], LEAST_NUDGED)
-    if len(quads) <= most:
-        return quads
-    best = np.argpartition(-likeness.max(axis=2), most, axis=0)[:most]
-    return quads[np.unique(best)]
+def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int) -> Quads:
+    """The likeliest outlines and turns (q, 4), each with the model's own first corner first."""
+    flat = likeness.ravel()
+    best = np.argpartition(-flat, most)[:most] if len(flat) > most else np.arange(len(flat))
+    if len(best) and flat[best].max() > SURE_LIKENESS:
+        best = best[flat[best] > flat[best].max() - FAR_BEHIND]
+    q, turn = np.divmod(best, 4)
+    corner = (np.arange(4) - turn[:, None]) % 4
+    return np.ascontiguousarray(quads[q[:, None], corner])
 
 
-def _best(quads: Quads, likeness: npt.NDArray[np.float32], known: list[Candidate]) -> list[Candidate]:
-    """The likeliest outlines and turns (q, 4) that are not known yet, each once."""
-    order = np.argsort(-likeness, axis=None, kind="stable")
-    best: list[Candidate] = []
-    for flat in order[: 8 * MOST_CANDIDATES]:
-        q, turn = divmod(int(flat), 4)
-        worth = float(likeness[q, turn])
-        if worth < LEAST_LIKENESS or len(best) >= MOST_CANDIDATES:
-            break
-        corners = np.roll(quads[q].astype(np.float64), turn, axis=0)
-        same = SAME_OUTLINE_SIDE_RATIO * float(np.linalg.norm(np.diff(corners, axis=0), axis=1).mean())
-        others = (*known, *best)
-        if all(float(np.abs(corners - other.corners_px).max()) > max(same, 1.0) for other in others):
-            best.append(Candidate(corners_px=corners, likeness=worth))
-    return best
+def _closer(levels: Levels, quads: Quads, template: Template) -> tuple[Quads, npt.NDArray[np.float32]]:
+    """Outlines moved to where they fit, all in px of the whole image, and how like the model each is."""
+    sides = np.linalg.norm(np.diff(quads, axis=1), axis=2).mean(axis=1)
+    which = np.array([levels.for_side(float(side)) for side in sides], dtype=int)
+    found, alike = quads.copy(), np.zeros(len(quads), np.float32)
+    for k in np.unique(which):
+        own = which == k
+        moved, alike[own] = looked_closer(levels[k].image, levels[k].own_px(quads[own]), template)
+        found[own] = levels[k].full_px(moved)
+    return found, alike

@@ -1,6 +1,7 @@
 """From the marker's edges to its pose, and to the tool behind it."""
 
-from tracker.pose.occurrence import Occurrence, judged, occurrence_near, side_px_of, with_target
+from tracker.pose.judgement import Scene, judged
+from tracker.pose.occurrence import Occurrence, occurrence_near, side_px_of, with_target
 from tracker.pose.places import one_for_each_place, worth_of
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.prior import Prior
@@ -8,7 +9,7 @@ from tracker.pose.refinement import Fit, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.steady import Steady, SteadyPose, SteadySettings
 from tracker.pose.tool import ToolModel
-from tracker.pose.whole import Pixels, with_whole_shape
+from tracker.pose.whole import Pixels
 from tracker.pose.window import window_around
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "Occurrence",
     "Pixels",
     "Prior",
+    "Scene",
     "Seen",
     "Sighting",
     "Steady",
@@ -34,6 +36,5 @@ __all__ = [
     "side_px_of",
     "window_around",
     "with_target",
-    "with_whole_shape",
     "worth_of",
 ]

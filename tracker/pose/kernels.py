@@ -234,6 +234,57 @@ def mirror(rotation, translation, out):
 
 
 @compiled
+def fit_square(corners, half, rotation, translation, rounds):
+    """Move a pose, in place, to where a square's corners (4, 2) are on the normalised plane.
+
+    Corners in the order (-half, half), (half, half), (half, -half), (-half, -half). Returns the sum of the
+    squares that are left; infinite where it cannot be.
+    """
+    a, g, step, row = np.empty((6, 6)), np.empty(6), np.empty(6), np.empty(6)
+    damping, before = 1e-3, np.inf
+    old_rotation, old_translation = rotation.copy(), translation.copy()
+    for turn in range(rounds + 1):
+        a[:, :], g[:], left = 0.0, 0.0, 0.0
+        for k in range(4):
+            x = half if k in (1, 2) else -half
+            y = half if k < 2 else -half
+            ax = rotation[0, 0] * x + rotation[0, 1] * y
+            ay = rotation[1, 0] * x + rotation[1, 1] * y
+            az = rotation[2, 0] * x + rotation[2, 1] * y
+            z = az + translation[2]
+            if not z > 0.0:
+                left = np.inf
+                break
+            for axis in range(2):
+                at = ((ax if axis == 0 else ay) + translation[axis]) / z
+                r = corners[k, axis] - at
+                row[0], row[1], row[2] = (1 - axis) / z, axis / z, -at / z
+                row[3] = row[1] * -az + row[2] * ay
+                row[4] = row[0] * az - row[2] * ax
+                row[5] = row[1] * ax - row[0] * ay
+                left += r * r
+                for m in range(6):
+                    g[m] += r * row[m]
+                    for n in range(6):
+                        a[m, n] += row[m] * row[n]
+        if not left < before:
+            rotation[:, :], translation[:] = old_rotation, old_translation
+            return before
+        if turn == rounds or left > 0.999 * before:
+            return left
+        before, damping = left, 0.1 * damping
+        old_rotation[:, :], old_translation[:] = rotation, translation
+        for m in range(6):
+            a[m, m] *= 1.0 + damping
+        if not solve_positive(a, g, step):
+            return left
+        for m in range(3):
+            translation[m] += step[m]
+        turn_by(rotation, step[3:6])
+    return before
+
+
+@compiled
 def refine_both(
     gx, gy, left, top, lens, points, normals, strength, least, reaches, shift_sd,
     rotation, translation, most, least_px2, decided,
@@ -289,34 +340,3 @@ def refine_both(
             if slot not in (better, other):
                 free = slot
     return rotations, translations, matrices, numbers, better, other
-
-
-@compiled
-def turn_between(a, b):
-    """By how much one rotation (3, 3) is turned from another, 0..pi."""
-    # The product of a with b's transpose: its antisymmetric part is the sine, its trace the cosine.
-    x, y, z, trace = 0.0, 0.0, 0.0, 0.0
-    for k in range(3):
-        x += a[2, k] * b[1, k] - a[1, k] * b[2, k]
-        y += a[0, k] * b[2, k] - a[2, k] * b[0, k]
-        z += a[1, k] * b[0, k] - a[0, k] * b[1, k]
-        trace += a[0, k] * b[0, k] + a[1, k] * b[1, k] + a[2, k] * b[2, k]
-    return np.arctan2(0.5 * np.sqrt(x * x + y * y + z * z), 0.5 * (trace - 1.0))
-
-
-@compiled
-def pose_inverse(matrix):
-    """The pose's part (6, 6) of the inverse of Gauss-Newton's matrix (7, 7), and False where it has none."""
-    unit, column = np.zeros(PARAMETERS), np.empty(PARAMETERS)
-    inverse = np.empty((6, 6))
-    for k in range(6):
-        unit[:] = 0.0
-        unit[k] = 1.0
-        if not solve_positive(matrix, unit, column):
-            return inverse, False
-        for m in range(6):
-            inverse[m, k] = column[m]
-    for k in range(6):
-        for m in range(k):
-            inverse[m, k] = inverse[k, m] = 0.5 * (inverse[m, k] + inverse[k, m])
-    return inverse, True

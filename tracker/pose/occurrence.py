@@ -1,4 +1,4 @@
-"""One claimed occurrence of a marker: fitted, scored, and accepted or not."""
+"""One claimed occurrence of a marker: fitted to its edges, and scored."""
 
 from dataclasses import dataclass, replace
 from math import sqrt
@@ -6,21 +6,17 @@ from math import sqrt
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.edges import Edgels, Gradient, GreyImage
+from tracker.edges import Edgels, Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import (
     ActiveEdges,
     Agreement,
     MarkerModel,
-    ScoreSettings,
-    contradiction_of,
-    explanation_of,
     model_agreement,
     target_coverage_ratio,
 )
 from tracker.pose.corners import measured_corners_px
 from tracker.pose.refinement import Fit, projected_edges, refined_pose
-from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 
 # Before the fit, corners may be off by a pixel or two and edges therefore out of reach.
 WORTH_FITTING_COVERAGE = 0.3
@@ -33,6 +29,7 @@ class Occurrence:
     """A marker laid on the edges of an image.
 
     Attributes:
+        camera: that saw it.
         fit: the pose.
         corners_px: (4, 2), of the black square at that pose, through the lens.
         seen_corners_px: (4, 2), as the sides next to each show them.
@@ -41,6 +38,7 @@ class Occurrence:
         points_px: (n, 2), where they are at that pose; `normals_px` (n, 2) their unit normals.
     """
 
+    camera: CameraModel
     fit: Fit
     corners_px: Array
     seen_corners_px: Array
@@ -97,6 +95,7 @@ def occurrence_near(
         gradient, active, *projected, side_px=side_px_of(fitted), shift_px=fit.shift_px
     )
     return Occurrence(
+        camera=camera,
         fit=fit,
         corners_px=fitted,
         seen_corners_px=measured_corners_px(
@@ -133,65 +132,3 @@ def with_target(
         contrast=found.agreement.contrast,
     )
     return replace(found, agreement=replace(found.agreement, target_coverage_ratio=ratio))
-
-
-def _explained_corners_px(
-    image: GreyImage, model: MarkerModel, found: Occurrence, window: Array
-) -> Array | None:
-    """Corners (4, 2) where blur, uneven light or a cover make of the model what is seen; None if they do not.
-
-    `window` is the left top pixel (2,) of the image.
-    """
-    explanation = explanation_of(
-        image, model.square, found.corners_px - window, side_px=side_px_of(found.corners_px)
-    )
-    if explanation is None or not explanation.explains:
-        return None
-    return explanation.corners_px + window
-
-
-def judged(
-    found: Occurrence | None,
-    settings: ScoreSettings,
-    *,
-    model: MarkerModel,
-    image: GreyImage,
-    gradient: Gradient,
-    found_by: FoundBy,
-) -> Sighting:
-    """Seen if both scores are accepted and nothing inside contradicts, else the reason why not.
-
-    `image` is the window (h, w) that the gradient was taken of.
-    """
-    if found is None:
-        return Unseen(reason=UnseenReason.NO_CANDIDATE)
-    agreement = found.agreement
-    score, target = agreement.score_ratio(settings), agreement.target_score_ratio(settings)
-    if (
-        score < settings.accept_score_ratio
-        or agreement.inner_coverage_ratio < settings.accept_inner_coverage_ratio
-    ):
-        return Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=score)
-    if target < settings.accept_target_score_ratio:
-        return Unseen(reason=UnseenReason.TARGET_SCORE_TOO_LOW, best_score_ratio=score)
-    # Bent paper lies beside its flat pose. Another shape contradicts wherever its corners are taken to be.
-    window = np.array([gradient.left_px, gradient.top_px], dtype=np.float64)
-    plain = not all(
-        contradiction_of(image, model.square, corners - window, side_px=side_px_of(corners)).is_other_shape
-        for corners in (found.corners_px, found.seen_corners_px)
-    )
-    corners = found.seen_corners_px if plain else _explained_corners_px(image, model, found, window)
-    if corners is None:
-        return Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=score)
-    return Seen(
-        camera_from_marker=found.fit.camera_from_marker,
-        pose_covariance=found.fit.covariance,
-        corners_px=corners,
-        score_ratio=score,
-        target_score_ratio=target,
-        model_coverage_ratio=agreement.model_coverage_ratio,
-        target_coverage_ratio=agreement.target_coverage_ratio,
-        fit_error_px2=agreement.fit_error_px2,
-        found_by=found_by,
-        lead_sd2=found.fit.lead_sd2,
-    )

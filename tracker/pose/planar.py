@@ -5,36 +5,72 @@ import numpy as np
 
 from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.pose.kernels import mirror
+from tracker.pose.kernels import fit_square, mirror
+
+# The closed form is within a few pixels; each round squares what is left.
+FIT_ROUNDS = 6
 
 
 def pose_from_corners(
     camera: CameraModel, corners_px: Array, *, side_mm: float
 ) -> Rigid[Camera, Marker] | None:
-    """The pose that the homography of four corners (4, 2) gives; None when they are no square in front.
+    """The pose that four corners (4, 2) are seen of; None when they are no square in front.
 
-    Corners in the order top-left, top-right, bottom-right, bottom-left of the printed face.
+    Corners in the order top-left, top-right, bottom-right, bottom-left of the printed face. A small square
+    has next to no perspective: what there is of it in its corners is mostly their error, and a homography's
+    last row no measure of tilt. So the tilt is taken from how the middle is foreshortened, and both poses
+    that foreshorten so are fitted to the corners.
     """
     h = side_mm / 2.0
     plane = np.array([[-h, h], [h, h], [h, -h], [-h, -h]], dtype=np.float32)
-    image = camera.normalised_from_px(corners_px).astype(np.float32)
-    homography = np.asarray(cv2.getPerspectiveTransform(plane, image), dtype=np.float64)
+    corners = camera.normalised_from_px(corners_px)
+    homography = np.asarray(cv2.getPerspectiveTransform(plane, corners.astype(np.float32)), dtype=np.float64)
     if not np.isfinite(homography).all():
         return None
-    scale = (float(np.linalg.norm(homography[:, 0])) + float(np.linalg.norm(homography[:, 1]))) / 2.0
-    if scale < 1e-12:
+    start = _foreshortened(homography)
+    if start is None:
         return None
-    columns = homography / (scale if homography[2, 2] > 0.0 else -scale)
-    (ax, bx, x), (ay, by, y), (az, bz, z) = columns.tolist()
-    across = [[ax, bx, ay * bz - az * by], [ay, by, az * bx - ax * bz], [az, bz, ax * by - ay * bx]]
-    u, _, vt = np.linalg.svd(np.array(across))
-    if np.linalg.det(u @ vt) < 0.0:
-        u[:, 2] = -u[:, 2]
-    rotation, translation = u @ vt, np.array([x, y, z])
-    # The printed face looks at the camera, and the camera looks at the marker.
-    if translation[2] <= 0.0 or float(rotation[:, 2] @ translation) >= 0.0:
+    best, least = None, np.inf
+    for pose in (start, other_solution(start)):
+        rotation, translation = pose.rotation.copy(), pose.translation_mm.copy()
+        left = fit_square(corners, h, rotation, translation, FIT_ROUNDS)
+        # The printed face looks at the camera, and the camera looks at the marker.
+        facing = translation[2] > 0.0 and float(rotation[:, 2] @ translation) < 0.0
+        if facing and left < least:
+            best, least = (rotation, translation), left
+    if best is None:
         return None
-    return Rigid(rotation=rotation, translation_mm=translation)
+    u, _, vt = np.linalg.svd(best[0])
+    return Rigid(rotation=u @ vt, translation_mm=best[1])
+
+
+def _foreshortened(homography: Array) -> Rigid[Camera, Marker] | None:
+    """A pose whose image is, to first order, that of a homography (3, 3) from the plane in mm, if any.
+
+    In a frame whose z is the line of sight, the image's derivative is the upper left of the rotation by the
+    distance; what is missing of its columns is their part along the line of sight.
+    """
+    x, y = homography[:2, 2] / homography[2, 2]
+    derivative = (homography[:2, :2] - np.outer([x, y], homography[2, :2])) / homography[2, 2]
+    away = float(np.sqrt(1.0 + x * x + y * y))
+    # Columns: right, down, along the line of sight. At a distance of 1 the image moves by `base` with them.
+    sight = np.array([x, y, 1.0]) / away
+    right = np.cross([0.0, 1.0, 0.0], sight)
+    right /= np.linalg.norm(right)
+    frame = np.column_stack([right, np.cross(sight, right), sight])
+    base = (frame[:2, :2] - np.outer([x, y], frame[2, :2])) * away
+    seen = np.linalg.solve(base, derivative)
+    scale = float(np.linalg.svd(seen, compute_uv=False)[0])
+    if not scale > 1e-12:
+        return None
+    flat = seen / scale
+    left = np.eye(2) - flat.T @ flat
+    first = float(np.sqrt(max(left[0, 0], 0.0)))
+    second = float(np.sqrt(max(left[1, 1], 0.0))) * (1.0 if left[0, 1] >= 0.0 else -1.0)
+    columns = np.vstack([flat, [first, second]])
+    u, _, vt = np.linalg.svd(np.column_stack([columns, np.cross(columns[:, 0], columns[:, 1])]))
+    # A unit of length at a distance d along the line of sight is seen as 1 / d.
+    return Rigid(rotation=frame @ u @ vt, translation_mm=sight / scale)
 
 
 def other_solution(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:

@@ -7,9 +7,10 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.geometry.kernels import pose_inverse
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import LEAST_RESPONSE_RATIO
-from tracker.pose.kernels import PARAMETERS, pose_inverse, project_edges, refine_both
+from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
 from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surprise
 
 __all__ = ["Fit", "doubt_between", "projected_edges", "refined_pose", "surprise"]

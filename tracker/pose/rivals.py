@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
-from tracker.pose.kernels import turn_between
+from tracker.geometry.kernels import turn_between
 
 # Costs of both solutions this much apart (in units of the residuals' variance) leave no doubt: the odds of
 # the worse one are under 1 in 10,000.

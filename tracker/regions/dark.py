@@ -1,20 +1,46 @@
-"""Dark regions of an image and the quadrilaterals that they fill."""
+"""Dark regions of an image, the quadrilaterals that they fill and the straight pieces of their borders."""
+
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.edges import GreyImage
+from tracker.edges import GreyImage, straight_pieces
+from tracker.regions.borders.kernels import trace_borders
 from tracker.regions.kernels import find_runs, region_quads, regions_of
+
+Int32 = npt.NDArray[np.int32]
 
 # Sides and tilt down to which a square is looked for: at 70 degrees of tilt it is a third as high as wide.
 LEAST_SIDE_PX = 5.0
 LEAST_EXTENT_PX = 9
 LEAST_SQUASH_RATIO = 0.3
+# The borders that are followed: of what is no speck, and no endless maze.
+LEAST_BORDER_PX, MOST_BORDER_PX = 24, 20_000
+# A border runs from pixel to pixel: a straight one is off by half of one, and noise adds some.
+BORDER_OFF_PX, LEAST_PIECE_PX = 1.2, 6.0
 SAMPLE_STRIDE = 5
 LEAST_LIGHT_GREY = 8.0
 # Median of absolute differences of two pixels, for noise of 1 grey level.
 NOISE_PER_DIFFERENCE = 1.0 / 0.954
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Regions:
+    """The dark regions of an image, as runs of pixels in its rows.
+
+    Attributes:
+        mask: (h, w), 255 in them, else 0.
+        row, first, last: (n,), of each run.
+        parent: (n,), for each the first run of its region.
+    """
+
+    mask: npt.NDArray[np.uint8]
+    row: Int32
+    first: Int32
+    last: Int32
+    parent: Int32
 
 
 def noise_grey(image: GreyImage) -> float:
@@ -50,12 +76,27 @@ def even_image(image: GreyImage, *, window_px: int, noise_grey: float) -> GreyIm
     return np.asarray(cv2.divide(own, around, scale=128.0), dtype=np.uint8)
 
 
-def quads_of_mask(mask: npt.NDArray[np.uint8]) -> npt.NDArray[np.float32]:
-    """Quadrilaterals (q, 4, 2) in px of the mask's regions, corners clockwise on the screen."""
-    height, width = mask.shape
+def regions_of_mask(mask: npt.NDArray[np.uint8]) -> Regions:
+    """The regions of a mask (h, w, 0 or 255)."""
     row, first, last, parent = find_runs(mask)
+    return Regions(mask=mask, row=row, first=first, last=last, parent=parent)
+
+
+def quads_of(regions: Regions) -> npt.NDArray[np.float32]:
+    """Quadrilaterals (q, 4, 2) in px that regions fill, corners clockwise on the screen."""
+    height, width = regions.mask.shape
+    row, first, last = regions.row, regions.first, regions.last
     box, head, after = regions_of(
-        row, first, last, parent, np.array([width, height]), LEAST_EXTENT_PX, max(height, width)
+        row, first, last, regions.parent, np.array([width, height]), LEAST_EXTENT_PX, max(height, width)
     )
     quads = region_quads(row, first, last, after, box, head, LEAST_SIDE_PX, LEAST_SQUASH_RATIO)
     return np.asarray(quads, dtype=np.float32)
+
+
+def border_segments(regions: Regions) -> npt.NDArray[np.float32]:
+    """Straight pieces (s, 4) of the borders between dark and light, px: from x, y to x, y, dark on the right.
+
+    They stand where edges are too faint, or too smeared, to follow.
+    """
+    x, y, starts = trace_borders(regions.mask, regions.row, regions.first, LEAST_BORDER_PX, MOST_BORDER_PX)
+    return straight_pieces(x, y, starts, off_px=BORDER_OFF_PX, least_length_px=LEAST_PIECE_PX)

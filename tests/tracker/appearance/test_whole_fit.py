@@ -20,8 +20,14 @@ def _beside(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:
     )
 
 
-def _image(pose: Rigid[Camera, Marker]) -> Image8:
-    return rendered(CAMERA, [Print(picture=MODEL.image, pose=pose)])
+def _image(pose: Rigid[Camera, Marker], *, background: float = 170.0, blur_px: float = 0.6) -> Image8:
+    return rendered(CAMERA, [Print(picture=MODEL.image, pose=pose)], background=background, blur_px=blur_px)
+
+
+def _off_px(pose: Rigid[Camera, Marker], found: Rigid[Camera, Marker]) -> float:
+    """The farthest that a corner is off."""
+    there, here = (CAMERA.px_from_camera(one.move_points(MODEL.corners_mm)) for one in (found, pose))
+    return float(np.abs(there - here).max())
 
 
 def _fit(image: Image8, start: Rigid[Camera, Marker], side_px: float) -> WholeFit:
@@ -44,11 +50,8 @@ def test_a_pose_that_is_a_third_of_a_pixel_off_is_put_right(side_px: float) -> N
     found = _fit(_image(pose), _beside(pose), side_px).camera_from_marker
     turned = vector_from_rotation(found.rotation @ pose.rotation.T)
     assert np.degrees(np.linalg.norm(turned)) < 0.15
-    off_px = CAMERA.px_from_camera(found.move_points(MODEL.corners_mm)) - CAMERA.px_from_camera(
-        pose.move_points(MODEL.corners_mm)
-    )
     # The pictures hold a marker to a two-thousandth of its side.
-    assert np.abs(off_px).max() < max(0.03, side_px / 2000.0)
+    assert _off_px(pose, found) < max(0.03, side_px / 2000.0)
 
 
 def test_a_shadow_over_half_of_the_marker_does_not_move_it() -> None:
@@ -57,10 +60,43 @@ def test_a_shadow_over_half_of_the_marker_does_not_move_it() -> None:
     columns = np.arange(image.shape[1])
     shade = 1.0 - 0.5 / (1.0 + np.exp(-(columns - 330.0) / 6.0))
     found = _fit(np.round(image * shade).astype(np.uint8), _beside(pose), 60.0).camera_from_marker
-    off_px = CAMERA.px_from_camera(found.move_points(MODEL.corners_mm)) - CAMERA.px_from_camera(
-        pose.move_points(MODEL.corners_mm)
+    assert _off_px(pose, found) < 0.1
+
+
+def test_a_highlight_narrower_than_the_marker_does_not_move_it() -> None:
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 80.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    image = _image(pose).astype(np.float64)
+    v, u = np.mgrid[0 : image.shape[0], 0 : image.shape[1]]
+    blob = 90.0 * np.exp(-0.5 * (((u - 320.0) / 16.0) ** 2 + ((v - 215.0) / 10.0) ** 2))
+    lit = np.clip(np.round(image + blob), 0, 255).astype(np.uint8)
+    assert _off_px(pose, _fit(lit, _beside(pose), 80.0).camera_from_marker) < 0.04
+
+
+def test_what_blur_brings_in_from_beyond_the_paper_does_not_move_it() -> None:
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 30.0, tilt_deg=55.0, about_deg=20.0, roll_deg=50.0)
+    found = [
+        _fit(_image(pose, background=dark, blur_px=1.6), _beside(pose), 30.0).camera_from_marker
+        for dark in (20.0, 225.0)
+    ]
+    assert _off_px(*found) < 0.05
+
+
+def test_far_from_the_axis_of_a_strong_lens_a_pose_is_as_exact() -> None:
+    pose = facing_at_px(CAMERA, (585.0, 60.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    assert _off_px(pose, _fit(_image(pose), _beside(pose), 60.0).camera_from_marker) < 0.03
+
+
+def test_errors_that_neighbours_share_widen_what_is_stated() -> None:
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    image, rng = _image(pose).astype(np.float64), np.random.default_rng(3)
+    alone = rng.normal(0.0, 6.0, image.shape)
+    shared = np.kron(rng.normal(0.0, 6.0, (image.shape[0] // 4, image.shape[1] // 4)), np.ones((4, 4)))
+    white, blocks = (
+        _fit(np.clip(np.round(image + noise), 0, 255).astype(np.uint8), _beside(pose), 60.0)
+        for noise in (alone, shared)
     )
-    assert np.abs(off_px).max() < 0.1
+    assert white.alike_ratio < 1.5
+    assert blocks.alike_ratio > 4.0
 
 
 def test_a_camera_that_bends_its_response_is_told_from_depth() -> None:

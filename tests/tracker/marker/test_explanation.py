@@ -1,6 +1,7 @@
 """What blur, uneven light and a cover make of a marker, and what they do not make of another square."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -18,7 +19,7 @@ from tests.tracker.scenes import (
 )
 from tests.tracker.scenes import facing_at_px as placed
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.marker import Explanation, explanation_of
+from tracker.marker import Explanation, MarkerModel, explanation_of
 
 CAMERA = camera_of((200, 160), focal_px=400.0)
 MIDDLE = (100.3, 80.7)
@@ -61,11 +62,14 @@ def _under_glare(image: Image8, side_px: float, from_deg: float) -> Image8:
     return np.asarray(np.clip(np.rint(image + light), 0, 255), dtype=np.uint8)
 
 
-def _covered(image: Image8, side_px: float, from_deg: float) -> Image8:
+def _covered(
+    image: Image8, side_px: float, from_deg: float, *, beyond_ratio: float = 0.35, grey: int = 110
+) -> Image8:
     """Something grey over what lies more than 0.35 of the side from the middle, on one side."""
     u, v = _u_v()
     out = image.copy()
-    out[u * np.cos(np.radians(from_deg)) + v * np.sin(np.radians(from_deg)) > 0.35 * side_px] = 110
+    across = u * np.cos(np.radians(from_deg)) + v * np.sin(np.radians(from_deg))
+    out[across > beyond_ratio * side_px] = grey
     return out
 
 
@@ -129,6 +133,67 @@ def test_a_frame_with_something_else_inside_is_not_explained(side_px: float, see
     for degraded in (_in_shadow, _out_of_focus, _under_glare, _covered):
         found = _explained(degraded(plain, side_px, 45 * seed), pose, side_px)
         assert found is None or not found.explains, found
+
+
+@pytest.mark.parametrize("grey", [15, 60, 110, 200])
+def test_a_cover_of_a_quarter_explains_most_markers_however_bright_it_is(grey: int) -> None:
+    """As dark as ink it goes unseen over ink, as bright as paper unseen over paper."""
+    explained = 0
+    for side_px in (28.0, 45.0):
+        pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=20, about_deg=40, roll_deg=15)
+        plain = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
+        for from_deg in (10, 130, 250):
+            image = _covered(plain, side_px, from_deg, beyond_ratio=0.25, grey=grey)
+            found = _explained(image, pose, side_px)
+            explained += found is not None and found.explains
+    assert explained >= 4
+
+
+def _dotted() -> Image8:
+    """A disc in a frame with a dot beside its centre: but for the dot, every turn of it looks the same."""
+    picture = np.zeros((400, 400), np.uint8)
+    picture[50:350, 50:350] = 255
+    cv2.circle(picture, (200, 200), 110, 0, -1)
+    cv2.circle(picture, (235, 165), 45, 255, -1)
+    return picture
+
+
+def _dazzling(image: Image8, side_px: float, from_deg: float) -> Image8:
+    """A highlight four times as bright as paper, over a third of the square."""
+    u, v = _u_v()
+    u = u - 0.35 * side_px * np.cos(np.radians(from_deg))
+    v = v - 0.35 * side_px * np.sin(np.radians(from_deg))
+    light = 400.0 * np.exp(-0.5 * (u * u + v * v) / (0.25 * side_px) ** 2)
+    return np.asarray(np.clip(np.rint(image + light), 0, 255), dtype=np.uint8)
+
+
+@pytest.mark.parametrize("turns", [1, 2, 3])
+@pytest.mark.parametrize("degraded", [_dazzling, _covered, _in_shadow])
+def test_a_turn_of_the_marker_is_not_explained_by_what_hides_the_difference(
+    degraded: Degraded, turns: int
+) -> None:
+    square = MarkerModel.from_image(_dotted(), side_mm=25.0, name="dotted").square
+    pose = placed(CAMERA, MIDDLE, 45.0, tilt_deg=20, about_deg=40, roll_deg=15)
+    plain = rendered(CAMERA, [Print(picture=_dotted(), pose=pose)])
+    for from_deg in range(0, 360, 45):
+        image = degraded(plain, 45.0, from_deg)
+        corners = np.roll(corners_px_of(CAMERA, pose), turns, axis=0)
+        found = explanation_of(image, square, corners, side_px=45.0)
+        assert found is None or not found.explains, (from_deg, found)
+
+
+def test_the_outline_alone_explains_nothing() -> None:
+    """Of what all squares share it takes more than that to be this one."""
+    pose = placed(CAMERA, MIDDLE, 45.0)
+    image = rendered(CAMERA, [Print(picture=code_image(), pose=pose)])
+    free = _explained(image, pose, 45.0)
+    assert free is not None
+    assert free.explains
+    assert not replace(free, inner_hidden_ratio=0.6).explains
+    u, v = _u_v()
+    image[(np.abs(u) < 0.26 * 45.0) & (np.abs(v) < 0.7 * 45.0) & (v > -0.26 * 45.0)] = 120
+    found = _explained(image, pose, 45.0)
+    assert found is None or not found.explains, found
 
 
 def test_an_even_image_and_the_negative_are_not_explained() -> None:

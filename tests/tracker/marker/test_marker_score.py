@@ -59,7 +59,13 @@ def test_score_is_coverage_less_the_weighted_fit_error(
 
 @pytest.mark.parametrize(
     "name",
-    ["accept_score_ratio", "accept_target_score_ratio", "accept_inner_coverage_ratio", "fit_error_weight"],
+    [
+        "accept_score_ratio",
+        "accept_target_score_ratio",
+        "accept_inner_coverage_ratio",
+        "explained_share",
+        "fit_error_weight",
+    ],
 )
 @pytest.mark.parametrize("value", [-0.01, 1.01, float("nan")])
 def test_a_setting_that_is_no_ratio_is_refused_by_name(name: str, value: float) -> None:

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 import cv2
 import numpy as np
-import numpy.typing as npt
 import pytest
 
 from tests.tracker.pipeline.stepped import CAMERA, MODEL, OTHER, off_px, pose_of
@@ -12,6 +11,7 @@ from tests.tracker.scenes import Image8, Print, code_image, code_model, corners_
 from tracker import MarkerModel, Seen, Tracker, Unseen
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import Candidate, candidate_rounds
+from tracker.marker.looks import Templates
 from tracker.pose import Pixels
 
 ABSENT = ((1, 1, 0), (0, 1, 0), (1, 0, 0))
@@ -46,7 +46,7 @@ def test_what_is_out_of_view_costs_a_part_of_a_search_in_less_than_half_of_the_i
 ) -> None:
     rounds, looks = [0], [0]
 
-    def counted(image: Image8, templates: npt.NDArray[np.float32]) -> Iterator[list[list[Candidate]]]:
+    def counted(image: Image8, templates: Templates) -> Iterator[list[list[Candidate]]]:
         for candidates in candidate_rounds(image, templates):
             rounds[-1] += 1
             yield candidates
@@ -92,7 +92,7 @@ def test_a_marker_that_comes_into_view_is_found_where_it_has_gone_meanwhile() ->
 def test_an_image_that_is_searched_later_may_be_written_over(monkeypatch: pytest.MonkeyPatch) -> None:
     searched: list[tuple[Image8, Image8]] = []
 
-    def watched(image: Image8, templates: npt.NDArray[np.float32]) -> Iterator[list[list[Candidate]]]:
+    def watched(image: Image8, templates: Templates) -> Iterator[list[list[Candidate]]]:
         searched.append((image, image.copy()))
         return candidate_rounds(image, templates)
 

@@ -65,7 +65,7 @@ def test_a_covered_marker_is_where_it_is_or_unseen(side: int, grey: int, area_ra
 def test_strict_settings_turn_the_same_occurrence_down() -> None:
     image = image_of(pose_of())
     for settings, reason in (
-        (ScoreSettings(accept_score_ratio=1.0), UnseenReason.SCORE_TOO_LOW),
+        (ScoreSettings(accept_score_ratio=1.0, explained_share=1.0), UnseenReason.SCORE_TOO_LOW),
         (ScoreSettings(accept_target_score_ratio=1.0), UnseenReason.TARGET_SCORE_TOO_LOW),
     ):
         tracker = Tracker(camera=CAMERA, models=[MODEL], settings=settings)
@@ -177,12 +177,12 @@ def test_each_stage_has_its_name_and_its_time() -> None:
     image = image_of(pose_of())
     tracker.search(image)
     assert tracker.stage_ms == pytest.approx(
-        {"grey": 4.0, "gradient": 4.0, "candidates": 4.0, "fit": 4.0, "score": 4.0, "whole": 4.0}
+        {"grey": 4.0, "gradient": 4.0, "candidates": 4.0, "fit": 4.0, "score": 4.0, "judgement": 4.0}
     )
     tracker.step(image, captured_at_s=0.0)
     tracker.step(image, captured_at_s=0.03)
     assert tracker.stage_ms == pytest.approx(
-        {"grey": 4.0, "gradient": 4.0, "fit": 4.0, "score": 4.0, "whole": 4.0}
+        {"grey": 4.0, "gradient": 4.0, "fit": 4.0, "score": 4.0, "judgement": 4.0}
     )
 
 
@@ -222,7 +222,7 @@ def test_warming_up_runs_the_loops_of_a_search_and_of_a_track(monkeypatch: pytes
 def test_what_is_inside_must_be_there_whatever_the_outline_says(side: int) -> None:
     pose = pose_of(side_px=64)
     image = _fingered(pose, side=side, area_ratio=0.1, grey=185)
-    strict = ScoreSettings(accept_inner_coverage_ratio=1.0)
+    strict = ScoreSettings(accept_inner_coverage_ratio=1.0, explained_share=1.0)
     sighting = Tracker(camera=CAMERA, models=[MODEL], settings=strict).search(image)["code"]
     assert isinstance(sighting, Unseen)
     assert sighting.reason is UnseenReason.SCORE_TOO_LOW
@@ -238,7 +238,7 @@ def test_the_first_tracker_of_a_process_loads_what_an_image_needs(monkeypatch: p
 
     monkeypatch.setattr(Stages, "end", watched)
     tracker_of()
-    assert {"gradient", "candidates", "fit", "score", "whole"} <= set(came_so_far)
+    assert {"gradient", "candidates", "fit", "score", "judgement"} <= set(came_so_far)
     came_so_far.clear()
     tracker_of()
     assert not came_so_far, "the second one has nothing to load"

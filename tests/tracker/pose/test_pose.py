@@ -115,6 +115,18 @@ def test_four_corners_give_the_pose(pose: Rigid[Camera, Marker]) -> None:
     assert angle_between_deg(found.rotation[:, 0], pose.rotation[:, 0]) < 3.0
 
 
+@pytest.mark.parametrize("side_px", [20.0, 60.0, 200.0])
+def test_corners_that_are_half_a_pixel_off_give_a_pose_that_is_seen_where_they_are(side_px: float) -> None:
+    """Of far and small squares, where perspective is less than such errors, as of near ones."""
+    random = np.random.default_rng(5)
+    for tilt_deg in (0.0, 25.0, 55.0):
+        pose = facing_at_px(CAMERA, (310.0, 250.0), side_px, tilt_deg=tilt_deg, about_deg=40, roll_deg=70)
+        corners = corners_px_of(CAMERA, pose) + random.uniform(-0.5, 0.5, (4, 2))
+        found = pose_from_corners(CAMERA, corners, side_mm=SIDE_MM)
+        assert found is not None
+        assert float(np.abs(corners_px_of(CAMERA, found) - corners).max()) < 1.0
+
+
 def test_corners_the_other_way_round_are_a_marker_from_behind() -> None:
     corners = corners_px_of(CAMERA, facing([0, 0, 400], tilt_deg=20))
     assert pose_from_corners(CAMERA, corners[[0, 3, 2, 1]], side_mm=SIDE_MM) is None

@@ -5,11 +5,10 @@ import pytest
 
 from tests.tracker.pipeline.stepped import CAMERA, MODEL, pose_of
 from tests.tracker.scenes import Image8, Print, code_image, rendered
-from tracker.edges import edgels_of, gradient_of
+from tracker.edges import gradient_of
 from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
-from tracker.marker import ScoreSettings
-from tracker.pose import Prior, Seen, judged, occurrence_near, other_solution, with_target
-from tracker.pose.kernels import pose_inverse, turn_between
+from tracker.geometry.kernels import pose_inverse, turn_between
+from tracker.pose import Prior, Seen, occurrence_near, other_solution
 from tracker.pose.prior import MOST_LEAD_SD2
 from tracker.pose.rivals import Expected, doubt_between, lead_between, surprise
 
@@ -40,10 +39,18 @@ def _fitted(image: Image8, expected: Expected | None) -> Seen:
     start = TRUTH if expected is None else expected
     found = occurrence_near(CAMERA, MODEL, gradient, start, first_reach_px=6.0, expected=expected)
     assert found is not None
-    found = with_target(CAMERA, MODEL, gradient, edgels_of(gradient), found)
-    sighting = judged(found, ScoreSettings(), model=MODEL, image=image, gradient=gradient, found_by="track")
-    assert isinstance(sighting, Seen)
-    return sighting
+    return Seen(
+        camera_from_marker=found.fit.camera_from_marker,
+        pose_covariance=found.fit.covariance,
+        corners_px=found.corners_px,
+        score_ratio=1.0,
+        target_score_ratio=1.0,
+        model_coverage_ratio=1.0,
+        target_coverage_ratio=1.0,
+        fit_error_px2=found.agreement.fit_error_px2,
+        found_by="track",
+        lead_sd2=found.fit.lead_sd2,
+    )
 
 
 def test_the_other_solution_surprises_by_no_more_than_the_images_before_said_against_it() -> None:

@@ -7,13 +7,13 @@ import pytest
 
 from tests.tracker.scenes import Image8, Print, camera_of, code_image, corners_px_of, facing_at_px, rendered
 from tracker.geometry import Array
-from tracker.regions import dark_mask, even_image, noise_grey, quads_of_mask
+from tracker.regions import border_segments, dark_mask, even_image, noise_grey, quads_of, regions_of_mask
 
 CAMERA = camera_of((320, 240), focal_px=400.0)
 
 
 def _quads(image: Image8) -> npt.NDArray[np.float64]:
-    return quads_of_mask(dark_mask(image, window_px=21, darker_grey=8.0)).astype(np.float64)
+    return quads_of(regions_of_mask(dark_mask(image, window_px=21, darker_grey=8.0))).astype(np.float64)
 
 
 def _nearest_px(quads: Array, corners: Array) -> float:
@@ -90,6 +90,60 @@ def test_a_shadow_vanishes_in_even_light() -> None:
 @pytest.mark.parametrize("period_px", [1, 2, 3, 8])
 def test_a_picture_full_of_runs_fits_the_room(period_px: int) -> None:
     board = np.indices((91, 133)).sum(axis=0) // period_px % 2 * 255
-    assert np.isfinite(quads_of_mask(board.astype(np.uint8))).all()
-    assert np.isfinite(quads_of_mask(np.full((91, 133), 255, np.uint8))).all()
-    assert len(quads_of_mask(np.zeros((91, 133), np.uint8))) == 0
+    assert np.isfinite(quads_of(regions_of_mask(board.astype(np.uint8)))).all()
+    assert np.isfinite(quads_of(regions_of_mask(np.full((91, 133), 255, np.uint8)))).all()
+    assert len(quads_of(regions_of_mask(np.zeros((91, 133), np.uint8)))) == 0
+
+
+def test_the_border_of_a_square_is_its_four_sides_with_the_dark_on_the_right_hand() -> None:
+    mask = np.zeros((60, 80), np.uint8)
+    mask[10:40, 20:60] = 255
+    pieces = border_segments(regions_of_mask(mask))
+    for start, end in (
+        ((19.5, 9.5), (59.5, 9.5)),
+        ((59.5, 9.5), (59.5, 39.5)),
+        ((59.5, 39.5), (19.5, 39.5)),
+        ((19.5, 39.5), (19.5, 9.5)),
+    ):
+        off = np.abs(pieces - np.array([*start, *end]))
+        nearest = off[off.max(axis=1).argmin()]
+        # Along it a corner may be rounded; across it stands between the pixels.
+        across = [1, 3] if start[1] == end[1] else [0, 2]
+        assert nearest.max() < 1.5
+        assert nearest[across].max() < 0.3
+
+
+def test_the_border_of_a_hole_goes_the_other_way_round() -> None:
+    """A light square in the dark is walked with the dark outside on the right hand."""
+    mask = np.full((60, 80), 255, np.uint8)
+    mask[10:40, 20:60] = 0
+    pieces = border_segments(regions_of_mask(mask))
+    assert np.abs(pieces - np.array([59.5, 9.5, 19.5, 9.5])).max(axis=1).min() < 1.5
+    assert np.abs(pieces - np.array([19.5, 9.5, 59.5, 9.5])).max(axis=1).min() > 10.0
+
+
+@pytest.mark.parametrize("roll_deg", range(0, 90, 15))
+def test_a_slanting_border_is_one_piece(roll_deg: int) -> None:
+    angle = np.radians(roll_deg)
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    corners = np.array([[-30, -30], [30, -30], [30, 30], [-30, 30]]) @ turn.T + np.array([80.0, 60.0])
+    mask = np.zeros((120, 160), np.uint8)
+    cv2.fillPoly(mask, [np.rint(corners * 16).astype(np.int32)], 255, cv2.LINE_8, 4)
+    pieces = border_segments(regions_of_mask(mask)).astype(np.float64)
+    sides = np.hstack([corners, np.roll(corners, -1, axis=0)])
+    for side in sides:
+        assert np.abs(pieces - side).max(axis=1).min() < 3.0
+
+
+def test_a_mask_of_specks_has_no_borders() -> None:
+    mask = np.zeros((60, 80), np.uint8)
+    mask[::4, ::4] = 255
+    assert len(border_segments(regions_of_mask(mask))) == 0
+
+
+def test_two_regions_that_meet_at_a_corner_end_the_walk() -> None:
+    mask = np.zeros((80, 80), np.uint8)
+    mask[10:40, 10:40] = 255
+    mask[40:70, 40:70] = 255
+    pieces = border_segments(regions_of_mask(mask))
+    assert 8 <= len(pieces) <= 12

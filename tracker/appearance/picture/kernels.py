@@ -11,6 +11,7 @@ MOST_TAPS = 13
 BRIGHTEST = 254
 # White paper around the square, in sides; what is seen beyond so many sd of the blur is not mixed in.
 PAPER_RATIO, FAR_SDS = 0.2, 4.0
+STRAIGHT_PX = 4
 
 
 @compiled
@@ -110,6 +111,20 @@ def _value(image, step, r, c):
 
 
 @compiled
+def _look_along(u, v, lens, ray, rounds):
+    """The ray (2,) through a pixel, from one near it, by so many rounds of Newton's method."""
+    derivative, p = np.empty((2, 3)), np.empty(3)
+    for _ in range(rounds):
+        p[0], p[1], p[2] = ray[0], ray[1], 1.0
+        pu, pv = project_with_derivative(p, lens, derivative)
+        a, b, d, e = derivative[0, 0], derivative[0, 1], derivative[1, 0], derivative[1, 1]
+        det = a * e - b * d
+        du, dv = u - pu, v - pv
+        ray[0] += (e * du - b * dv) / det
+        ray[1] += (a * dv - d * du) / det
+
+
+@compiled
 def collect(
     image, step, lens, rotation, translation, side_mm, reach_ratio, tex, blur, slope_ratio, stride, rays,
     values
@@ -131,27 +146,26 @@ def collect(
     level = _level_of(np.sqrt(max(m00, m11)), blurs)
     first, size, texel = starts[level], sizes[level], widths[level]
     least2 = (slope_ratio * steepest[level]) ** 2
-    derivative, p = np.empty((2, 3)), np.empty(3)
     # The plane that the marker lies in: normal . point = distance.
     nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
     distance = nx * translation[0] + ny * translation[1] + nz * translation[2]
-    x, y = translation[0] / translation[2], translation[1] / translation[2]
     n, flat = 0, 0
-    p[2] = 1.0
+    here, ahead_of_here = np.empty(2), np.empty(2)
+    here[0], here[1] = translation[0] / translation[2], translation[1] / translation[2]
+    half = 0.5 * (step - 1)
     for r in range(r0, r1 + 1):
+        _look_along(step * c0 + half, step * r + half, lens, here, 4)
+        ahead_of_here[:] = here
         for c in range(c0, c1 + 1):
             if n >= len(values):
                 return n
-            u, v = step * c + 0.5 * (step - 1), step * r + 0.5 * (step - 1)
-            # Newton from the neighbour: some steps for the first of a row, one for the others.
-            for _ in range(4 if c == c0 else 1):
-                p[0], p[1] = x, y
-                pu, pv = project_with_derivative(p, lens, derivative)
-                a, b, d, e = derivative[0, 0], derivative[0, 1], derivative[1, 0], derivative[1, 1]
-                det = a * e - b * d
-                du, dv = u - pu, v - pv
-                x += (e * du - b * dv) / det
-                y += (a * dv - d * du) / det
+            # A lens bends so little over some pixels that rays between two are straight.
+            part = (c - c0) % STRAIGHT_PX
+            if part == 0:
+                here[:] = ahead_of_here
+                _look_along(step * (c + STRAIGHT_PX) + half, step * r + half, lens, ahead_of_here, 1)
+            x = here[0] + part / STRAIGHT_PX * (ahead_of_here[0] - here[0])
+            y = here[1] + part / STRAIGHT_PX * (ahead_of_here[1] - here[1])
             along = distance / (nx * x + ny * y + nz)
             qx, qy, qz = along * x - translation[0], along * y - translation[1], along - translation[2]
             px = (rotation[0, 0] * qx + rotation[1, 0] * qy + rotation[2, 0] * qz) / side_mm

@@ -1,0 +1,104 @@
+"""The compiled loops of the explanation against the same sums written plainly."""
+
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import code_model
+from tracker.geometry import Array
+from tracker.marker.explanation.cover.kernels import weights_of_a_part, wrong_pieces
+from tracker.marker.explanation.kernels import FIELDS, PAD, WIDE, picture_at
+from tracker.marker.explanation.light.kernels import shadow_edge
+from tracker.marker.explanation.pictures import pictures_of
+from tracker.warm_up import warm_up
+
+FINE = 16  # texels a field
+
+
+def _blurred(blur: tuple[float, float, float]) -> Array:
+    """The model on paper, finely, by its spectrum: blurred by a Gaussian, and smeared evenly along a line."""
+    size = (WIDE + 2 * PAD) * FINE
+    small = cv2.resize(code_model().square, (FIELDS * FINE, FIELDS * FINE), interpolation=cv2.INTER_AREA)
+    fields = np.pad(small / 255.0, (size - FIELDS * FINE) // 2, constant_values=1.0)
+    ku, kv = np.meshgrid(*(2 * np.pi * np.fft.fftfreq(size, 1.0 / FINE),) * 2)
+    values, vectors = np.linalg.eigh(np.array([[blur[0], blur[2]], [blur[2], blur[1]]]))
+    along = ku * vectors[0, 1] + kv * vectors[1, 1]
+    way = np.sqrt(12.0 * (values[1] - values[0]))
+    shrunk = np.exp(-0.5 * values[0] * (ku**2 + kv**2)) * np.sinc(along * way / (2.0 * np.pi))
+    return np.asarray(np.fft.ifft2(np.fft.fft2(fields) * shrunk).real)
+
+
+def _at_fields(fine: Array) -> Array:
+    """The mean of the four texels around each field's centre."""
+    first = PAD * FINE + FINE // 2
+    cut = slice(first, first + WIDE * FINE, FINE)
+    before = slice(first - 1, first - 1 + WIDE * FINE, FINE)
+    return np.asarray((fine[cut, cut] + fine[before, cut] + fine[cut, before] + fine[before, before]) / 4.0)
+
+
+@pytest.mark.parametrize(
+    ("blur", "within"),
+    [((0.2, 0.2, 0.0), 0.02), ((1.5, 1.7, 0.05), 0.01), ((3.0, 0.6, 0.0), 0.03), ((2.0, 2.0, 1.4), 0.03)],
+)
+def test_the_picture_is_the_blurred_model(blur: tuple[float, float, float], within: float) -> None:
+    pictures = pictures_of(code_model().square)
+    shown = np.empty((6, WIDE, WIDE), np.float32)
+    picture_at(pictures.layers, pictures.blurs_fields, np.array(blur), shown)
+    fine = _blurred(blur)
+    np.testing.assert_allclose(shown[0], _at_fields(fine), atol=within)
+    slopes = (np.gradient(fine, 1.0 / FINE, axis=1), np.gradient(fine, 1.0 / FINE, axis=0))
+    for number, slope in enumerate(slopes, start=1):
+        np.testing.assert_allclose(shown[number], _at_fields(slope), atol=0.08)
+    bend = np.gradient(slopes[0], 1.0 / FINE, axis=0)
+    assert np.corrcoef(shown[5].ravel(), _at_fields(bend).ravel())[0, 1] > 0.98
+
+
+def test_pieces_over_the_border_are_told_from_those_inside() -> None:
+    rest, labels = np.zeros((30, 30)), np.empty((30, 30), np.int64)
+    rest[0:8, 10:14] = 1.0  # from the paper into the square
+    rest[12:16, 12:17] = -1.0
+    rest[20, 20] = 5.0  # a speck: it and its neighbours are too few
+    areas = wrong_pieces(rest, np.ones((30, 30)), 3, 0.5, 10, labels)
+    assert areas.tolist() == [16]
+    assert (labels[2:6, 11:13] == -1).all()
+    assert (labels[13:15, 13:16] == 1).all()
+    assert labels[20, 20] == 0
+
+
+def test_the_light_of_the_uncovered_part_finds_the_cover() -> None:
+    pictures = pictures_of(code_model().square)
+    shown = np.empty((6, WIDE, WIDE), np.float32)
+    picture_at(pictures.layers, pictures.blurs_fields, np.array([0.5, 0.5, 0.0]), shown)
+    seen = 30.0 + 150.0 * shown[0].astype(np.float64)
+    seen[:, 20:] = 95.0
+    weight = np.empty((WIDE, WIDE))
+    assert weights_of_a_part(seen, shown[0], FIELDS / 2.0, 12, np.array([0.0, 0.35, 0.7]), 0.25, weight)
+    assert weight[:, :20].min() > 0.8
+    assert float(weight[:, 20:].mean()) < 0.5
+    assert not weights_of_a_part(
+        30.0 + 150.0 * shown[0], shown[0], FIELDS / 2.0, 12, np.array([0.0]), 0.25, weight
+    )
+
+
+@pytest.mark.parametrize(("angle_deg", "place"), [(20.0, 0.1), (80.0, -0.4), (140.0, 0.35)])
+def test_the_edge_of_a_shadow_is_found_where_it_is(angle_deg: float, place: float) -> None:
+    pictures = pictures_of(code_model().square)
+    shown = np.empty((6, WIDE, WIDE), np.float32)
+    picture_at(pictures.layers, pictures.blurs_fields, np.array([0.5, 0.5, 0.0]), shown)
+    v, u = (np.mgrid[0:WIDE, 0:WIDE] - (WIDE - 1) / 2.0) * (2.0 / FIELDS)
+    angle = np.radians(angle_deg)
+    lit = 1.0 - 0.7 / (1.0 + np.exp(-(u * np.cos(angle) + v * np.sin(angle) - place) / 0.06))
+    seen = lit * (30.0 + 150.0 * shown[0].astype(np.float64))
+    edge = np.empty(3)
+    part = shadow_edge(seen, shown[0], np.ones((WIDE, WIDE), np.bool_), FIELDS / 2.0, 12, 9, 0.1, edge)
+    assert part > 0.9
+    assert edge[0] == pytest.approx(angle, abs=0.1)
+    assert edge[1] == pytest.approx(place, abs=0.06)
+
+
+def test_the_warm_up_runs_every_loop_of_the_explanation() -> None:
+    warm_up()
+    loops: list[Any] = [picture_at, wrong_pieces, weights_of_a_part, shadow_edge]
+    assert all(loop.signatures for loop in loops)

@@ -1,0 +1,145 @@
+"""The looks at an outline's inside: an outline that is off is moved until it fits, whatever is over it."""
+
+import cv2
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import (
+    Image8,
+    Print,
+    camera_of,
+    cluttered,
+    code_image,
+    code_model,
+    corners_px_of,
+    facing_at_px,
+    rendered,
+)
+from tracker.geometry import Array
+from tracker.marker import templates_of
+from tracker.marker.looks import Templates, glance, glance_past_cover, looked_closer
+from tracker.marker.looks.kernels import distinct
+
+CAMERA = camera_of((320, 240), focal_px=500.0)
+OTHER = ((1, 0, 1), (1, 0, 0), (0, 1, 0))
+SIDE_PX = 28.0
+
+
+@pytest.fixture(scope="module")
+def templates() -> Templates:
+    return templates_of((code_model(), code_model(OTHER, name="other")))
+
+
+def _scene(*, blur_px: float = 0.6, noise_grey: float = 1.0, roll_deg: float = 20.0) -> tuple[Image8, Array]:
+    pose = facing_at_px(CAMERA, (160.3, 119.6), SIDE_PX, tilt_deg=30, roll_deg=roll_deg)
+    image = rendered(
+        CAMERA,
+        [Print(picture=code_image(), pose=pose)],
+        background=cluttered(CAMERA, 1),
+        blur_px=blur_px,
+        noise_grey=noise_grey,
+    )
+    return image, corners_px_of(CAMERA, pose)
+
+
+def _smeared(image: Image8, length_px: int, direction_deg: float) -> Image8:
+    """The image, moved meanwhile."""
+    streak = np.zeros((length_px + 2, length_px + 2))
+    middle, half = (length_px + 1) / 2, length_px / 2 * np.array([1.0, 1.0])
+    along = half * np.array([np.cos(np.radians(direction_deg)), np.sin(np.radians(direction_deg))])
+    ends = np.rint([middle - along, middle + along]).astype(int).tolist()
+    cv2.line(streak, ends[0], ends[1], 1.0)
+    return np.asarray(cv2.filter2D(image, -1, streak / streak.sum()), dtype=np.uint8)
+
+
+def _covered(image: Image8, corners: Array) -> Image8:
+    """A finger over a quarter of it."""
+    tip = np.rint(corners[0]).astype(int)
+    out = cv2.circle(image.copy(), (int(tip[0]), int(tip[1])), 14, 150, -1, cv2.LINE_AA)
+    return np.asarray(out, dtype=np.uint8)
+
+
+def _shaded(image: Image8, corners: Array) -> Image8:
+    """A shadow's edge through its middle."""
+    ramp = 1.0 - 0.7 / (1.0 + np.exp(-(np.arange(image.shape[1]) - corners[:, 0].mean()) / 3.0))
+    return np.asarray(image * ramp, np.uint8)
+
+
+CASES = [
+    pytest.param(lambda image, _: image, 1.0, id="sharp"),
+    pytest.param(lambda image, _: cv2.GaussianBlur(image, (0, 0), 2.0), 1.8, id="out of focus"),
+    pytest.param(lambda image, _: _smeared(image, 8, 30), 1.8, id="in motion"),
+    pytest.param(_covered, 2.5, id="partly covered"),
+    pytest.param(_shaded, 1.2, id="half in the shadow"),
+]
+
+
+@pytest.mark.parametrize(("seen_as", "off_px"), CASES)
+def test_an_outline_that_is_off_by_a_tenth_of_its_side_is_moved_to_where_it_fits(
+    templates: Templates, seen_as: object, off_px: float
+) -> None:
+    assert callable(seen_as)
+    image, corners = _scene()
+    picture = np.asarray(seen_as(image, corners), dtype=np.uint8)
+    off = np.random.default_rng(5).normal(0.0, 0.07 * SIDE_PX, (12, 4, 2))
+    found, likeness = looked_closer(picture, (corners + off).astype(np.float32), templates.each[0])
+    left = np.abs(found - corners).max(axis=(1, 2))
+    assert np.median(np.abs(off).max(axis=(1, 2))) > 2.5
+    assert np.median(left) < off_px
+    assert np.median(likeness) > 0.9
+
+
+def test_a_skewed_outline_becomes_what_a_tilted_square_can_look_like(templates: Templates) -> None:
+    """Smear leaves corners free to run; a square of this size is seen as a parallelogram, within a pixel."""
+    image, corners = _scene()
+    picture = _smeared(image, 8, 30)
+    off = np.random.default_rng(7).normal(0.0, 0.07 * SIDE_PX, (12, 4, 2))
+    found, _ = looked_closer(picture, (corners + off).astype(np.float32), templates.each[0])
+    apart = np.abs(found[:, 0] - found[:, 1] + found[:, 2] - found[:, 3]).max(axis=1)
+    assert np.median(np.abs(off[:, 0] - off[:, 1] + off[:, 2] - off[:, 3]).max(axis=1)) > 3.0
+    assert np.median(apart) < 1.2
+
+
+def test_what_fits_is_not_moved(templates: Templates) -> None:
+    image, corners = _scene()
+    known = corners[None].astype(np.float32)
+    found, likeness = looked_closer(image, known, templates.each[0])
+    assert np.array_equal(found, known)
+    assert likeness[0] > 0.98
+
+
+def test_another_marker_does_not_become_it_by_moving_the_outline(templates: Templates) -> None:
+    image, corners = _scene()
+    known = corners[None].astype(np.float32)
+    own, other = (looked_closer(image, known, template)[1][0] for template in templates.each)
+    assert other < 0.9 < own
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_a_glance_knows_the_turn_and_the_model(templates: Templates, turn: int) -> None:
+    """Turn k: the outline's first corner is the model's corner k."""
+    image, corners = _scene()
+    quads = np.roll(corners, -turn, axis=0)[None].astype(np.float32)
+    for alike in (glance(image, quads, templates)[0], glance_past_cover(image, quads, templates)[0]):
+        assert int(alike.argmax()) == turn
+
+
+def test_a_cover_costs_likeness_at_a_glance_but_little_past_it(templates: Templates) -> None:
+    image, corners = _scene()
+    picture, quads = _covered(image, corners), corners[None].astype(np.float32)
+    whole = glance(picture, quads, templates)[0, 0, 0]
+    past = glance_past_cover(picture, quads, templates)[0, 0, 0]
+    assert whole < past - 0.05
+    assert past > 0.85
+
+
+def test_of_outlines_that_are_one_the_likeliest_is_kept() -> None:
+    square = np.array([[0, 0], [20, 0], [20, 20], [0, 20]], np.float32)
+    quads = np.array([square, square + 0.5, square + 60, np.roll(square, 1, axis=0), square + 90], np.float32)
+    alike = np.array([0.90, 0.95, 0.8, 0.85, 0.5], np.float32)
+    order = np.argsort(-alike)
+    nothing = np.empty((0, 4, 2), np.float32)
+    # The same corners in another turn are another outline; what is not like it is none.
+    assert distinct(quads, alike, order, nothing, 4, 0.7, 0.06).tolist() == [1, 3, 2]
+    assert distinct(quads, alike, order, nothing, 2, 0.7, 0.06).tolist() == [1, 3]
+    assert distinct(quads, alike, order, quads[2:3], 4, 0.7, 0.06).tolist() == [1, 3]

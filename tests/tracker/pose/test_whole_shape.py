@@ -1,0 +1,68 @@
+"""Which of the whole-shape fits becomes the pose, and what it says of the other."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import Print, camera_of, code_model, facing_at_px, rendered, seen
+from tracker import Tracker
+from tracker.appearance import WholeFit, textures_of, whole_fits
+from tracker.geometry import Camera, Marker, Rigid
+from tracker.pose import Pixels, Seen, other_solution, whole
+
+CAMERA = camera_of()
+MODEL = code_model()
+POSE = facing_at_px(CAMERA, (330.0, 220.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+IMAGE = rendered(CAMERA, [Print(picture=MODEL.image, pose=POSE)])
+PIXELS = Pixels(image=IMAGE, noise_grey=1.5, textures={MODEL.name: textures_of(MODEL.square)})
+
+
+@pytest.fixture
+def found() -> Seen:
+    return seen(Tracker(camera=CAMERA, models=[MODEL]).search(IMAGE)[MODEL.name])
+
+
+def _fit_at(pose: Rigid[Camera, Marker]) -> WholeFit:
+    fits = whole_fits(
+        IMAGE,
+        CAMERA.lens,
+        PIXELS.textures[MODEL.name],
+        [POSE],
+        side_mm=MODEL.side_mm,
+        side_px=60.0,
+        noise_grey=1.5,
+    )
+    return replace(fits[0], camera_from_marker=pose)
+
+
+def _given(monkeypatch: pytest.MonkeyPatch, fits: Sequence[WholeFit]) -> None:
+    monkeypatch.setattr(whole, "whole_fits", lambda *_, **__: list(fits))
+    # Both are taken to lie where the edges are: only their residuals shall decide.
+    monkeypatch.setattr(whole, "MOST_APART_PX", 1e3)
+
+
+def test_where_the_better_fit_just_fails_the_worse_does_not_stand_in(
+    monkeypatch: pytest.MonkeyPatch, found: Seen
+) -> None:
+    fit = _fit_at(POSE)
+    better = replace(
+        fit, cost_sd2=500.0, scale_grey=1.01 * whole.MOST_LEFT_CONTRAST_RATIO * fit.contrast_grey
+    )
+    worse = replace(better, camera_from_marker=other_solution(POSE), cost_sd2=520.0, scale_grey=3.0)
+    _given(monkeypatch, [better, worse])
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
+    assert exact is found
+
+
+def test_two_solutions_that_explain_alike_are_both_in_the_covariance(
+    monkeypatch: pytest.MonkeyPatch, found: Seen
+) -> None:
+    better = replace(_fit_at(POSE), cost_sd2=500.0)
+    worse = replace(better, camera_from_marker=other_solution(POSE), cost_sd2=505.0)
+    _given(monkeypatch, [worse, better])
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
+    assert np.array_equal(exact.camera_from_marker.rotation, POSE.rotation)
+    turned_deg = np.degrees(np.sqrt(np.linalg.eigvalsh(exact.pose_covariance[3:, 3:])[-1]))
+    assert turned_deg > 10.0

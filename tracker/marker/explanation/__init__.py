@@ -1,0 +1,10 @@
+"""What explains the pixels of a square: the marker in some light, out of focus, or partly covered; or not.
+
+The model is laid over the pixels as it is and where it is first, and asked what is left; then place, blur and
+light are fitted, one after another, as long as that may explain what is left.
+"""
+
+from tracker.marker.explanation.contradiction import Contradiction, contradiction_of
+from tracker.marker.explanation.explanation import Explanation, explanation_of
+
+__all__ = ["Contradiction", "Explanation", "contradiction_of", "explanation_of"]

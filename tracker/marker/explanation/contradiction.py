@@ -1,0 +1,80 @@
+"""Is there a part inside the square that is dark where the model is bright, or the other way round?
+
+Two markers may differ in one small field only. Nine tenths of their edges are then the same, and no
+threshold on a score tells them apart; but the field itself contradicts. Light that varies over the marker
+does not, and something that covers the marker comes over its border, where the outline is missing too: only
+what lies wholly inside, within an outline that is there, contradicts.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.edges import GreyImage
+from tracker.geometry import Array
+from tracker.marker.explanation.cover.kernels import wrong_pieces
+from tracker.marker.explanation.fit import Fit, inside_square
+from tracker.marker.explanation.kernels import FIELDS, RING, WIDE, likeness
+from tracker.marker.explanation.pictures import pictures_of
+
+# A flipped part differs by one whole contrast; blur and its bleeding take up to half of it.
+CONTRADICTION = 0.45
+# Under this part of the square, a contradiction is a speck (dirt, a highlight) and not another shape.
+LEAST_AREA_RATIO = 3 / FIELDS**2 - 1e-9
+# Squares with something else inside reach 0.87 at 19 px and 0.77 at 36 px, in 400 pictures full of them; the
+# marker itself has 0.9 and more in plain light. Few pixels say little: what is small must say it clearly.
+LIKENESS_SIDES_PX, LEAST_LIKENESS = (20.0, 32.0, 40.0, 48.0), (0.88, 0.80, 0.80, 0.70)
+LIGHT_ROUNDS = 4
+SQUARE = np.s_[RING:-RING, RING:-RING]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contradiction:
+    """Where image and model disagree beyond what light can do.
+
+    Attributes:
+        inside_ratio: area of the largest contradicting part that lies wholly inside the square, by its
+            area, 0..1.
+        covered_ratio: area of those that reach its border, by its area, 0..1.
+        likeness: correlation of the uncovered fields with the model's, the light taken out, 0..1; -1 where
+            there is nothing of the model.
+        least_likeness: what is asked of a marker of this size.
+    """
+
+    inside_ratio: float
+    covered_ratio: float
+    likeness: float
+    least_likeness: float
+
+    @property
+    def is_other_shape(self) -> bool:
+        """Whether this is another shape than the model's."""
+        return self.inside_ratio >= LEAST_AREA_RATIO or self.likeness < self.least_likeness
+
+
+def contradiction_of(
+    image: GreyImage, square: GreyImage, corners_px: Array, *, side_px: float
+) -> Contradiction:
+    """What a grey image (h, w) in focus says against a model (n, n) at these corners (4, 2).
+
+    `corners_px` are pixels of `image`: top-left, top-right, bottom-right, bottom-left of the printed face.
+    """
+    least = float(np.interp(side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
+    fit = Fit(image, pictures_of(square), corners_px, side_px)
+    fit.look()
+    fit.visible, fit.gains = inside_square().copy(), np.ones((WIDE * WIDE, 1))
+    if not fit.walk(LIGHT_ROUNDS, free=0):
+        return Contradiction(inside_ratio=0.0, covered_ratio=1.0, likeness=-1.0, least_likeness=least)
+    labels = np.zeros((WIDE, WIDE), np.int64)
+    rest, gain = (np.ascontiguousarray(one[SQUARE]) for one in (fit.rest, fit.gain))
+    areas = wrong_pieces(rest, gain, 0, CONTRADICTION, 1, labels[SQUARE])
+    fit.visible &= labels != -1
+    covered = 1.0 - float(fit.visible[SQUARE].mean())
+    # What is covered has no say, everything else the same: so it is a correlation.
+    alike = likeness(fit.seen, fit.rest, fit.visible, fit.light) if fit.walk(1, free=0) else -1.0
+    return Contradiction(
+        inside_ratio=float(areas.max(initial=0)) / FIELDS**2,
+        covered_ratio=covered,
+        likeness=float(alike),
+        least_likeness=least,
+    )

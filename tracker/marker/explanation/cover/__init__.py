@@ -1,0 +1,5 @@
+"""What lies over a square from outside, and what inside it contradicts the model."""
+
+from tracker.marker.explanation.cover.cover import PART_CONTRAST, Left, Mask, covered, weights_beside_a_cover
+
+__all__ = ["PART_CONTRAST", "Left", "Mask", "covered", "weights_beside_a_cover"]

@@ -1,0 +1,161 @@
+"""The compiled loops of covers: the pieces of a square that light and model do not explain."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+from tracker.geometry.kernels import solve_positive
+from tracker.marker.explanation.kernels import SATURATED_GREY
+
+
+@compiled
+def _smoothed(rest, contrast):
+    """What is left, in units of the contrast, each field with its eight neighbours."""
+    n = len(rest)
+    out = np.empty((n, n))
+    for r in range(n):
+        for c in range(n):
+            total = 0.0
+            for i in range(r - 1, r + 2):
+                for j in range(c - 1, c + 2):
+                    y, x = min(max(i, 0), n - 1), min(max(j, 0), n - 1)
+                    total += rest[y, x] / contrast[y, x]
+            out[r, c] = total / 9.0
+    return out
+
+
+@compiled
+def wrong_pieces(rest, contrast, ring, limit, least, labels):
+    """Connected pieces of fields (n, n) whose neighbourhood is off by more than `limit` of the contrast.
+
+    Fills `labels`: 0 none, -1 what comes over the border (from the ring,
+    or, as bright as the paper there, where the outline is missing), `k` the k-th piece inside. Pieces of
+    fewer than `least` fields count for nothing. Returns the areas of the pieces inside.
+    """
+    n = len(rest)
+    off = _smoothed(rest, contrast)
+    areas = np.zeros(n * n, np.int64)
+    stack = np.empty(n * n, np.int64)
+    labels[:, :] = 0
+    done = np.zeros((n, n), np.bool_)
+    pieces = 0
+    for start in range(n * n):
+        if done[start // n, start % n] or not abs(off[start // n, start % n]) > limit:
+            continue
+        # The stack keeps the whole piece: `taken` walks through it while it grows.
+        stack[0], count, taken = start, 1, 0
+        done[start // n, start % n] = True
+        outside = False
+        while taken < count:
+            r, c = stack[taken] // n, stack[taken] % n
+            taken += 1
+            outside = outside or min(r, c) <= ring or max(r, c) >= n - 1 - ring
+            for i in range(max(r - 1, 0), min(r + 2, n)):
+                for j in range(max(c - 1, 0), min(c + 2, n)):
+                    if not done[i, j] and abs(off[i, j]) > limit:
+                        done[i, j] = True
+                        stack[count] = i * n + j
+                        count += 1
+        if count < least:
+            continue
+        if not outside:
+            areas[pieces] = count
+            pieces += 1
+        for k in range(count):
+            labels[stack[k] // n, stack[k] % n] = -1 if outside else pieces
+    return areas[:pieces]
+
+
+@compiled
+def grown(mask):
+    """A mask (n, n) and all neighbours of it."""
+    n = len(mask)
+    out = np.zeros((n, n), np.bool_)
+    for r in range(n):
+        for c in range(n):
+            if mask[r, c]:
+                for i in range(max(r - 1, 0), min(r + 2, n)):
+                    for j in range(max(c - 1, 0), min(c + 2, n)):
+                        out[i, j] = True
+    return out
+
+
+@compiled
+def _even_fit(at, seen, picture, chosen, solution):
+    """A plane of light and one contrast (4,) for the chosen fields; False where there is no contrast."""
+    a, g, row = np.zeros((4, 4)), np.zeros(4), np.ones(4)
+    for i in range(len(seen)):
+        if not chosen[i]:
+            continue
+        row[1], row[2], row[3] = at[i, 0], at[i, 1], picture[i]
+        for p in range(4):
+            g[p] += row[p] * seen[i]
+            for q in range(4):
+                a[p, q] += row[p] * row[q]
+    return solve_positive(a, g, solution) and solution[3] > 1.0
+
+
+@compiled
+def _cost(at, seen, picture, solution, limit, near):
+    """How far fields are off an even light, none by more than `limit` contrasts; fills which are `near`."""
+    total = 0.0
+    for i in range(len(seen)):
+        value = solution[0] + solution[1] * at[i, 0] + solution[2] * at[i, 1] + solution[3] * picture[i]
+        off = (seen[i] - value) / (limit * solution[3])
+        # Where the sensor is full, brighter is as good.
+        if seen[i] >= SATURATED_GREY and off < 0.0:
+            off = 0.0
+        near[i] = off * off < 1.0
+        total += min(off * off, 1.0)
+    return total
+
+
+@compiled
+def weights_of_a_part(seen, picture, half, angles, places, limit, weight):
+    """Weights (n, n) of fields by the light of that part of the square whose light explains most of it.
+
+    Where a third is covered, light that is fitted to all of it is wrong everywhere. Tried are the parts on
+    one side of a line, and the whole, which stays if no part is better.
+    """
+    n = len(seen)
+    every = (n + 1) // 2
+    count = every * every
+    at, values, ink = np.empty((count, 2)), np.empty(count), np.empty(count)
+    for i in range(count):
+        y, x = 2 * (i // every), 2 * (i % every)
+        at[i, 0], at[i, 1] = (x - 0.5 * (n - 1)) / half, (y - 0.5 * (n - 1)) / half
+        values[i], ink[i] = seen[y, x], picture[y, x]
+    weight[:, :] = 1.0
+    chosen, near = np.ones(count, np.bool_), np.empty(count, np.bool_)
+    solution, best = np.empty(4), np.empty(4)
+    if not _even_fit(at, values, ink, chosen, solution):
+        solution[:] = 0.0
+        solution[3] = 1.0
+    # A part must be better by more than a few fields that noise may bring.
+    least = _cost(at, values, ink, solution, limit, near) - 0.03 * count
+    found = False
+    for k in range(angles * len(places)):
+        angle, place = 2.0 * np.pi * (k % angles) / angles, places[k // angles]
+        x, y = np.cos(angle), np.sin(angle)
+        for i in range(count):
+            chosen[i] = at[i, 0] * x + at[i, 1] * y < place
+        if not _even_fit(at, values, ink, chosen, solution):
+            continue
+        if _cost(at, values, ink, solution, limit, near) >= least:
+            continue
+        # Once more by all that is near, wherever it lies.
+        if _even_fit(at, values, ink, near, solution):
+            cost = _cost(at, values, ink, solution, limit, near)
+            if cost < least:
+                least, found = cost, True
+                best[:] = solution
+    if not found:
+        return False
+    for r in range(n):
+        for c in range(n):
+            u, v = (c - 0.5 * (n - 1)) / half, (r - 0.5 * (n - 1)) / half
+            off = seen[r, c] - best[0] - best[1] * u - best[2] * v - best[3] * picture[r, c]
+            if seen[r, c] >= SATURATED_GREY and off < 0.0:
+                off = 0.0
+            off /= limit * best[3]
+            weight[r, c] = 1.0 / (1.0 + off * off) ** 2
+    return True

@@ -1,0 +1,251 @@
+"""Do blur, uneven light and something over its border explain what a square shows, and only they?
+
+An image that is out of focus, has a shadow's edge or a highlight in it, or is partly covered, is not like the
+model as it is printed. But each of these has its own law: blur spreads the outline as it spreads the inside;
+light is bright or dim over whole regions, never negative; a cover is one piece that comes over the border.
+What is left when these are fitted says far more than before of whether the inside is the model's.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.edges import GreyImage
+from tracker.geometry import Array
+from tracker.marker.explanation.cover import PART_CONTRAST, Mask, covered, weights_beside_a_cover
+from tracker.marker.explanation.fit import UNIT, Fit, inside_square
+from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
+from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
+from tracker.marker.explanation.pictures import pictures_of
+
+FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 3, 6, 4, 3
+LEAST_HOPE = 0.55
+WORTH_ANOTHER_LIGHT = 0.75
+COVER_ROUNDS = 2
+# Light without highlights has a quadratic and a step.
+MOST_SMOOTH_TERMS = 7
+# Of the square at the sensor's limit: there is a highlight.
+LEAST_GLARING_RATIO = 0.02
+# By how many fields this turn of the model must explain more than the others do.
+LEAST_APART = 2.0
+# In empty scenes other squares from 16 px reach 0.91 with a fitted blur, in shadow too, and 0.84 under fitted
+# highlights, which take away from both; the marker itself has 0.96 and more, at 20 px under glare 0.93.
+# What is small has little to say, and what is covered less.
+LIKENESS_SIDES_PX, LEAST_LIKENESS = (18.0, 24.0, 34.0), (0.975, 0.95, 0.94)
+HIGHLIGHTS_LESS = 0.02
+# What is so like the model as a whole is worth the question whether it is a turn of it.
+# Less like its own turns than this, and in full sight, it cannot be mistaken for one of them.
+WORTH_TURNING, HALF_TURNED = 0.9, 0.6
+NEAR_LIKENESS = 0.93
+COVERED_MORE = 0.01
+COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
+# The outline is what all squares share: enough of what is within must be seen.
+MOST_INNER_HIDDEN_RATIO = 0.55
+LEAST_AREA_RATIO = 3 / FIELDS**2 - 1e-9
+MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
+# A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
+MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
+# Edges of what is smeared are found at either end of its way, an sd and three quarters of it off the middle.
+MOST_MOVED_BLURS = 1.75
+# Blurred over more of its side than this, one square is like another.
+MOST_BLUR_SIDE_RATIO = 0.15
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Explanation:
+    """How far blur, light and cover explain the pixels of a square.
+
+    Attributes:
+        side_px: of the square in the image.
+        likeness: correlation of what is visible with the model, blur and light fitted, -1..1.
+        inner_likeness: the same where the model has its shape, the outline left out.
+        hidden_ratio: part of the square that is covered, 0..1.
+        inner_hidden_ratio: the same of where the model has its shape.
+        inside_ratio: area of the largest piece that contradicts and is not covered, by the square's.
+        left_ratio: rms of what is left where the model has its shape, by the contrast there.
+        corners_px: (4, 2), where they explain it best.
+        moved_px: how far the corners (4, 2) had to be moved to explain it best, the farthest.
+        blur_px: (2,), sd along the sharpest and the most blurred direction.
+        under_highlights: whether highlights had to be fitted.
+        is_turned: whether the model, turned by a quarter or more, explains as much.
+    """
+
+    side_px: float
+    likeness: float
+    inner_likeness: float
+    hidden_ratio: float
+    inner_hidden_ratio: float
+    inside_ratio: float
+    left_ratio: float
+    corners_px: Array
+    moved_px: float
+    blur_px: tuple[float, float]
+    under_highlights: bool = False
+    is_turned: bool = False
+
+    @property
+    def is_near(self) -> bool:
+        """Whether the model as a whole explains most, if not all."""
+        return self.likeness >= NEAR_LIKENESS and not self.is_turned
+
+    @property
+    def explains(self) -> bool:
+        """Whether nothing is left that would need another shape to explain it."""
+        covered = self.hidden_ratio > COVERED_RATIO
+        px, ratio = (
+            (MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO)
+            if covered
+            else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
+        )
+        least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
+        return (
+            not self.is_turned
+            and min(self.likeness, self.inner_likeness)
+            >= least + COVERED_MORE * covered - HIGHLIGHTS_LESS * self.under_highlights
+            and self.inside_ratio < LEAST_AREA_RATIO
+            and self.hidden_ratio <= MOST_HIDDEN_RATIO
+            and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
+            and self.moved_px <= max(px, ratio * self.side_px, MOST_MOVED_BLURS * self.blur_px[1])
+            and self.blur_px[1] <= MOST_BLUR_SIDE_RATIO * self.side_px
+        )
+
+
+def explanation_of(
+    image: GreyImage, square: GreyImage, corners_px: Array, *, side_px: float
+) -> Explanation | None:
+    """Explain a grey image (h, w) by a model (n, n) at about these corners (4, 2); None if it has none of it.
+
+    `corners_px` are pixels of `image`: top-left, top-right, bottom-right, bottom-left of the printed face.
+    """
+    fit = Fit(image, pictures_of(square), corners_px, side_px)
+    fit.look()
+    first = fit.place
+    if not fit.walk(FIRST_ROUNDS, weights_beside_a_cover(fit.seen, fit.picture)):
+        return None
+    # Even of a marker under a cover or glare most can be explained by now.
+    if float(fit.weight[inside_square()].mean()) < LEAST_HOPE or not fit.walk(ROUNDS, fit.weight):
+        return None
+    start = fit.place
+    best = _told(fit)
+    glaring = float(np.mean((first.seen >= SATURATED_GREY) & inside_square())) > LEAST_GLARING_RATIO
+    for brighten in (_in_shadow, _under_highlights):
+        if best is not None and best.explains:
+            break
+        worth = glaring if brighten is _under_highlights else False
+        if not worth and (best is None or best.likeness < WORTH_ANOTHER_LIGHT):
+            continue
+        # What a cover, or glare, did to the fit must not be carried into another light.
+        fit.place = first if worth else start
+        if not brighten(fit):
+            continue
+        found = _told(fit) if fit.walk(ROUNDS if worth else ROUNDS_AGAIN) else None
+        if found is not None and (best is None or found.explains or found.likeness > best.likeness):
+            best = found
+    return best
+
+
+def _another_turn_is_nearer(fit: Fit) -> bool:
+    """Whether the model, turned by a quarter or more where it is, leaves less of what is seen."""
+    layers, blurs = fit.pictures.layers, fit.pictures.blurs_fields
+    visible, fit.visible = fit.visible, np.ones((WIDE, WIDE), np.bool_)
+    shown, weight = fit.shown.copy(), fit.weight.copy()
+    held = fit.held.copy()
+    costs = []
+    for turns in range(4):
+        swapped = np.array([fit.blur[1], fit.blur[0], -fit.blur[2]]) if turns % 2 else fit.blur
+        picture_at(layers, blurs, swapped, fit.shown)
+        fit.shown[0] = np.rot90(fit.shown[0], turns).copy()
+        seen = fit.walk(LIGHT_ROUNDS, weight.copy(), free=0)
+        off = fit.rest / (PART_CONTRAST * np.maximum(fit.gain, 0.25 * float(np.median(fit.gain))))
+        costs.append(float(np.minimum(off**2, 1.0)[inside_square()].sum()) if seen else np.inf)
+    fit.visible, fit.shown, fit.weight, fit.held = visible, shown, weight, held
+    return costs[0] > min(costs[1:]) - LEAST_APART
+
+
+def _in_shadow(fit: Fit) -> bool:
+    """Let there be a shadow's edge, if one explains much."""
+    shadow = shadow_in(fit.seen, fit.picture, fit.visible)
+    if shadow is None:
+        return False
+    fit.light = np.column_stack([smooth_light(2), shadow])
+    fit.gains = np.column_stack([contrasts(), shadow])
+    return True
+
+
+def _under_highlights(fit: Fit) -> bool:
+    """Let there be highlights."""
+    fit.light, fit.gains = highlights(), contrasts()
+    return True
+
+
+def _told(fit: Fit) -> Explanation | None:
+    """The explanation by this light; what is covered has no say, and without it shows more clearly."""
+    for _ in range(COVER_ROUNDS):
+        hidden, _ = covered(fit.left, blur_fields=fit.blur_fields)
+        if not hidden.any():
+            break
+        fit.visible = ~hidden
+        if not (fit.visible & inside_square()).any() or not fit.walk(ROUNDS_AGAIN):
+            return None
+    found = _explanation(fit)
+    if found.likeness < WORTH_TURNING or not (
+        _is_covered(found) or fit.pictures.turned_likeness > HALF_TURNED
+    ):
+        return found
+    return replace(found, is_turned=_another_turn_is_nearer(fit))
+
+
+def _is_covered(found: Explanation) -> bool:
+    return found.hidden_ratio > COVERED_RATIO
+
+
+def _explanation(fit: Fit) -> Explanation:
+    hidden, inside = covered(fit.left, blur_fields=fit.blur_fields)
+    visible = ~hidden & fit.visible
+    telling = visible & (fit.seen < SATURATED_GREY)
+    shape = _shape(fit.picture)
+    return Explanation(
+        side_px=fit.side_px,
+        likeness=likeness(fit.seen, fit.rest, telling & inside_square(), fit.light),
+        inner_likeness=likeness(fit.seen, fit.rest, telling & shape, fit.light),
+        hidden_ratio=1.0 - float(visible[inside_square()].mean()),
+        inner_hidden_ratio=1.0 - float(visible[shape].mean()),
+        inside_ratio=inside / FIELDS**2,
+        left_ratio=_left(fit, telling & shape),
+        corners_px=_to_px(fit.to_px, fit.corners),
+        moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
+        under_highlights=fit.light.shape[1] > MOST_SMOOTH_TERMS,
+        blur_px=_blur_px(fit.blur, fit.field_px),
+    )
+
+
+def _left(fit: Fit, chosen: Mask) -> float:
+    if not chosen.any():
+        return 1.0
+    contrast = float(np.median(fit.gain[chosen]))
+    return float(np.sqrt(np.mean(fit.rest[chosen] ** 2))) / contrast if contrast > 0.0 else 1.0
+
+
+def _to_px(h: Array, corners: Array) -> Array:
+    a, b = corners[:, 0], corners[:, 1]
+    w = h[6] * a + h[7] * b + 1.0
+    return np.stack([(h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w], axis=1)
+
+
+def _blur_px(blur: Array, field_px: float) -> tuple[float, float]:
+    mean, half = 0.5 * float(blur[0] + blur[1]), float(np.hypot(0.5 * (blur[0] - blur[1]), blur[2]))
+    least, most = (float(np.sqrt(max(one - SPREAD, 0.0))) for one in (mean - half, mean + half))
+    return least * field_px, most * field_px
+
+
+def _shape(picture: npt.NDArray[np.float32]) -> Mask:
+    """Where the model has its shape: around what is bright within the outline."""
+    u, v = grid()
+    bright = (picture > 0.5) & (np.maximum(np.abs(u), np.abs(v)) < 0.85)
+    rows, columns = np.nonzero(bright)
+    if len(rows) == 0:
+        return inside_square()
+    out = np.zeros_like(bright)
+    out[max(rows.min() - 1, 0) : rows.max() + 2, max(columns.min() - 1, 0) : columns.max() + 2] = True
+    return np.asarray(out & inside_square())

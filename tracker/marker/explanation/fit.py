@@ -1,0 +1,133 @@
+"""A model laid over a square: where it is, how it is blurred and lit, and what that leaves."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.edges import GreyImage
+from tracker.geometry import Array
+from tracker.marker.explanation.cover import Left, Mask
+from tracker.marker.explanation.kernels import (
+    BLUR,
+    FIELDS,
+    PLACE,
+    SPREAD,
+    WIDE,
+    picture_at,
+    sample_fields,
+    unit_to_px,
+    walk,
+)
+from tracker.marker.explanation.light import contrasts, grid, smooth_light
+from tracker.marker.explanation.pictures import Pictures
+
+# Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
+FIRST_BLUR_PX = 0.8
+UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Place:
+    """Where a fit is.
+
+    Attributes:
+        corners: (4, 2) in the unit square.
+        blur: (3,), variances along u, v and between, in fields.
+        held: (WIDE, WIDE), the contrast by which the pictures' changes are counted.
+        seen: (WIDE, WIDE) there, and `shown` (6, WIDE, WIDE), the picture with its slopes and curvatures.
+    """
+
+    corners: Array
+    blur: Array
+    held: Array
+    seen: Array
+    shown: npt.NDArray[np.float32]
+
+
+class Fit:
+    """A model laid over a square. Mutable: it walks."""
+
+    def __init__(self, image: GreyImage, pictures: Pictures, corners_px: Array, side_px: float) -> None:
+        self.image, self.pictures = image, pictures
+        self.side_px = side_px
+        self.field_px = max(side_px, 8.0) / FIELDS
+        self.to_px = unit_to_px(np.ascontiguousarray(corners_px, dtype=np.float64))
+        self.corners: Array = UNIT.copy()
+        self.blur: Array = np.array([1.0, 1.0, 0.0]) * ((FIRST_BLUR_PX / self.field_px) ** 2 + SPREAD)
+        self.held: Array = np.ones((WIDE, WIDE))
+        self.visible: Mask = np.ones((WIDE, WIDE), np.bool_)
+        self.light: Array = smooth_light(2)
+        self.gains: Array = contrasts()
+        self.shown: npt.NDArray[np.float32] = np.empty((6, WIDE, WIDE), np.float32)
+        self.seen: Array = np.empty((WIDE, WIDE))
+        self.rest: Array = np.empty((WIDE, WIDE))
+        self.gain: Array = np.empty((WIDE, WIDE))
+
+    def walk(self, rounds: int, weight: Array | None = None, *, free: int = PLACE + BLUR) -> bool:
+        """Fit place, blur and light; False where the model has no contrast."""
+        self.weight = np.ones((WIDE, WIDE)) if weight is None else weight
+        contrast = walk(
+            self.image,
+            self.to_px,
+            self.pictures.layers,
+            self.pictures.blurs_fields,
+            self.corners,
+            self.blur,
+            self.held,
+            self.visible,
+            self.weight,
+            self.light,
+            self.gains,
+            self.field_px,
+            rounds,
+            free,
+            self.seen,
+            self.shown,
+            self.rest,
+            self.gain,
+        )
+        return bool(contrast > 0.0)
+
+    def look(self) -> None:
+        """See what is there, before anything is fitted."""
+        self.seen = sample_fields(self.image, self.to_px, self.corners)
+        picture_at(self.pictures.layers, self.pictures.blurs_fields, self.blur, self.shown)
+
+    @property
+    def place(self) -> Place:
+        """Where the walk is, and what it sees there; to be set, too, where all is visible again."""
+        return Place(
+            corners=self.corners.copy(),
+            blur=self.blur.copy(),
+            held=self.held.copy(),
+            seen=self.seen.copy(),
+            shown=self.shown.copy(),
+        )
+
+    @place.setter
+    def place(self, place: Place) -> None:
+        self.corners, self.blur, self.held = place.corners.copy(), place.blur.copy(), place.held.copy()
+        self.seen, self.shown = place.seen.copy(), place.shown.copy()
+        self.visible = np.ones((WIDE, WIDE), np.bool_)
+
+    @property
+    def picture(self) -> npt.NDArray[np.float32]:
+        """The model as it is fitted, dark 0 to bright 1."""
+        return np.asarray(self.shown[0])
+
+    @property
+    def blur_fields(self) -> float:
+        """Sd of the blur, as it is on average over all directions."""
+        return float(np.sqrt(0.5 * (self.blur[0] + self.blur[1])))
+
+    @property
+    def left(self) -> Left:
+        """What the fit leaves."""
+        return Left(seen=self.seen, picture=self.picture, rest=self.rest, gain=self.gain)
+
+
+def inside_square() -> Mask:
+    """Which fields lie inside the outline."""
+    u, v = grid()
+    return np.asarray(np.maximum(np.abs(u), np.abs(v)) < 1.0)

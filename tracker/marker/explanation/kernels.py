@@ -1,0 +1,316 @@
+"""The compiled loops of the explanation: what a model looks like, and the fit of place, blur and light."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+from tracker.geometry.kernels import solve_positive
+from tracker.marker.kernels import sample_square, square_to_quad
+
+FIELDS, RING = 24, 3  # fields a side of the square, and of its white paper around it
+WIDE = FIELDS + 2 * RING
+PAD = 7  # fields beyond, which blur brings in
+SAMPLES = 2
+# Four samples spread over a field blur it by this variance, in fields.
+SPREAD = 1.0 / 16.0
+MOST_TAPS = 15
+PLACE, BLUR = 6, 3
+SATURATED_GREY = 250.0
+OUTLIER_CONTRAST = 0.2
+MOST_STEP_PX = 0.7
+LEAST_BLUR_PX, MOST_BLUR_PX = 0.3, 3.6
+SETTLED_FIELDS, SETTLED_BLUR = 0.01, 0.02
+# Fewer fields than this are like anything.
+LEAST_COUNT = 40
+LEAST_WEIGHT = 1e-3
+
+
+@compiled
+def u_of(c):
+    """Where a column (or a row) of fields lies, -1..1 over the square."""
+    return (c - 0.5 * (WIDE - 1)) * (2.0 / FIELDS)
+
+
+@compiled
+def _taps(blur, blurs, weights):
+    """How a blur (3,), variances in fields, is made of one picture and `weights` (n, n) of half fields.
+
+    Returns the number of the picture, and what is left of the variance to first order (3,).
+    """
+    weights[:, :] = 0.0
+    middle = len(weights) // 2
+    mean, half = 0.5 * (blur[0] + blur[1]), np.sqrt((0.5 * (blur[0] - blur[1])) ** 2 + blur[2] ** 2)
+    larger, smaller = mean + half, max(mean - half, 1e-6)
+    angle = 0.5 * np.arctan2(2.0 * blur[2], blur[0] - blur[1])
+    ex, ey = np.cos(angle), np.sin(angle)
+    level = 0
+    while level < len(blurs) - 1 and blurs[level] * blurs[level + 1] < smaller:
+        level += 1
+    has = blurs[level] ** 2
+    more = larger - smaller
+    across = smaller - has
+    along = across + more
+    if more <= 0.3 * has:
+        weights[middle, middle] = 1.0
+    else:
+        # Motion smears evenly over its way: a box, whose variance is a twelfth.
+        reach = np.sqrt(3.0 * more)
+        count = min(int(np.ceil(2.0 * reach / (1.2 * blurs[level]))) + 1, MOST_TAPS)
+        count = max(count, 2)
+        gap = 2.0 * reach / count
+        scale = np.sqrt(more / (gap * gap * (count * count - 1.0) / 12.0))
+        for k in range(count):
+            off = (k - 0.5 * (count - 1)) * gap * scale
+            x = min(max(2.0 * off * ex, -middle + 0.001), middle - 1.001) + middle
+            y = min(max(2.0 * off * ey, -middle + 0.001), middle - 1.001) + middle
+            c, r = int(x), int(y)
+            fx, fy = x - c, y - r
+            weights[r, c] += (1.0 - fx) * (1.0 - fy) / count
+            weights[r, c + 1] += fx * (1.0 - fy) / count
+            weights[r + 1, c] += (1.0 - fx) * fy / count
+            weights[r + 1, c + 1] += fx * fy / count
+        along = across
+    return (
+        level,
+        along * ex * ex + across * ey * ey,
+        along * ey * ey + across * ex * ex,
+        (along - across) * ex * ey,
+    )
+
+
+@compiled
+def picture_at(layers, blurs, blur, out):
+    """The blurred model, its slopes and its curvatures into `out` (6, WIDE, WIDE)."""
+    weights = np.empty((2 * PAD + 1, 2 * PAD + 1))
+    level, vu, vv, uv = _taps(blur, blurs, weights)
+    middle = PAD
+    out[:, :, :] = np.float32(0.0)
+    for i in range(2 * PAD + 1):
+        for j in range(2 * PAD + 1):
+            if weights[i, j] == 0.0:
+                continue
+            weight = np.float32(weights[i, j])
+            down, right = 2 * PAD + i - middle, 2 * PAD + j - middle
+            phase = 2 * (down % 2) + right % 2
+            r0, c0 = down // 2, right // 2
+            for k in range(6):
+                for r in range(WIDE):
+                    to, source = out[k, r], layers[level, phase, k, r0 + r]
+                    for c in range(WIDE):
+                        to[c] += weight * source[c0 + c]
+    vu, vv, uv = np.float32(0.5 * vu), np.float32(0.5 * vv), np.float32(uv)
+    for r in range(WIDE):
+        for c in range(WIDE):
+            out[0, r, c] += vu * out[3, r, c] + vv * out[4, r, c] + uv * out[5, r, c]
+
+
+@compiled
+def sample_fields(image, h, corners):
+    """Fields (WIDE, WIDE) of a square and its paper; its corners (4, 2) are in the unit square of h (8,)."""
+    mu, mv = corners[:, 0].mean(), corners[:, 1].mean()
+    px = np.empty((4, 2))
+    for k in range(4):
+        a = mu + (corners[k, 0] - mu) * (WIDE / FIELDS)
+        b = mv + (corners[k, 1] - mv) * (WIDE / FIELDS)
+        w = h[6] * a + h[7] * b + 1.0
+        px[k, 0], px[k, 1] = (h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w
+    return sample_square(image, px, WIDE, SAMPLES)
+
+
+@compiled
+def _equations(values, shown, light, gains, gain, weight, free, a, g):
+    """Normal equations of light, contrast, and `free` numbers of place and blur."""
+    n, m = light.shape[1], gains.shape[1]
+    size = n + m + free
+    # Four fields at a time, so that each number of the matrix is fetched and stored a quarter as often.
+    rows, weights, many = np.zeros((4, size)), np.zeros(4), 0
+    a[:, :] = 0.0
+    g[:] = 0.0
+    for i in range(WIDE * WIDE):
+        r, c = i // WIDE, i % WIDE
+        if weight[r, c] >= LEAST_WEIGHT:
+            row = rows[many]
+            weights[many] = weight[r, c]
+            many += 1
+            for k in range(n):
+                row[k] = light[i, k]
+            for k in range(m):
+                row[n + k] = gains[i, k] * shown[0, r, c]
+            if free > 0:
+                u, v = u_of(c), u_of(r)
+                x, y = gain[r, c] * shown[1, r, c], gain[r, c] * shown[2, r, c]
+                at = n + m
+                row[at], row[at + 1], row[at + 2] = x, x * u, x * v
+                row[at + 3], row[at + 4], row[at + 5] = y, y * u, y * v
+                half = 0.5 * gain[r, c]
+                row[at + 6], row[at + 7] = half * shown[3, r, c], half * shown[4, r, c]
+                row[at + 8] = gain[r, c] * shown[5, r, c]
+            wr = weight[r, c] * values[r, c]
+            for p in range(size):
+                g[p] += wr * row[p]
+        if many == 4 or (i == WIDE * WIDE - 1 and many > 0):
+            weights[many:] = 0.0
+            r0, r1, r2, r3 = rows[0], rows[1], rows[2], rows[3]
+            for p in range(size):
+                w0, w1 = weights[0] * r0[p], weights[1] * r1[p]
+                w2, w3 = weights[2] * r2[p], weights[3] * r3[p]
+                line = a[p]
+                for q in range(p + 1):
+                    line[q] += w0 * r0[q] + w1 * r1[q] + w2 * r2[q] + w3 * r3[q]
+            many = 0
+    for p in range(size):
+        for q in range(p + 1, size):
+            a[p, q] = a[q, p]
+
+
+@compiled
+def _step(corners, blur, step, field_px):
+    """Move the corners and change the blur by what the fit says; whether that changes anything."""
+    far = 0.0
+    moved = np.empty((4, 2))
+    for k in range(4):
+        x, y = 2.0 * corners[k, 0] - 1.0, 2.0 * corners[k, 1] - 1.0
+        moved[k, 0] = step[0] + step[1] * x + step[2] * y
+        moved[k, 1] = step[3] + step[4] * x + step[5] * y
+        far = max(far, abs(moved[k, 0]), abs(moved[k, 1]))
+    share = min(1.0, MOST_STEP_PX / field_px / max(far, 1e-9))
+    for k in range(4):
+        corners[k, 0] -= share * moved[k, 0] / FIELDS
+        corners[k, 1] -= share * moved[k, 1] / FIELDS
+    before = blur.copy()
+    wide = max(blur[0], blur[1])
+    for k in range(3):
+        blur[k] += min(max(step[6 + k], -0.5 * wide - 0.3), wide + 0.3)
+    least = SPREAD + (LEAST_BLUR_PX / field_px) ** 2
+    most = SPREAD + (MOST_BLUR_PX / field_px) ** 2
+    mean, half = 0.5 * (blur[0] + blur[1]), np.sqrt((0.5 * (blur[0] - blur[1])) ** 2 + blur[2] ** 2)
+    larger, smaller = min(max(mean + half, least), most), min(max(mean - half, least), most)
+    angle = 0.5 * np.arctan2(2.0 * blur[2], blur[0] - blur[1])
+    ex, ey = np.cos(angle), np.sin(angle)
+    blur[0] = larger * ex * ex + smaller * ey * ey
+    blur[1] = larger * ey * ey + smaller * ex * ex
+    blur[2] = (larger - smaller) * ex * ey
+    changed = np.abs(blur - before).max() / wide
+    return far > SETTLED_FIELDS or changed > SETTLED_BLUR
+
+
+@compiled
+def _laid_over(seen, shown, light, gains, solution, gain, visible, free, predicted, rest, lit):
+    """Fill what a solution predicts, what it leaves and its contrast, whose median it returns."""
+    n, m = light.shape[1], gains.shape[1]
+    at, count = n + m, 0
+    inside = np.empty(FIELDS * FIELDS)
+    for r in range(WIDE):
+        for c in range(WIDE):
+            i, u, v = r * WIDE + c, u_of(c), u_of(r)
+            low, high = 0.0, 0.0
+            for k in range(n):
+                low += light[i, k] * solution[k]
+            for k in range(m):
+                high += gains[i, k] * solution[n + k]
+            value = low + high * shown[0, r, c]
+            if free > 0:
+                x = solution[at] + solution[at + 1] * u + solution[at + 2] * v
+                y = solution[at + 3] + solution[at + 4] * u + solution[at + 5] * v
+                bend = 0.5 * (solution[at + 6] * shown[3, r, c] + solution[at + 7] * shown[4, r, c])
+                bend += solution[at + 8] * shown[5, r, c]
+                value += gain[r, c] * (x * shown[1, r, c] + y * shown[2, r, c] + bend)
+            predicted[r, c], lit[r, c] = value, high
+            left = seen[r, c] - value
+            rest[r, c] = 0.0 if seen[r, c] >= SATURATED_GREY and left < 0.0 else left
+            if abs(u) < 1.0 and abs(v) < 1.0 and visible[r, c]:
+                inside[count] = high
+                count += 1
+    return np.median(inside[:count]) if count > 0 else 0.0
+
+
+@compiled
+def walk(
+    image, h, layers, blurs, corners, blur, gain, visible, weight, light, gains, field_px, rounds, free,
+    seen, shown, rest, lit,
+):  # fmt: skip
+    """Gauss-Newton of place, blur and light, in place; of light alone, to what is `seen`, if none is `free`.
+
+    Fills `seen`, what is left as `rest` and the contrast as `lit` (WIDE, WIDE), `shown` (6, WIDE, WIDE).
+    `gain` is the contrast, held up where there is none, from walk to walk. Returns its median; 0: there is
+    none.
+    """
+    n, m = light.shape[1], gains.shape[1]
+    size = n + m + free
+    a, g, solution = np.empty((size, size)), np.empty(size), np.empty(size)
+    predicted, values = np.zeros((WIDE, WIDE)), np.empty((WIDE, WIDE))
+    for r in range(WIDE):
+        for c in range(WIDE):
+            if not visible[r, c]:
+                weight[r, c] = 0.0
+    contrast = 0.0
+    ended = False
+    for turn in range(rounds):
+        if free > 0:
+            seen[:, :] = sample_fields(image, h, corners)
+            picture_at(layers, blurs, blur, shown)
+        for r in range(WIDE):
+            for c in range(WIDE):
+                one = seen[r, c]
+                # Where the sensor is full, brighter is as good.
+                values[r, c] = max(one, predicted[r, c]) if one >= SATURATED_GREY else one
+        _equations(values, shown, light, gains, gain, weight, free, a, g)
+        for p in range(size):
+            a[p, p] = a[p, p] * (1.0 + 1e-6) + 1e-9
+        if not solve_positive(a, g, solution):
+            return 0.0
+        contrast = _laid_over(seen, shown, light, gains, solution, gain, visible, free, predicted, rest, lit)
+        if not contrast > 1.0:
+            return 0.0
+        for r in range(WIDE):
+            for c in range(WIDE):
+                off = rest[r, c] / (OUTLIER_CONTRAST * max(lit[r, c], 0.25 * contrast))
+                weight[r, c] = 1.0 / (1.0 + off * off) ** 2 if visible[r, c] else 0.0
+                gain[r, c] = max(lit[r, c], 0.05 * contrast)
+        if ended or turn == rounds - 1:
+            break
+        if free > 0:
+            # What changes nothing ends the walk after the light has been fitted once more.
+            ended = not _step(corners, blur, solution[n + m :], field_px)
+    return contrast
+
+
+@compiled
+def unit_to_px(corners):
+    """The homography (8,) from the unit square to four corners (4, 2)."""
+    h = np.empty(8)
+    square_to_quad(corners, h)
+    return h
+
+
+@compiled
+def likeness(seen, rest, chosen, light):
+    """Root of the part that the model explains of what light alone leaves over, where `chosen`."""
+    n = light.shape[1]
+    a, g, solution = np.zeros((n, n)), np.zeros(n), np.empty(n)
+    count, left = 0, 0.0
+    for r in range(WIDE):
+        for c in range(WIDE):
+            if not chosen[r, c]:
+                continue
+            count += 1
+            left += rest[r, c] ** 2
+            i = r * WIDE + c
+            for p in range(n):
+                g[p] += light[i, p] * seen[r, c]
+                for q in range(n):
+                    a[p, q] += light[i, p] * light[i, q]
+    if count < LEAST_COUNT:
+        return 0.0
+    for p in range(n):
+        a[p, p] = a[p, p] * (1.0 + 1e-9) + 1e-9
+    if not solve_positive(a, g, solution):
+        return 0.0
+    whole = 0.0
+    for r in range(WIDE):
+        for c in range(WIDE):
+            if chosen[r, c]:
+                value = seen[r, c]
+                for p in range(n):
+                    value -= light[r * WIDE + c, p] * solution[p]
+                whole += value * value
+    return np.sqrt(max(1.0 - left / whole, 0.0)) if whole > 0.0 else 0.0

@@ -1,0 +1,106 @@
+"""The compiled loops of light: the straight edge of a shadow that explains most of what is left."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+
+STRIDE = 3  # a field of every nine is enough to find an edge by
+BASE = 9
+
+
+@compiled
+def _orthonormal(base, left):
+    """Make columns (n, k) orthonormal, in place, and take them out of `left` (n,)."""
+    n, k = base.shape
+    for p in range(k):
+        for q in range(p):
+            along = 0.0
+            for i in range(n):
+                along += base[i, q] * base[i, p]
+            for i in range(n):
+                base[i, p] -= along * base[i, q]
+        length = 0.0
+        for i in range(n):
+            length += base[i, p] ** 2
+        length = 1.0 / np.sqrt(max(length, 1e-12))
+        along = 0.0
+        for i in range(n):
+            base[i, p] *= length
+            along += base[i, p] * left[i]
+        for i in range(n):
+            left[i] -= along * base[i, p]
+
+
+@compiled
+def _gained(at, picture, weight, base, left, angle, place, soft):
+    """By how much a step of the light, on ink and paper, lowers the squares."""
+    first, second = np.zeros(BASE), np.zeros(BASE)
+    aa, ab, bb, fa, fb = 0.0, 0.0, 0.0, 0.0, 0.0
+    x, y = np.cos(angle) / (2.0 * soft), np.sin(angle) / (2.0 * soft)
+    for i in range(len(left)):
+        t = min(max(at[i, 0] * x + at[i, 1] * y - place / (2.0 * soft), -1.0), 1.0)
+        s = weight[i] * (0.5 + t * (0.75 - 0.25 * t * t))
+        p = s * picture[i]
+        aa += s * s
+        ab += s * p
+        bb += p * p
+        fa += left[i] * s
+        fb += left[i] * p
+        for k in range(BASE):
+            first[k] += base[i, k] * s
+            second[k] += base[i, k] * p
+    for k in range(BASE):
+        aa -= first[k] * first[k]
+        ab -= first[k] * second[k]
+        bb -= second[k] * second[k]
+    det = max(aa * bb - ab * ab, 1e-9 * aa * bb + 1e-12)
+    return (bb * fa * fa - 2.0 * ab * fa * fb + aa * fb * fb) / det
+
+
+@compiled
+def shadow_edge(seen, picture, visible, half, angles, places, soft, edge):
+    """Find the edge that explains most of what quadratic light leaves of fields (n, n).
+
+    Fills `edge` (3,): its angle, its place and its softness, in half sides. Returns the part that it
+    explains, 0..1. Without a say: what is not `visible`.
+    """
+    n = len(seen)
+    every = (n + STRIDE - 1) // STRIDE
+    count = every * every
+    at, base = np.empty((count, 2)), np.empty((count, BASE))
+    left, ink, weight = np.empty(count), np.empty(count), np.empty(count)
+    for r in range(every):
+        for c in range(every):
+            i, y, x = r * every + c, r * STRIDE, c * STRIDE
+            u, v = (x - 0.5 * (n - 1)) / half, (y - 0.5 * (n - 1)) / half
+            w = 1.0 if visible[y, x] else 0.0
+            p = picture[y, x]
+            at[i, 0], at[i, 1], ink[i], weight[i], left[i] = u, v, p, w, w * seen[y, x]
+            base[i, 0], base[i, 1], base[i, 2] = w, w * u, w * v
+            base[i, 3], base[i, 4], base[i, 5] = w * u * u, w * u * v, w * v * v
+            base[i, 6], base[i, 7], base[i, 8] = w * p, w * p * u, w * p * v
+    _orthonormal(base, left)
+    whole = 0.0
+    for i in range(count):
+        whole += left[i] * left[i]
+    best = -1.0
+    edge[0], edge[1], edge[2] = 0.0, 0.0, soft
+    for a in range(angles):
+        for b in range(places):
+            angle, place = a * np.pi / angles, 2.2 * b / (places - 1) - 1.1
+            gain = _gained(at, ink, weight, base, left, angle, place, soft)
+            if gain > best:
+                best, edge[0], edge[1] = gain, angle, place
+    turn, shift = np.pi / angles, 2.2 / (places - 1)
+    for _ in range(3):
+        angle, place, wide = edge[0], edge[1], edge[2]
+        turn, shift = 0.5 * turn, 0.5 * shift
+        for k in range(13):
+            if k < 9:
+                one, two, three = angle + (k // 3 - 1) * turn, place + (k % 3 - 1) * shift, wide
+            else:
+                one, two, three = edge[0], edge[1], wide * 2.0 ** (0.75 * (k - 11 + (k > 10)))
+            gain = _gained(at, ink, weight, base, left, one, two, three)
+            if gain > best:
+                best, edge[0], edge[1], edge[2] = gain, one, two, three
+    return best / whole if whole > 0.0 else 0.0

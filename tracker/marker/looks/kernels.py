@@ -1,0 +1,253 @@
+"""The compiled loops of the looks; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+from tracker.marker.kernels import even_light, sample_quads, square_to_quad
+
+# The unknowns of a step: the picture's gain and offset, and two for each corner.
+UNKNOWN = 10
+# In one step a corner is moved by no more of a side.
+MOST_STEP_SIDES = 0.12
+# A step leads nowhere where so little of the picture is seen.
+LEAST_GAIN = 0.1
+# An outline is moved where that takes away so much of what is unlike.
+MOST_UNLIKE_RATIO = 0.95
+# It is asked anew which picture and which cover it is after so many steps.
+ASKED_EVERY = 3
+
+
+@compiled
+def masked_pictures(pictures, covers):
+    """Pictures (p, n) under covers (c, n): columns (n, p * c), mean and sum of squares about it (p, c)."""
+    many, cells, count = len(pictures), pictures.shape[1], len(covers)
+    columns = np.empty((cells, many * count), np.float32)
+    mean, spread = np.empty((many, count), np.float32), np.empty((many, count), np.float32)
+    for p in range(many):
+        for c in range(count):
+            total, square, size = 0.0, 0.0, 0.0
+            for i in range(cells):
+                value = pictures[p, i] * covers[c, i]
+                columns[i, p * count + c] = value
+                total += value
+                square += value * value
+                size += covers[c, i]
+            mean[p, c], spread[p, c] = total / size, max(square - total * total / size, 1e-9)
+    return columns, mean, spread
+
+
+@compiled
+def _compare(seen, columns, left, shared, sums, squares):
+    """Of what is seen (n,): products with the columns, sums and sums of squares of what each cover leaves."""
+    # Side by side, so that the machine works on many at once.
+    shared[:], sums[:], squares[:] = 0.0, 0.0, 0.0
+    for i in range(len(seen)):
+        value = seen[i]
+        square = value * value
+        for k in range(len(shared)):
+            shared[k] += value * columns[i, k]
+        for c in range(len(sums)):
+            sums[c] += value * left[i, c]
+            squares[c] += square * left[i, c]
+
+
+@compiled
+def alike_past_cover(seen, columns, mean, spread, covers):
+    """Likeness (q, p) of what is seen (q, n) to pictures, under the cover that makes it likeliest."""
+    many, count = mean.shape
+    left = np.ascontiguousarray(covers.T)
+    sizes = left.sum(axis=0)
+    shared = np.empty(columns.shape[1], np.float32)
+    sums, squares = np.empty(count, np.float32), np.empty(count, np.float32)
+    out = np.zeros((len(seen), many), np.float32)
+    for q in range(len(seen)):
+        _compare(seen[q], columns, left, shared, sums, squares)
+        for p in range(many):
+            best = 0.0
+            for c in range(count):
+                over = shared[p * count + c] - mean[p, c] * sums[c]
+                if over <= 0.0:
+                    continue
+                own = max(squares[c] - sums[c] * sums[c] / sizes[c], 1e-9)
+                alike = min(over * over / (own * spread[p, c]), 0.9999)
+                # n cells with a correlation r are as likely as n log(1 - r^2).
+                best = max(best, -np.log(1.0 - alike) * sizes[c])
+            out[q, p] = np.sqrt(1.0 - np.exp(-best / seen.shape[1]))
+    return out
+
+
+@compiled
+def _likeliest(seen, columns, mean, spread, left, sizes, shared, sums, squares):
+    """Likeness of what is seen to the pictures; the picture and the cover at which it is greatest."""
+    count = len(sizes)
+    _compare(seen, columns, left, shared, sums, squares)
+    best, picture, cover = 0.0, 0, 0
+    for c in range(count):
+        own = max(squares[c] - sums[c] * sums[c] / sizes[c], 1e-9)
+        alike, like = 0.0, 0
+        for p in range(len(mean)):
+            over = shared[p * count + c] - mean[p, c] * sums[c]
+            if over > 0.0 and over * over > alike * spread[p, c]:
+                alike, like = over * over / spread[p, c], p
+        fit = -np.log(1.0 - min(alike / own, 0.9999)) * sizes[c] / len(seen)
+        if fit > best:
+            best, picture, cover = fit, like, c
+    return np.sqrt(1.0 - np.exp(-best)), picture, cover
+
+
+@compiled
+def _factor(basis, cover, damping, stiffness, matrix):
+    """Cholesky factor, the lower half, of the damped normal matrix of the cells that a cover leaves.
+
+    What makes a parallelogram another shape is damped more, by the stiffness: perspective does little of it.
+    """
+    matrix[:] = 0.0
+    for i in range(len(basis)):
+        if cover[i] == 0.0:
+            continue
+        for j in range(UNKNOWN):
+            value = basis[i, j]
+            for k in range(UNKNOWN):
+                matrix[j, k] += value * basis[i, k]
+    for j in range(2, UNKNOWN):
+        matrix[j, j] += damping
+        for k in range(2, UNKNOWN):
+            # Corners take turns: one diagonal goes apart, the other together.
+            if (j - k) % 2 == 0:
+                matrix[j, k] += stiffness if (j - k) % 4 == 0 else -stiffness
+    for j in range(UNKNOWN):
+        for k in range(j + 1):
+            total = matrix[j, k]
+            for i in range(k):
+                total -= matrix[j, i] * matrix[k, i]
+            if j == k:
+                matrix[j, j] = np.sqrt(max(total, np.float32(1e-9)))
+            else:
+                matrix[j, k] = total / matrix[k, k]
+
+
+@compiled
+def _straighten(quad, weight, right):
+    """Add to the right-hand side what pulls the outline towards a parallelogram."""
+    ax, ay = 0.5 * (quad[1] - quad[0] + quad[2] - quad[3])
+    bx, by = 0.5 * (quad[3] - quad[0] + quad[2] - quad[1])
+    x, y = quad[0] - quad[1] + quad[2] - quad[3]
+    det = ax * by - ay * bx
+    along, down = weight * (x * by - y * bx) / det, weight * (ax * y - ay * x) / det
+    for k in range(4):
+        sign = 1 - 2 * (k % 2)
+        right[2 + 2 * k] += sign * along
+        right[3 + 2 * k] += sign * down
+
+
+@compiled
+def _solve(factor, right):
+    for j in range(UNKNOWN):
+        total = right[j]
+        for i in range(j):
+            total -= factor[j, i] * right[i]
+        right[j] = total / factor[j, j]
+    for j in range(UNKNOWN - 1, -1, -1):
+        total = right[j]
+        for i in range(j + 1, UNKNOWN):
+            total -= factor[i, j] * right[i]
+        right[j] = total / factor[j, j]
+
+
+@compiled
+def _move_back(quad, off):
+    """Move each corner, in place, by what it is off (8,), in sides of the square's own plane."""
+    h, moved = np.empty(8), np.empty((4, 2))
+    square_to_quad(quad, h)
+    for k in range(4):
+        a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MOST_STEP_SIDES), MOST_STEP_SIDES)
+        b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MOST_STEP_SIDES), MOST_STEP_SIDES)
+        w = h[6] * a + h[7] * b + 1.0
+        moved[k, 0], moved[k, 1] = (h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w
+    quad[:] = moved
+
+
+@compiled
+def look_closer(
+    image,
+    quads,
+    basis,
+    columns,
+    mean,
+    spread,
+    covers,
+    steps,
+    damping,
+    stiffness,
+    cells,
+    ring,
+    around,
+    floor_grey,
+    floor_ratio,
+):
+    """Outlines (q, 4, 2) moved until their inside fits one of the pictures, and how like it is (q,).
+
+    Gauss-Newton steps: what is seen is a picture's gain times itself and its slopes by its corners.
+    """
+    left = np.ascontiguousarray(covers.T)
+    sizes = left.sum(axis=0)
+    shared = np.empty(columns.shape[1], np.float32)
+    sums, squares = np.empty(len(covers), np.float32), np.empty(len(covers), np.float32)
+    found, likeness = quads.copy(), np.zeros(len(quads), np.float32)
+    matrix, right = np.empty((UNKNOWN, UNKNOWN), np.float32), np.empty(UNKNOWN, np.float32)
+    quad = np.empty((1, 4, 2), np.float32)
+    for q in range(len(quads)):
+        quad[0] = quads[q]
+        picture, cover, worst, alike = -1, -1, 0.0, 0.0
+        for step in range(steps + 1):
+            seen = sample_quads(image, quad, cells, ring)
+            even_light(seen, cells + 2 * ring, around, floor_grey, floor_ratio)
+            if step % ASKED_EVERY == 0 or step == steps:
+                alike, p, c = _likeliest(seen[0], columns, mean, spread, left, sizes, shared, sums, squares)
+                # What fits as it is, is where it is: the pictures are coarser than the image.
+                if step == 0:
+                    worst = MOST_UNLIKE_RATIO * (1.0 - alike * alike)
+                if alike > likeness[q]:
+                    likeness[q] = alike
+                    if 1.0 - alike * alike < worst:
+                        found[q] = quad[0]
+                if p != picture or c != cover:
+                    picture, cover = p, c
+                    _factor(basis[p], covers[c], damping, stiffness, matrix)
+            if step == steps:
+                break
+            right[:] = 0.0
+            for i in range(len(columns)):
+                value = seen[0, i] * covers[cover, i]
+                for j in range(UNKNOWN):
+                    right[j] += value * basis[picture, i, j]
+            _straighten(quad[0], stiffness * alike, right)
+            _solve(matrix, right)
+            if right[0] < LEAST_GAIN:
+                break
+            _move_back(quad[0], right[2:] / right[0])
+    return found, likeness
+
+
+@compiled
+def distinct(quads, likeness, order, known, most, least, same_ratio):
+    """Of outlines in order of likeness the first that are not one already, nor known: indexes (k,)."""
+    kept = np.empty(most, np.int64)
+    n = 0
+    for i in order:
+        if n == most or likeness[i] < least:
+            break
+        side = 0.0
+        for k in range(3):
+            side += np.sqrt(((quads[i, k + 1] - quads[i, k]) ** 2).sum()) / 3.0
+        # Turned outlines are not the same.
+        same = max(same_ratio * side, 1.0)
+        fresh = True
+        for j in range(len(known)):
+            fresh = fresh and np.abs(quads[i] - known[j]).max() > same
+        for j in range(n):
+            fresh = fresh and np.abs(quads[i] - quads[kept[j]]).max() > same
+        if fresh:
+            kept[n] = i
+            n += 1
+    return kept[:n].copy()
