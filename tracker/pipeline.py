@@ -1,6 +1,8 @@
 """The stages of the tracker in order, and nothing else."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import cv2
 import numpy as np
@@ -10,12 +12,13 @@ from tracker.appearance import textures_of
 from tracker.camera import CameraModel
 from tracker.edges import GreyImage, edgels_of, gradient_of
 from tracker.errors import InvalidInput
-from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import (
     Candidate,
     MarkerModel,
     ScoreSettings,
     candidate_rounds,
+    practice_image,
     refuse_alike,
     templates_of,
 )
@@ -30,9 +33,11 @@ from tracker.pose import (
     UnseenReason,
     judged,
     occurrence_near,
+    one_for_each_place,
     pose_from_corners,
-    side_px_of,
+    window_around,
     with_target,
+    worth_of,
 )
 from tracker.regions import noise_grey
 from tracker.stages import Stages
@@ -44,22 +49,31 @@ TRACK_REACH_PX = 6.0
 MOST_FITS = 4
 # Seen (2), with score and target score of 0.9 on average.
 CERTAIN_WORTH = 3.8
-WINDOW_MARGIN_PX, WINDOW_SIDE_RATIO, LEAST_WINDOW_PX = 8.0, 0.15, 24
+PIXELS_FOR_NOISE = 125_000
+# While others are tracked, what is out of view costs one part of a search in so many of so many images: most
+# images cost no more than what is in view.
+SEARCHED_IMAGES, OF_IMAGES = 2, 5
 
 
-def _window(camera: CameraModel, corners_px: Array) -> tuple[int, int, int, int] | None:
-    """Left, top, right, bottom of the part of the image in which a marker expected at these corners can be.
+@dataclass(slots=True)
+class _Watch:
+    """A search of one image for markers that are out of view, spread over the images after it. Mutable.
 
-    None where too little of it would be inside the image.
+    Attributes:
+        pixels: of the image that is searched, which may be some images old.
+        models: what is looked for.
+        rounds: candidates for each of them, at rising cost.
+        best: what was made of them until now.
+        waiting: models whose candidates of this round have not been looked at.
+        images: how many have passed since it began.
     """
-    margin = TRACK_REACH_PX + WINDOW_MARGIN_PX + WINDOW_SIDE_RATIO * side_px_of(corners_px)
-    width, height = camera.size_wh_px
-    left, top = np.floor(corners_px.min(axis=0) - margin).astype(int)
-    right, bottom = np.ceil(corners_px.max(axis=0) + margin).astype(int)
-    left, top, right, bottom = max(left, 0), max(top, 0), min(right, width), min(bottom, height)
-    if right - left < LEAST_WINDOW_PX or bottom - top < LEAST_WINDOW_PX:
-        return None
-    return left, top, right, bottom
+
+    pixels: Pixels
+    models: list[MarkerModel]
+    rounds: Iterator[list[list[Candidate]]]
+    best: dict[str, Sighting]
+    waiting: list[tuple[MarkerModel, list[Candidate]]] = field(default_factory=list)
+    images: int = 0
 
 
 class Tracker:
@@ -71,9 +85,13 @@ class Tracker:
     Attributes:
         stage_ms: time of each stage of the last image, by name; empty where no clock was given.
 
+    The first tracker of a process loads the compiled loops, so that no image has to wait for them.
+
     Raises:
         InvalidInput: MARKER_NAMES_NOT_UNIQUE, or MARKERS_ALIKE.
     """
+
+    _has_loaded: ClassVar[bool] = False
 
     def __init__(
         self,
@@ -91,13 +109,28 @@ class Tracker:
         self._templates = templates_of(self.models)
         self._textures = {model.name: textures_of(model.square) for model in self.models}
         self._priors = {model.name: Prior() for model in models}
+        self._watch: _Watch | None = None
+        # What the last whole search said of each marker that it did not find.
+        self._unseen = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
+        self._stages = Stages(None)
+        if self.models and not Tracker._has_loaded:
+            Tracker._has_loaded = True
+            self._practise()
         self._stages = Stages(clock)
+
+    def _practise(self) -> None:
+        """Run the loops of a search once: they are made, or read, when they are first called."""
+        image = practice_image(self.models[0].square, size_wh_px=self.camera.size_wh_px)
+        self._search(self._pixels(image), self.models[:1])
+        for _ in candidate_rounds(image, self._templates[[0]]):
+            pass
 
     def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
         """What this image says of each marker, using what is known from the images before it.
 
         A marker that was seen is looked for where it is expected; one that is not there is searched for in
-        the whole of the same image.
+        the whole of the same image. A marker that was not seen while others are costs a part of a search:
+        it may come into view for a fraction of a second before it is found.
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
@@ -115,9 +148,15 @@ class Tracker:
             if isinstance(sighting, Seen):
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
-        if missing:
-            seen.update(self._search(pixels, missing))
-        seen = _one_for_each_place(seen)
+        # Where none is in view there is time to look for all.
+        lost = [model for model in missing if not seen or self._expected(model, captured_at_s) is not None]
+        lost_names = {model.name for model in lost}
+        if lost:
+            said = self._search(pixels, lost)
+            self._keep_unseen(said)
+            seen |= said
+        seen |= self._look_out_for(pixels, [model for model in missing if model.name not in lost_names])
+        seen = one_for_each_place(seen)
         for name, prior in self._priors.items():
             prior.learn(seen[name], captured_at_s)
         self.stage_ms = self._stages.taken_ms
@@ -130,7 +169,7 @@ class Tracker:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         self._stages.start()
-        seen = _one_for_each_place(self._search(self._pixels(self._grey(image)), self.models))
+        seen = one_for_each_place(self._search(self._pixels(self._grey(image)), self.models))
         self.stage_ms = self._stages.taken_ms
         return seen
 
@@ -155,18 +194,24 @@ class Tracker:
         return np.asarray(grey, dtype=np.uint8)
 
     def _pixels(self, grey: GreyImage) -> Pixels:
-        return Pixels(image=grey, noise_grey=noise_grey(grey), textures=self._textures)
+        # Noise is alike everywhere: some rows tell it.
+        every = max(grey.size // PIXELS_FOR_NOISE, 1)
+        return Pixels(image=grey, noise_grey=noise_grey(grey[::every]), textures=self._textures)
 
     def _track(self, pixels: Pixels, model: MarkerModel, captured_at_s: float) -> Sighting | None:
         """The marker where it is expected; None when nothing is expected there."""
-        expected = self._priors[model.name].expected(captured_at_s)
+        expected = self._expected(model, captured_at_s)
         return None if expected is None else self._near(pixels, model, expected, found_by="track")
+
+    def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:
+        return self._priors[model.name].expected(captured_at_s)
 
     def _near(
         self, pixels: Pixels, model: MarkerModel, start: Rigid[Camera, Marker], *, found_by: FoundBy
     ) -> Sighting | None:
         """What stands at about this pose; None when it would be outside the image, or nothing fits there."""
-        window = _window(self.camera, self.camera.px_from_camera(start.move_points(model.corners_mm)))
+        corners = self.camera.px_from_camera(start.move_points(model.corners_mm))
+        window = window_around(corners, reach_px=TRACK_REACH_PX, size_wh_px=self.camera.size_wh_px)
         if window is None:
             return None
         expected = start if found_by == "track" else None
@@ -195,17 +240,63 @@ class Tracker:
         return sighting
 
     def _search(self, pixels: Pixels, models: Sequence[MarkerModel]) -> dict[str, Sighting]:
-        best: dict[str, Sighting] = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
-        which = [self.models.index(model) for model in models]
-        for candidates in candidate_rounds(pixels.image, self._templates[which]):
-            self._stages.end("candidates")
-            for model, own in zip(models, candidates, strict=True):
-                if _worth(best[model.name]) <= CERTAIN_WORTH:
-                    found = self._search_one(pixels, model, own)
-                    best[model.name] = max(best[model.name], found, key=_worth)
-            if all(_worth(sighting) > CERTAIN_WORTH for sighting in best.values()):
+        watch = self._watch_of(pixels, models)
+        while self._go_on(watch):
+            if all(worth_of(sighting) > CERTAIN_WORTH for sighting in watch.best.values()):
                 break
-        return best
+        return watch.best
+
+    def _watch_of(self, pixels: Pixels, models: Sequence[MarkerModel]) -> _Watch:
+        """A search that has not begun."""
+        which = [self.models.index(model) for model in models]
+        return _Watch(
+            pixels=pixels,
+            models=list(models),
+            rounds=candidate_rounds(pixels.image, self._templates[which]),
+            best={model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models},
+        )
+
+    def _go_on(self, watch: _Watch) -> bool:
+        """A part of a search: a round's candidates, or a look at those of one model; False at the end."""
+        if not watch.waiting:
+            candidates = next(watch.rounds, None)
+            self._stages.end("candidates")
+            watch.waiting = [pair for pair in zip(watch.models, candidates or [], strict=False) if pair[1]]
+            return candidates is not None
+        model, own = watch.waiting.pop(0)
+        if worth_of(watch.best[model.name]) <= CERTAIN_WORTH:
+            found = self._search_one(watch.pixels, model, own)
+            watch.best[model.name] = max(watch.best[model.name], found, key=worth_of)
+        return True
+
+    def _look_out_for(self, pixels: Pixels, models: list[MarkerModel]) -> dict[str, Sighting]:
+        """What can be said of markers out of view for a part of the cost of a search.
+
+        An image is searched part after part while others pass. What is found in it has come into view: only
+        then the image at hand is searched as a whole.
+        """
+        if not models:
+            self._watch = None
+            return {}
+        if self._watch is None or list(self._watch.best) != [model.name for model in models]:
+            # The caller may write the next image into the same memory.
+            self._watch = self._watch_of(replace(pixels, image=pixels.image.copy()), models)
+        watch = self._watch
+        is_turn = SEARCHED_IMAGES * watch.images % OF_IMAGES < SEARCHED_IMAGES
+        watch.images += 1
+        is_over = is_turn and not self._go_on(watch)
+        if is_over:
+            self._keep_unseen(watch.best)
+        said: dict[str, Sighting] = {model.name: self._unseen[model.name] for model in models}
+        found = [model for model in models if isinstance(watch.best[model.name], Seen)]
+        if found:
+            said |= self._search(pixels, found)
+        if is_over or found:
+            self._watch = None
+        return said
+
+    def _keep_unseen(self, said: Mapping[str, Sighting]) -> None:
+        self._unseen.update({name: one for name, one in said.items() if isinstance(one, Unseen)})
 
     def _search_one(
         self,
@@ -220,33 +311,9 @@ class Tracker:
             sighting = None if start is None else self._near(pixels, model, start, found_by="search")
             if sighting is None:
                 continue
-            best = max(best, sighting, key=_worth)
+            best = max(best, sighting, key=worth_of)
             fits += 1
             # Candidates come likeliest first: one that leaves nothing open ends the search.
-            if fits >= MOST_FITS or _worth(best) > CERTAIN_WORTH:
+            if fits >= MOST_FITS or worth_of(best) > CERTAIN_WORTH:
                 break
         return best
-
-
-def _one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
-    """Where two markers are claimed on one square, the one that fits it better; the other is not there."""
-    kept = dict(sightings)
-    names = sorted(sightings, key=lambda name: _worth(sightings[name]), reverse=True)
-    places: list[Seen] = []
-    for name in names:
-        sighting = sightings[name]
-        if not isinstance(sighting, Seen):
-            continue
-        centre, side = sighting.corners_px.mean(axis=0), side_px_of(sighting.corners_px)
-        if any(np.linalg.norm(other.corners_px.mean(axis=0) - centre) < 0.5 * side for other in places):
-            kept[name] = Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=sighting.score_ratio)
-        else:
-            places.append(sighting)
-    return kept
-
-
-def _worth(sighting: Sighting) -> float:
-    """What is seen is worth more than what is not, and a better score more than a worse one."""
-    if isinstance(sighting, Seen):
-        return 2.0 + sighting.score_ratio + sighting.target_score_ratio
-    return sighting.best_score_ratio

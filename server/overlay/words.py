@@ -29,8 +29,6 @@ UNSEEN_WORDS = {
     UnseenReason.SCORE_TOO_LOW: "too few of its edges",
     UnseenReason.TARGET_SCORE_TOO_LOW: "edges that it has not",
     UnseenReason.SHAPE_DIFFERS: "a look-alike: another shape inside",
-    UnseenReason.AMBIGUOUS_POSE: "two poses fit equally well",
-    UnseenReason.FIT_FAILED: "no pose fits its edges",
 }
 
 

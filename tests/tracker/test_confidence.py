@@ -10,7 +10,7 @@ from tests.tracker.scenes import Print, code_image, rendered
 from tracker import InvalidInput, MarkerModel, Seen, Tracker, Unseen, UnseenReason
 from tracker.geometry import point_covariance_mm2
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
-from tracker.pipeline import _one_for_each_place
+from tracker.pose import one_for_each_place
 from tracker.rehearsal import Theatre, TheatreSettings
 
 
@@ -80,7 +80,7 @@ def test_one_square_is_claimed_for_the_marker_that_fits_it_better() -> None:
     assert isinstance(seen, Seen)
     worse = replace(seen, score_ratio=seen.score_ratio - 0.1)
     beside = replace(seen, corners_px=seen.corners_px + 100.0)
-    kept = _one_for_each_place({"worse": worse, "better": seen, "beside": beside})
+    kept = one_for_each_place({"worse": worse, "better": seen, "beside": beside})
     assert kept["better"] is seen
     assert kept["beside"] is beside
     assert kept["worse"] == Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=worse.score_ratio)

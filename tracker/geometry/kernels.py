@@ -74,3 +74,34 @@ def solve_positive(a, g, out):
     for i in range(n):
         out[i] /= d[i]
     return True
+
+
+@compiled
+def turn_between(a, b):
+    """By how much one rotation (3, 3) is turned from another, 0..pi."""
+    # The product of a with b's transpose: its antisymmetric part is the sine, its trace the cosine.
+    x, y, z, trace = 0.0, 0.0, 0.0, 0.0
+    for k in range(3):
+        x += a[2, k] * b[1, k] - a[1, k] * b[2, k]
+        y += a[0, k] * b[2, k] - a[2, k] * b[0, k]
+        z += a[1, k] * b[0, k] - a[0, k] * b[1, k]
+        trace += a[0, k] * b[0, k] + a[1, k] * b[1, k] + a[2, k] * b[2, k]
+    return np.arctan2(0.5 * np.sqrt(x * x + y * y + z * z), 0.5 * (trace - 1.0))
+
+
+@compiled
+def pose_inverse(matrix):
+    """The first part (6, 6) of the inverse of a positive matrix (n, n), and False where it has none."""
+    unit, column = np.zeros(len(matrix)), np.empty(len(matrix))
+    inverse = np.empty((6, 6))
+    for k in range(6):
+        unit[:] = 0.0
+        unit[k] = 1.0
+        if not solve_positive(matrix, unit, column):
+            return inverse, False
+        for m in range(6):
+            inverse[m, k] = column[m]
+    for k in range(6):
+        for m in range(k):
+            inverse[m, k] = inverse[k, m] = 0.5 * (inverse[m, k] + inverse[k, m])
+    return inverse, True

@@ -4,6 +4,7 @@ from tracker.marker.active_edges import ActiveEdges
 from tracker.marker.explanation import Contradiction, Explanation, contradiction_of, explanation_of
 from tracker.marker.looks import Templates, templates_of
 from tracker.marker.model import MarkerModel, refuse_alike
+from tracker.marker.practice import practice_image
 from tracker.marker.score import (
     Agreement,
     ScoreSettings,
@@ -28,6 +29,7 @@ __all__ = [
     "edge_crossings",
     "explanation_of",
     "model_agreement",
+    "practice_image",
     "reach_px",
     "refuse_alike",
     "target_coverage_ratio",

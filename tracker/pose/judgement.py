@@ -88,6 +88,7 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
         target_coverage_ratio=agreement.target_coverage_ratio,
         fit_error_px2=agreement.fit_error_px2,
         found_by=scene.found_by,
+        lead_sd2=found.fit.lead_sd2,
     )
     if weak or plain < PLAIN_LIKENESS:
         explained = _explained(scene, found, by_edges, plain=0.0 if weak else plain)

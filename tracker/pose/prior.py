@@ -4,26 +4,35 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+from tracker.pose.planar import other_solution
+from tracker.pose.rivals import Expected
 from tracker.pose.sighting import Seen, Sighting
 
 # A hand changes its mind within a tenth of a second: farther ahead a straight line is a guess.
 LONGEST_AHEAD_S = 0.25
+# A highlight or a hand may hide a marker for some images; where it was then is where it is.
+LONGEST_UNSEEN_S = 0.07
 # Two poses nearer in time than this say nothing about speed.
 LEAST_INTERVAL_S = 1e-3
 MOST_SPEED_MM_S = 1500.0
+MOST_TURN_RAD = float(np.radians(15.0))
+# What speaks for one of the planar solutions is not all new in each image: bent paper, light and blur stay.
+# So images long past lose their say, and some that agree always suffice to turn the judgement.
+KEPT_LEAD_RATIO, MOST_LEAD_SD2 = 0.9, 25.0
 
 
 @dataclass(slots=True)
 class Prior:
-    """The last pose of one marker and how fast it moved. Mutable: the tracker's window."""
+    """The last pose of one marker, how sure that is, and how fast it moved. Mutable: the tracker's window."""
 
     pose: Rigid[Camera, Marker] | None = None
+    lead_sd2: float = 0.0
     at_s: float = 0.0
     velocity_mm_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
     turning_rad_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
-    def expected(self, at_s: float) -> Rigid[Camera, Marker] | None:
+    def expected(self, at_s: float) -> Expected | None:
         """Where the marker should be at this time; None when nobody can know."""
         ahead = at_s - self.at_s
         if self.pose is None or not 0.0 < ahead <= LONGEST_AHEAD_S:
@@ -32,12 +41,19 @@ class Prior:
         rotation = rotation_from_vector(self.turning_rad_s * ahead) @ self.pose.rotation
         if translation[2] <= 1.0 or float(rotation[:, 2] @ translation) >= 0.0:
             return None
-        return Rigid(rotation=rotation, translation_mm=translation)
+        pose: Rigid[Camera, Marker] = Rigid(rotation=rotation, translation_mm=translation)
+        return Expected(
+            rotation=pose.rotation,
+            translation_mm=pose.translation_mm,
+            rival=other_solution(pose),
+            lead_sd2=self.lead_sd2,
+        )
 
     def learn(self, sighting: Sighting, at_s: float) -> None:
-        """Take in what an image said; a marker that is not seen is forgotten."""
+        """Take in what an image said; a marker that is not seen for a while is forgotten."""
         if not isinstance(sighting, Seen):
-            self.pose = None
+            if not 0.0 < at_s - self.at_s <= LONGEST_UNSEEN_S:
+                self.pose = None
             return
         interval = at_s - self.at_s
         self.velocity_mm_s, self.turning_rad_s = np.zeros(3), np.zeros(3)
@@ -47,8 +63,14 @@ class Prior:
             # Faster than any hand: it was somewhere else before, and that says nothing of the next image.
             if float(np.linalg.norm(velocity)) < MOST_SPEED_MM_S:
                 self.velocity_mm_s = velocity
-            turned = vector_from_rotation(now.rotation @ self.pose.rotation.T)
             # From one planar solution to the other is no turn of the hand.
-            if float(np.linalg.norm(turned)) < np.radians(15.0):
+            before = (self.pose, other_solution(self.pose))
+            turned = min((_turn(now, pose) for pose in before), key=lambda turn: float(turn @ turn))
+            if float(np.linalg.norm(turned)) < MOST_TURN_RAD:
                 self.turning_rad_s = turned / interval
         self.pose, self.at_s = sighting.camera_from_marker, at_s
+        self.lead_sd2 = min(KEPT_LEAD_RATIO * sighting.lead_sd2, MOST_LEAD_SD2)
+
+
+def _turn(now: Rigid[Camera, Marker], before: Rigid[Camera, Marker]) -> Array:
+    return vector_from_rotation(now.rotation @ before.rotation.T)

@@ -6,29 +6,24 @@ import numpy as np
 
 from tracker.camera import CameraModel
 from tracker.edges import Gradient
-from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
+from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.geometry.kernels import pose_inverse
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import LEAST_RESPONSE_RATIO
 from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
+from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surprise
+
+__all__ = ["Fit", "doubt_between", "projected_edges", "refined_pose", "surprise"]
 
 # Camera response, ink and blooming shift all edges towards dark or bright alike: by up to 0.25 px.
 SHIFT_SD_PX = 0.25
 # Neighbouring edgels share pixels, so that their errors are alike over about three of them.
 CORRELATION_LENGTH_PX = 3.0
 LEAST_RESIDUAL_PX = 0.03
-# Costs of both solutions this much apart (in units of the residuals' variance) leave no doubt: the odds of
-# the worse one are under 1 in 10,000.
-DECIDED_COST = 18.0
 # What does not average out along a side: the pattern of pixels against a straight edge, blur between edges
 # that are near to each other. Measured on rendered scenes, where the truth is known.
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
-UNDECIDED_COST = 2.0
-# Nearer than this, two solutions are one.
-LEAST_TURN_RAD = 1e-3
-EXPECTED_TURN_SD_DEG = 4.0
 MOST_MIRRORINGS = 5
-# A hand turns a drill by less than this between two images; farther is the other solution.
-FAR_TURN_DEG, NEAR_TURN_DEG = 20.0, 10.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +37,7 @@ class Fit:
         residual_px: sd of the residuals along the normals.
         shift_px: by how much all edges are shifted towards their bright side.
         doubt_ratio: probability that the other planar solution is the true one, 0..0.5.
+        lead_sd2: as in `Seen`.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -50,6 +46,7 @@ class Fit:
     residual_px: float
     shift_px: float
     doubt_ratio: float = 0.0
+    lead_sd2: float = float("inf")
 
 
 def refined_pose(
@@ -86,15 +83,20 @@ def refined_pose(
     if expected is None and costs[1] - costs[0] > DECIDED_COST * variance:
         return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
     poses = [pose_of(first), pose_of(second)]
-    costs = [cost + variance * surprise(pose, expected) for cost, pose in zip(costs, poses, strict=True)]
-    if costs[0] > costs[1]:
-        first, poses = second, poses[::-1]
-    fit = _fit(poses[0], matrices[first], numbers[first], active, side_px)
-    gap = abs(costs[1] - costs[0]) / variance
+    costs = [cost / variance + surprise(pose, expected) for cost, pose in zip(costs, poses, strict=True)]
+    best = int(costs[0] > costs[1])
+    first = (first, second)[best]
+    fit = _fit(poses[best], matrices[first], numbers[first], active, side_px)
     if fit is None:
         return None
-    doubt, spread = doubt_between(poses[0], poses[1], gap=gap, expected=expected)
-    return replace(fit, covariance=fit.covariance + spread, doubt_ratio=doubt)
+    gap = abs(costs[1] - costs[0])
+    doubt, spread = doubt_between(poses[best], poses[1 - best], gap=gap, expected=expected)
+    return replace(
+        fit,
+        covariance=fit.covariance + spread,
+        doubt_ratio=doubt,
+        lead_sd2=lead_between(costs, poses, best),
+    )
 
 
 def _both(
@@ -133,45 +135,6 @@ def _both(
     return both
 
 
-def doubt_between(
-    better: Rigid[Camera, Marker],
-    worse: Rigid[Camera, Marker],
-    *,
-    gap: float,
-    expected: Rigid[Camera, Marker] | None,
-) -> tuple[float, Array]:
-    """Probability 0..0.5 that the worse of two planar solutions is the true one, and what it adds (6, 6).
-
-    `gap` is by how much its squared residuals are larger, in units of their variance.
-    """
-    apart = _difference(better, worse)
-    if expected is not None and _turned_over(better, worse, expected):
-        gap = min(gap, UNDECIDED_COST)
-    if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
-        return 0.0, np.zeros((6, 6))
-    doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
-    return doubt, doubt * np.outer(apart, apart)
-
-
-def _turned_over(
-    better: Rigid[Camera, Marker], worse: Rigid[Camera, Marker], expected: Rigid[Camera, Marker]
-) -> bool:
-    """Whether the better pose is one that no hand reaches from the expected one, and the worse is at hand."""
-    turns = [
-        float(np.linalg.norm(vector_from_rotation(pose.rotation @ expected.rotation.T)))
-        for pose in (better, worse)
-    ]
-    return bool(turns[0] > np.radians(FAR_TURN_DEG) and turns[1] < np.radians(NEAR_TURN_DEG))
-
-
-def surprise(pose: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> float:
-    """Squared turn from the expected pose, in units of what a hand turns beside its prediction."""
-    if expected is None:
-        return 0.0
-    turned = vector_from_rotation(pose.rotation @ expected.rotation.T)
-    return float(turned @ turned) / float(np.radians(EXPECTED_TURN_SD_DEG)) ** 2
-
-
 def projected_edges(
     camera: CameraModel, pose: Rigid[Camera, Marker], active: ActiveEdges
 ) -> tuple[Array, Array] | None:
@@ -196,23 +159,13 @@ def _fit(
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES
-    scale = np.sqrt(matrix.diagonal())
-    scales = scale[:, None] * scale
-    try:
-        inverse = np.linalg.inv(matrix / scales) / scales
-    except np.linalg.LinAlgError:
+    inverse, is_told = pose_inverse(matrix)
+    if not is_told:
         return None
     return Fit(
         camera_from_marker=pose,
-        covariance=inverse[:6, :6] * variance,
+        covariance=inverse * variance,
         cost_px2=cost,
         residual_px=float(np.sqrt(squares / weights)),
         shift_px=shift,
-    )
-
-
-def _difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
-    """What takes pose `a` to pose `b`, in the coordinates of the covariance."""
-    return np.concatenate(
-        [b.translation_mm - a.translation_mm, vector_from_rotation(b.rotation @ a.rotation.T)]
     )

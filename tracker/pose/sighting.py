@@ -10,14 +10,17 @@ FoundBy: TypeAlias = Literal["search", "track"]
 
 
 class UnseenReason(StrEnum):
-    """Why a marker is not claimed in an image."""
+    """Why a marker is not claimed in an image.
+
+    Two poses that explain it equally well are no such reason: the likelier one is claimed, with a covariance
+    that reaches over both (`POSE_UNCERTAIN` is what navigation makes of it), and the next images decide. So
+    the marker stays in sight, and its place in the image is as good as ever.
+    """
 
     NO_CANDIDATE = "NO_CANDIDATE"  # nothing in the image has the outline of the marker
     SCORE_TOO_LOW = "SCORE_TOO_LOW"  # something has, but too few of the marker's edges are there
     TARGET_SCORE_TOO_LOW = "TARGET_SCORE_TOO_LOW"  # ... or edges are there that the marker has not
     SHAPE_DIFFERS = "SHAPE_DIFFERS"  # its edges fit, but a part inside is dark for bright: a look-alike
-    AMBIGUOUS_POSE = "AMBIGUOUS_POSE"  # it is there, but two poses explain it equally well
-    FIT_FAILED = "FIT_FAILED"  # it is there, but no pose fits its edges
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +39,8 @@ class Seen:
         target_coverage_ratio: length found, by the length of all edges inside the occurrence, 0..1.
         fit_error_px2: mean squared distance of the common edgels to the model's edges.
         found_by: "search" (whole image, no prior) or "track" (where it was expected).
+        lead_sd2: by how much this image and those before speak for this pose against the other planar
+            solution, in squared residuals by their variance; infinite where no other fits.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -47,6 +52,7 @@ class Seen:
     target_coverage_ratio: float
     fit_error_px2: float
     found_by: FoundBy
+    lead_sd2: float = float("inf")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

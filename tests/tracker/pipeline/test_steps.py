@@ -78,6 +78,17 @@ def test_a_marker_that_jumps_is_found_again_in_the_same_image() -> None:
     assert off_px(found, there) < 0.3
 
 
+def test_a_marker_that_is_hidden_for_one_image_is_tracked_on() -> None:
+    tracker = tracker_of()
+    for k in range(3):
+        tracker.step(image_of(pose_of((120.0 + 9 * k, 150.0)), seed=k), captured_at_s=k / 30)
+    assert isinstance(tracker.step(image_of(), captured_at_s=3 / 30)["code"], Unseen)
+    there = pose_of((120.0 + 9 * 4, 150.0))
+    found = seen(tracker.step(image_of(there, seed=4), captured_at_s=4 / 30)["code"])
+    assert found.found_by == "track"
+    assert off_px(found, there) < 0.3
+
+
 def test_a_marker_that_is_gone_is_unseen_at_once() -> None:
     tracker = tracker_of()
     for k in range(3):

@@ -227,3 +227,18 @@ def test_what_is_inside_must_be_there_whatever_the_outline_says(side: int) -> No
     assert isinstance(sighting, Unseen)
     assert sighting.reason is UnseenReason.SCORE_TOO_LOW
     assert sighting.best_score_ratio > strict.accept_score_ratio
+
+
+def test_the_first_tracker_of_a_process_loads_what_an_image_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Tracker, "_has_loaded", False)
+    came_so_far: list[str] = []
+
+    def watched(_: Stages, stage: str) -> None:
+        came_so_far.append(stage)
+
+    monkeypatch.setattr(Stages, "end", watched)
+    tracker_of()
+    assert {"gradient", "candidates", "fit", "score", "judgement"} <= set(came_so_far)
+    came_so_far.clear()
+    tracker_of()
+    assert not came_so_far, "the second one has nothing to load"

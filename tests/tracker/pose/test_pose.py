@@ -266,6 +266,19 @@ def test_a_marker_that_is_not_seen_is_forgotten() -> None:
     np.testing.assert_allclose(expected.translation_mm, [50, 0, 400])
 
 
+def test_a_marker_that_is_hidden_for_an_image_is_expected_where_it_was_going() -> None:
+    prior = Prior()
+    for k in range(2):
+        prior.learn(_sighting([2.0 * k, 0, 400]), 0.03 * k)
+    prior.learn(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.06)
+    expected = prior.expected(0.09)
+    assert expected is not None
+    np.testing.assert_allclose(expected.translation_mm, [6, 0, 400])
+    prior.learn(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.09)
+    prior.learn(Unseen(reason=UnseenReason.SHAPE_DIFFERS), 0.12)
+    assert prior.expected(0.15) is None
+
+
 def _sighting(at_mm: list[float]) -> Seen:
     pose = facing(at_mm, tilt_deg=10)
     return Seen(

@@ -143,7 +143,5 @@ export const de: Words = {
     SCORE_TOO_LOW: "zu wenige seiner Kanten sind da",
     TARGET_SCORE_TOO_LOW: "Kanten, die er nicht hat",
     SHAPE_DIFFERS: "innen eine andere Form: ein Doppelgänger",
-    AMBIGUOUS_POSE: "zwei Lagen passen gleich gut",
-    FIT_FAILED: "keine Lage passt zu seinen Kanten",
   },
 };

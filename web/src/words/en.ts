@@ -194,7 +194,5 @@ export const en: Words = {
     SCORE_TOO_LOW: "too few of its edges are there",
     TARGET_SCORE_TOO_LOW: "edges are there that it does not have",
     SHAPE_DIFFERS: "a look-alike: another shape inside",
-    AMBIGUOUS_POSE: "two poses fit equally well",
-    FIT_FAILED: "no pose fits its edges",
   },
 };

@@ -1,0 +1,122 @@
+"""Two planar solutions over time: the images together decide, and a wrong one is left again."""
+
+import numpy as np
+import pytest
+
+from tests.tracker.pipeline.stepped import CAMERA, MODEL, pose_of
+from tests.tracker.scenes import Image8, Print, code_image, rendered
+from tracker.edges import gradient_of
+from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+from tracker.geometry.kernels import pose_inverse, turn_between
+from tracker.pose import Prior, Seen, occurrence_near, other_solution
+from tracker.pose.prior import MOST_LEAD_SD2
+from tracker.pose.rivals import Expected, doubt_between, lead_between, surprise
+
+TRUTH = pose_of(side_px=26.0, tilt_deg=11.0)
+
+
+def _turned_deg(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> float:
+    return float(np.degrees(np.linalg.norm(vector_from_rotation(a.rotation @ b.rotation.T))))
+
+
+def _expected(lead_sd2: float) -> Expected:
+    return Expected(
+        rotation=TRUTH.rotation,
+        translation_mm=TRUTH.translation_mm,
+        rival=other_solution(TRUTH),
+        lead_sd2=lead_sd2,
+    )
+
+
+def _noisy(seed: int) -> Image8:
+    print_ = Print(picture=code_image(), pose=TRUTH)
+    return rendered(CAMERA, [print_], noise_grey=8.0, seed=seed)
+
+
+def _fitted(image: Image8, expected: Expected | None) -> Seen:
+    """By edges alone: they are the weaker witness."""
+    gradient = gradient_of(image)
+    start = TRUTH if expected is None else expected
+    found = occurrence_near(CAMERA, MODEL, gradient, start, first_reach_px=6.0, expected=expected)
+    assert found is not None
+    return Seen(
+        camera_from_marker=found.fit.camera_from_marker,
+        pose_covariance=found.fit.covariance,
+        corners_px=found.corners_px,
+        score_ratio=1.0,
+        target_score_ratio=1.0,
+        model_coverage_ratio=1.0,
+        target_coverage_ratio=1.0,
+        fit_error_px2=found.agreement.fit_error_px2,
+        found_by="track",
+        lead_sd2=found.fit.lead_sd2,
+    )
+
+
+def test_the_other_solution_surprises_by_no_more_than_the_images_before_said_against_it() -> None:
+    assert surprise(TRUTH, _expected(7.0)) == pytest.approx(0.0)
+    assert surprise(other_solution(TRUTH), _expected(7.0)) == pytest.approx(7.0)
+    assert surprise(other_solution(TRUTH), TRUTH) > 20.0
+    assert surprise(TRUTH, None) == 0.0
+
+
+def test_a_prior_that_took_the_wrong_solution_gives_it_up_within_a_few_images() -> None:
+    wrong = other_solution(TRUTH)
+    assert _turned_deg(wrong, TRUTH) > 20.0
+    prior = Prior()
+    first = _fitted(_noisy(0), None)
+    prior.learn(first, 0.0)
+    prior.pose, prior.lead_sd2 = wrong, MOST_LEAD_SD2
+    off_deg, turning_deg_s = [], []
+    for k in range(1, 12):
+        seen = _fitted(_noisy(k), prior.expected(k / 30))
+        prior.learn(seen, k / 30)
+        off_deg.append(_turned_deg(seen.camera_from_marker, TRUTH))
+        turning_deg_s.append(float(np.degrees(np.linalg.norm(prior.turning_rad_s))))
+    assert off_deg[0] > 20.0, "one image alone does not speak loud enough"
+    assert max(off_deg[4:]) < 5.0
+    # Changing over is no turn of the hand.
+    assert max(turning_deg_s) < 300.0
+
+
+def test_what_the_images_say_adds_up_and_is_bounded() -> None:
+    prior = Prior()
+    leads = []
+    for k in range(10):
+        seen = _fitted(_noisy(k), prior.expected(k / 30) if k else None)
+        prior.learn(seen, k / 30)
+        leads.append(prior.lead_sd2)
+    assert leads[0] < 0.6 * MOST_LEAD_SD2
+    assert leads[0] < leads[1]
+    assert max(leads) == MOST_LEAD_SD2
+
+
+def test_the_lead_is_that_over_another_solution_not_over_the_same_one() -> None:
+    near: Rigid[Camera, Marker] = Rigid.from_matrix(TRUTH.matrix)
+    assert lead_between([1.0, 1.5, 9.0], [TRUTH, near, other_solution(TRUTH)], 0) == pytest.approx(8.0)
+    assert lead_between([1.0], [TRUTH], 0) == float("inf")
+    assert lead_between([1.0, 1.5], [TRUTH, near], 0) == float("inf")
+
+
+def test_an_even_race_leaves_even_doubt_and_a_covariance_that_reaches_the_other() -> None:
+    doubt, spread = doubt_between(TRUTH, other_solution(TRUTH), gap=0.0, expected=None)
+    assert doubt == pytest.approx(0.5)
+    reach_deg = np.degrees(np.sqrt(np.trace(spread[3:, 3:])))
+    assert reach_deg == pytest.approx(_turned_deg(TRUTH, other_solution(TRUTH)) * np.sqrt(0.5))
+    assert doubt_between(TRUTH, other_solution(TRUTH), gap=19.0, expected=None)[0] == 0.0
+
+
+@pytest.mark.parametrize("angle_deg", [0.0, 1e-4, 30.0, 179.0, 180.0])
+def test_the_turn_between_rotations_is_exact_from_nothing_to_half_a_turn(angle_deg: float) -> None:
+    axis = np.array([0.36, -0.48, 0.8])
+    turned = rotation_from_vector(axis * np.radians(angle_deg)) @ TRUTH.rotation
+    assert np.degrees(turn_between(turned, TRUTH.rotation)) == pytest.approx(angle_deg, abs=1e-5)
+
+
+def test_the_pose_s_part_of_an_inverse_is_that_of_the_whole_inverse() -> None:
+    rows = np.random.default_rng(3).normal(size=(20, 7)) * [1.0, 1.0, 0.1, 90.0, 80.0, 70.0, 1.0]
+    matrix = rows.T @ rows
+    inverse, is_told = pose_inverse(matrix)
+    assert is_told
+    np.testing.assert_allclose(inverse, np.linalg.inv(matrix)[:6, :6], rtol=1e-6, atol=1e-12)
+    assert not pose_inverse(np.zeros((7, 7)))[1]

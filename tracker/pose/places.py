@@ -1,0 +1,30 @@
+"""What sightings are worth beside each other: one marker for each place."""
+
+import numpy as np
+
+from tracker.pose.occurrence import side_px_of
+from tracker.pose.sighting import Seen, Sighting, Unseen, UnseenReason
+
+
+def one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
+    """Where two markers are claimed on one square, the one that fits it better; the other is not there."""
+    kept = dict(sightings)
+    names = sorted(sightings, key=lambda name: worth_of(sightings[name]), reverse=True)
+    places: list[Seen] = []
+    for name in names:
+        sighting = sightings[name]
+        if not isinstance(sighting, Seen):
+            continue
+        centre, side = sighting.corners_px.mean(axis=0), side_px_of(sighting.corners_px)
+        if any(np.linalg.norm(other.corners_px.mean(axis=0) - centre) < 0.5 * side for other in places):
+            kept[name] = Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=sighting.score_ratio)
+        else:
+            places.append(sighting)
+    return kept
+
+
+def worth_of(sighting: Sighting) -> float:
+    """What is seen is worth more than what is not, and a better score more than a worse one."""
+    if isinstance(sighting, Seen):
+        return 2.0 + sighting.score_ratio + sighting.target_score_ratio
+    return sighting.best_score_ratio

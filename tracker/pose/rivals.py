@@ -1,0 +1,104 @@
+"""Which of the two planar solutions is the true one: what one image says, and what the images before say."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
+from tracker.geometry.kernels import turn_between
+
+# Costs of both solutions this much apart (in units of the residuals' variance) leave no doubt: the odds of
+# the worse one are under 1 in 10,000.
+DECIDED_COST = 18.0
+UNDECIDED_COST = 2.0
+# Nearer than this, two solutions are one.
+LEAST_TURN_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
+EXPECTED_TURN_SD_DEG = 4.0
+# A hand turns a drill by less than this between two images; farther is the other solution.
+FAR_TURN_DEG, NEAR_TURN_DEG = 20.0, 10.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Expected(Rigid[Camera, Marker]):
+    """The pose that the images before let expect, and its rival.
+
+    Attributes:
+        rival: the other planar solution; it moves along.
+        lead_sd2: by how much the images before speak for this one, in squared residuals by their variance.
+    """
+
+    rival: Rigid[Camera, Marker]
+    lead_sd2: float
+
+
+def surprise(pose: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> float:
+    """What the images before say against a pose, in squared residuals by their variance.
+
+    The squared turn from the expected pose, in units of what a hand turns beside its prediction; or from its
+    rival, and what spoke against that one. So both are carried, until the images together decide.
+    """
+    if expected is None:
+        return 0.0
+    against = _turn_sd2(pose, expected)
+    if isinstance(expected, Expected):
+        against = min(against, expected.lead_sd2 + _turn_sd2(pose, expected.rival))
+    return against
+
+
+def lead_between(costs_sd2: list[float], poses: list[Rigid[Camera, Marker]], best: int) -> float:
+    """By how much the best of some fits leads the next one that is another solution; infinite without one.
+
+    Costs are squared residuals by their variance, and what is expected is in them.
+    """
+    others = [
+        cost - costs_sd2[best]
+        for cost, pose in zip(costs_sd2, poses, strict=True)
+        if _turn_rad(pose, poses[best]) > ONE_SOLUTION_RAD
+    ]
+    return max(min(others), 0.0) if others else float("inf")
+
+
+def doubt_between(
+    better: Rigid[Camera, Marker],
+    worse: Rigid[Camera, Marker],
+    *,
+    gap: float,
+    expected: Rigid[Camera, Marker] | None,
+) -> tuple[float, Array]:
+    """Probability 0..0.5 that the worse of two planar solutions is the true one, and what it adds (6, 6).
+
+    `gap` is by how much its squared residuals are larger, in units of their variance.
+    """
+    if gap > DECIDED_COST and (expected is None or _turn_rad(better, expected) < np.radians(FAR_TURN_DEG)):
+        return 0.0, np.zeros((6, 6))
+    if expected is not None and _turned_over(better, worse, expected):
+        gap = min(gap, UNDECIDED_COST)
+    apart = _difference(better, worse)
+    if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
+        return 0.0, np.zeros((6, 6))
+    doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
+    return doubt, doubt * np.outer(apart, apart)
+
+
+def _turn_rad(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> float:
+    """By how much one pose is turned from the other."""
+    return float(turn_between(a.rotation, b.rotation))
+
+
+def _turn_sd2(pose: Rigid[Camera, Marker], other: Rigid[Camera, Marker]) -> float:
+    return (_turn_rad(pose, other) / float(np.radians(EXPECTED_TURN_SD_DEG))) ** 2
+
+
+def _turned_over(
+    better: Rigid[Camera, Marker], worse: Rigid[Camera, Marker], expected: Rigid[Camera, Marker]
+) -> bool:
+    """Whether the better pose is one that no hand reaches from the expected one, and the worse is at hand."""
+    is_far = _turn_rad(better, expected) > np.radians(FAR_TURN_DEG)
+    return bool(is_far and _turn_rad(worse, expected) < np.radians(NEAR_TURN_DEG))
+
+
+def _difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
+    """What takes pose `a` to pose `b`, in the coordinates of the covariance."""
+    return np.concatenate(
+        [b.translation_mm - a.translation_mm, vector_from_rotation(b.rotation @ a.rotation.T)]
+    )

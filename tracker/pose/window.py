@@ -1,0 +1,25 @@
+"""The part of an image that is looked at around an expected marker."""
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.pose.occurrence import side_px_of
+
+MARGIN_PX, MARGIN_SIDE_RATIO, LEAST_PX = 8.0, 0.15, 24
+
+
+def window_around(
+    corners_px: Array, *, reach_px: float, size_wh_px: tuple[int, int]
+) -> tuple[int, int, int, int] | None:
+    """Left, top, right, bottom of the part of the image in which a marker expected at these corners can be.
+
+    None where too little of it would be inside the image.
+    """
+    margin = reach_px + MARGIN_PX + MARGIN_SIDE_RATIO * side_px_of(corners_px)
+    width, height = size_wh_px
+    left, top = np.floor(corners_px.min(axis=0) - margin).astype(int).tolist()
+    right, bottom = np.ceil(corners_px.max(axis=0) + margin).astype(int).tolist()
+    left, top, right, bottom = max(left, 0), max(top, 0), min(right, width), min(bottom, height)
+    if right - left < LEAST_PX or bottom - top < LEAST_PX:
+        return None
+    return left, top, right, bottom
