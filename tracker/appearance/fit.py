@@ -24,7 +24,8 @@ MOST_MOVE_PX = 0.7
 # Residuals over so many sd lose their say.
 CUT = 4.0
 # Where the picture is this much flatter than at its steepest a pixel says little of the pose: few are enough.
-LEAST_SLOPE_RATIO, FLAT_STRIDE = 0.25, 10
+# Where pixels are averaged, edges cover few of them, and all of those are asked.
+LEAST_SLOPE_RATIO, LEAST_SLOPE_RATIO_AVERAGED, FLAT_STRIDE = 0.25, 0.12, 10
 # So many pixels bring a pose near, some more nearer; all of them then make it exact.
 FEW_PIXELS, SOME_PIXELS = 200, 800
 # A fit is at its end when a step promises less, in units of the residuals' variance. From near its end, by
@@ -162,7 +163,7 @@ def _samples(
         REACH_RATIO,
         textures.arrays,
         blur_px2,
-        LEAST_SLOPE_RATIO,
+        LEAST_SLOPE_RATIO if step == 1 else LEAST_SLOPE_RATIO_AVERAGED,
         FLAT_STRIDE,
         rays,
         values,

@@ -20,8 +20,8 @@ WORTH_EXPLAINING = 0.45
 # Farther than this the pose by edges is not within reach of the fit to all pixels.
 EDGES_OFF_PX = 0.6
 # On bent paper a part of the shape may be beside where it is expected. What is found anew is believed so far
-# only where it is large and nearly whole.
-WIDE_PX, WHOLE_COVERAGE_RATIO = 36.0, 0.85
+# only where it is large and nearly whole; what was there before, and is not contradicted, sooner.
+WIDE_PX, WHOLE_COVERAGE_RATIO, NEAR_LIKENESS, KNOWN_LIKENESS = 36.0, 0.85, 0.93, 0.85
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,10 +126,12 @@ def _explained(scene: Scene, found: Occurrence, seen: Seen, *, plain: float) -> 
         return None
     if explanation.explains:
         return _moved(scene, found, seen, explanation.corners_px + scene.corner_px)
-    if plain <= 0.0 or not explanation.is_near:
+    if plain <= 0.0:
         return None
+    if scene.expected is not None:
+        return seen if explanation.likeness >= KNOWN_LIKENESS else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO
-    return seen if wide or scene.expected is not None else None
+    return seen if wide and explanation.likeness >= NEAR_LIKENESS else None
 
 
 def _moved(scene: Scene, found: Occurrence, seen: Seen, corners_px: Array) -> Seen:
@@ -147,4 +149,6 @@ def _moved(scene: Scene, found: Occurrence, seen: Seen, corners_px: Array) -> Se
         seen,
         camera_from_marker=nearer,
         pose_covariance=found.fit.covariance * (1.0 + (moved / EDGES_OFF_PX) ** 2),
+        # Edges that were off have not decided between the two solutions.
+        lead_sd2=0.0,
     )

@@ -77,7 +77,10 @@ def doubt_between(
     if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
         return 0.0, np.zeros((6, 6))
     doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
-    return doubt, doubt * np.outer(apart, apart)
+    spread = np.outer(apart, apart)
+    # A turn goes along an arc, a covariance along its tangent: by so much is the other solution beside it.
+    spread[3:, 3:] += (1.0 - np.cos(np.linalg.norm(apart[3:]))) ** 2 * np.eye(3)
+    return doubt, doubt * spread
 
 
 def _turn_rad(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> float:

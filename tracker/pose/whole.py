@@ -12,7 +12,7 @@ from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import MarkerModel
 from tracker.pose.occurrence import side_px_of
 from tracker.pose.planar import other_solution
-from tracker.pose.refinement import doubt_between, surprise
+from tracker.pose.rivals import doubt_between, lead_between, surprise
 from tracker.pose.sighting import Seen
 
 # Edges place a pose to a fraction of a pixel: a whole-shape fit that ends farther away fitted something else.
@@ -25,6 +25,9 @@ MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 1.8, 0.055, 
 COVARIANCE_FACTOR = 1.6
 # Costs count each pixel as if it erred alone; half of that is left when the model's own errors are in.
 COST_SHARE = 0.5
+# Where edges and the images before speak so clearly for one of the two solutions, pixels need not be asked of
+# the other. Edges alone may be wrong: smear moves them.
+CLEAR_LEAD_SD2 = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +58,9 @@ def with_whole_shape(
     `expected` is the pose that the images before let expect.
     """
     side_px = side_px_of(seen.corners_px)
-    starts = [seen.camera_from_marker, other_solution(seen.camera_from_marker)]
+    starts = [seen.camera_from_marker]
+    if expected is None or seen.lead_sd2 < CLEAR_LEAD_SD2:
+        starts.append(other_solution(seen.camera_from_marker))
     fits = whole_fits(
         pixels.image,
         camera.lens,
@@ -81,7 +86,10 @@ def with_whole_shape(
         covariance = (
             covariance + doubt_between(pose, near[k].camera_from_marker, gap=gap, expected=expected)[1]
         )
-    return replace(seen, camera_from_marker=pose, pose_covariance=covariance)
+    lead = seen.lead_sd2
+    if len(starts) > 1:
+        lead = lead_between(costs, [one.camera_from_marker for one in near], int(first))
+    return replace(seen, camera_from_marker=pose, pose_covariance=covariance, lead_sd2=lead)
 
 
 def _is_exact(one: WholeFit, noise_grey: float) -> bool:

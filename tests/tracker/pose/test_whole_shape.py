@@ -52,8 +52,8 @@ def test_where_the_better_fit_just_fails_the_worse_does_not_stand_in(
     )
     worse = replace(better, camera_from_marker=other_solution(POSE), cost_sd2=520.0, scale_grey=3.0)
     _given(monkeypatch, [better, worse])
-    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
-    assert exact is found
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, replace(found, lead_sd2=0.0))
+    assert exact == replace(found, lead_sd2=0.0)
 
 
 def test_two_solutions_that_explain_alike_are_both_in_the_covariance(
@@ -62,7 +62,28 @@ def test_two_solutions_that_explain_alike_are_both_in_the_covariance(
     better = replace(_fit_at(POSE), cost_sd2=500.0)
     worse = replace(better, camera_from_marker=other_solution(POSE), cost_sd2=505.0)
     _given(monkeypatch, [worse, better])
-    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, replace(found, lead_sd2=0.0))
     assert np.array_equal(exact.camera_from_marker.rotation, POSE.rotation)
     turned_deg = np.degrees(np.sqrt(np.linalg.eigvalsh(exact.pose_covariance[3:, 3:])[-1]))
     assert turned_deg > 10.0
+
+
+@pytest.mark.parametrize(("lead_sd2", "expected", "count"), [(1e3, POSE, 1), (10.0, POSE, 2), (1e3, None, 2)])
+def test_the_other_solution_is_asked_of_the_pixels_unless_edges_and_time_have_decided(
+    monkeypatch: pytest.MonkeyPatch,
+    found: Seen,
+    lead_sd2: float,
+    expected: Rigid[Camera, Marker] | None,
+    count: int,
+) -> None:
+    starts: list[int] = []
+
+    def told(*args: object, **_: object) -> list[WholeFit]:
+        given = args[3]
+        assert isinstance(given, list)
+        starts.append(len(given))
+        return []
+
+    monkeypatch.setattr(whole, "whole_fits", told)
+    whole.with_whole_shape(CAMERA, MODEL, PIXELS, replace(found, lead_sd2=lead_sd2), expected=expected)
+    assert starts == [count]

@@ -37,7 +37,6 @@ HIGHLIGHTS_LESS = 0.02
 # What is so like the model as a whole is worth the question whether it is a turn of it.
 # Less like its own turns than this, and in full sight, it cannot be mistaken for one of them.
 WORTH_TURNING, HALF_TURNED = 0.9, 0.6
-NEAR_LIKENESS = 0.93
 COVERED_MORE = 0.01
 COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
@@ -84,11 +83,6 @@ class Explanation:
     blur_px: tuple[float, float]
     under_highlights: bool = False
     is_turned: bool = False
-
-    @property
-    def is_near(self) -> bool:
-        """Whether the model as a whole explains most, if not all."""
-        return self.likeness >= NEAR_LIKENESS and not self.is_turned
 
     @property
     def explains(self) -> bool:
