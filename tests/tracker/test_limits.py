@@ -36,46 +36,48 @@ class Level(NamedTuple):
 FOUND = {
     ("A", "base"): Level(0.99, 0.99),
     ("A", "noise8"): Level(0.99, 0.99),
-    ("A", "dark0.06"): Level(0.87, 0.99),
+    ("A", "dark0.06"): Level(0.99, 0.99),
     ("A", "shadow0.5"): Level(0.99, 0.99),
-    ("A", "cover10"): Level(0.16, 0.95),
-    ("A", "cover30"): Level(0.0, 0.60),
-    ("A", "motion4"): Level(0.92, 0.97),
+    ("A", "cover10"): Level(0.95, 0.95),
+    ("A", "cover30"): Level(0.60, 0.60),
+    ("A", "motion4"): Level(0.97, 0.97),
     ("A", "glare0.4"): Level(0.98, 0.98),
-    ("A", "hard1"): Level(0.66, 0.97),
+    ("A", "hard1"): Level(0.97, 0.97),
     ("A", "gamma2.2"): Level(0.99, 0.99),
     ("B", "base"): Level(0.99, 0.99),
     ("B", "noise8"): Level(0.99, 0.99),
-    ("B", "cover20"): Level(0.0, 0.92),
+    ("B", "cover20"): Level(0.92, 0.92),
     ("B", "gamma2.2"): Level(0.99, 0.99),
 }
 # Median over the scenes of the tip's error by the bound of the same scene.
 TIP_OF_BOUND = {
-    ("A", "base"): Level(4.0, 1.5),
-    ("A", "noise8"): Level(2.6, 1.5),
-    ("A", "shadow0.5"): Level(6.5, 3.0),
-    ("A", "glare0.4"): Level(21.0, 3.0),
-    ("A", "motion4"): Level(17.0, 3.0),
-    ("B", "base"): Level(3.0, 1.5),
-    ("B", "noise8"): Level(2.3, 1.5),
+    ("A", "base"): Level(1.5, 1.5),
+    ("A", "noise8"): Level(1.5, 1.5),
+    ("A", "shadow0.5"): Level(3.0, 3.0),
+    ("A", "glare0.4"): Level(3.6, 3.0),
+    ("A", "motion4"): Level(3.0, 3.0),
+    ("B", "base"): Level(1.8, 1.5),
+    ("B", "noise8"): Level(1.5, 1.5),
 }
 # Median, mm: the bound's camera answers straight, this one does not.
-GAMMA_TIP_MM = {"A": Level(1.8, 1.0), "B": Level(0.08, 0.08)}
+GAMMA_TIP_MM = {"A": Level(1.0, 1.0), "B": Level(0.08, 0.08)}
 # By step, after the condition has set in.
 KEPT = {
     ("A", "cover10"): Level(0.99, 0.99),
-    ("A", "cover30"): Level(0.12, 0.99),
-    ("A", "glare1.6"): Level(0.12, 0.99),
-    ("A", "shadow0.8"): Level(0.37, 0.99),
-    ("B", "cover30"): Level(0.12, 0.99),
+    ("A", "cover30"): Level(0.87, 0.99),
+    ("A", "glare1.6"): Level(0.99, 0.99),
+    ("A", "shadow0.8"): Level(0.99, 0.99),
+    ("B", "cover30"): Level(0.83, 0.99),
 }
 SEQUENCES = 6
 # By step, a hand at 300 mm/s.
 FOUND_IN_FAST_HAND, IMAGES_OF_A_HAND = Level(0.99, 0.99), 20
 # Poses at base that are nearer to the wrong one of the two planar solutions.
 MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
-# Of the errors inside their stated 95 % ellipsoid, in base, noise and motion together: least and most.
-COVERED_LEAST, COVERED_MOST = Level(0.92, 0.92), Level(1.0, 0.98)
+# Of the errors inside their stated 95 % ellipsoid, in base, noise and motion together: least.
+COVERED_LEAST = Level(0.92, 0.92)
+# Median of their squares in units of what is stated: 2.37 if it were exactly true, less where it is too wide.
+TYPICAL_SD2 = Level(0.9, 1.7)
 COVERED_IN = (("A", "base"), ("A", "noise8"), ("A", "motion4"), ("B", "base"), ("B", "noise8"))
 # A share of so few images is that far off by chance, two standard deviations of 0.95.
 COVERED_CHANCE = 0.045
@@ -157,9 +159,9 @@ def test_poses_at_base_are_the_right_one_of_both_planar_solutions(rig: str, sear
 def test_errors_lie_inside_their_stated_ellipsoid_as_often_as_stated(
     number: int, searchers: Searchers
 ) -> None:
-    inside = [one.covered[number] for rig, name in COVERED_IN for one in right(run_of(rig, name, searchers))]
-    least, most = COVERED_LEAST.asserted - COVERED_CHANCE, COVERED_MOST.asserted + COVERED_CHANCE
-    assert least <= float(np.mean(inside)) <= most
+    found = [one for rig, name in COVERED_IN for one in right(run_of(rig, name, searchers))]
+    assert float(np.mean([one.covered[number] for one in found])) >= COVERED_LEAST.asserted - COVERED_CHANCE
+    assert float(np.median([one.stated_sd2[number] for one in found])) >= TYPICAL_SD2.asserted
 
 
 @pytest.mark.parametrize("rig", EMPTY_IMAGES)

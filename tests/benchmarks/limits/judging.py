@@ -50,16 +50,21 @@ class Judged:
         outcome: wrong is a marker claimed where it is not.
         errors: sizes by parameter, empty unless right.
         is_mirrored: nearer to the wrong one of the two planar solutions than to the right one.
-        covered: whether translation, rotation and tip are inside the stated 95 % ellipsoid; empty where none
-            is stated.
+        stated_sd2: squared errors of translation, rotation and tip in units of what is stated; empty
+            where none is stated.
         found_by: "search", "track" or "".
     """
 
     outcome: Outcome
     errors: Mapping[str, float]
     is_mirrored: bool = False
-    covered: tuple[bool, ...] = ()
+    stated_sd2: tuple[float, ...] = ()
     found_by: str = ""
+
+    @property
+    def covered(self) -> tuple[bool, ...]:
+        """Whether translation, rotation and tip are inside the stated 95 % ellipsoid."""
+        return tuple(one <= ELLIPSOID_95 for one in self.stated_sd2)
 
 
 def claim_of(sighting: Sighting) -> Claim | None:
@@ -84,7 +89,7 @@ def judged(scene: Scene, claim: Claim | None) -> Judged:
         outcome=Outcome.RIGHT,
         errors=_errors(scene.pose, claim.pose),
         is_mirrored=_is_mirrored(scene.pose, claim.pose),
-        covered=_covered(scene.pose, claim),
+        stated_sd2=_stated_sd2(scene.pose, claim),
         found_by=claim.found_by,
     )
 
@@ -114,7 +119,7 @@ def _is_mirrored(truth: Pose, said: Pose) -> bool:
     return bool(found @ mirrored > found @ normal)
 
 
-def _covered(truth: Pose, claim: Claim) -> tuple[bool, ...]:
+def _stated_sd2(truth: Pose, claim: Claim) -> tuple[float, ...]:
     if claim.covariance is None:
         return ()
     said, covariance = claim.pose, claim.covariance
@@ -125,4 +130,4 @@ def _covered(truth: Pose, claim: Claim) -> tuple[bool, ...]:
         truth.move_points(TIP_IN_MARKER_MM) - said.move_points(TIP_IN_MARKER_MM),
     )
     stated = (covariance[:3, :3], covariance[3:, 3:], to_tip @ covariance @ to_tip.T)
-    return tuple(bool(e @ np.linalg.solve(c, e) <= ELLIPSOID_95) for e, c in zip(off, stated, strict=True))
+    return tuple(float(e @ np.linalg.solve(c, e)) for e, c in zip(off, stated, strict=True))

@@ -27,7 +27,7 @@ from tracker.geometry import Rigid, rotation_from_vector
 RIGHT = Judged(
     outcome=Outcome.RIGHT,
     errors=dict.fromkeys(PARAMETERS, 0.5),
-    covered=(True, True, False),
+    stated_sd2=(1.0, 2.0, 9.0),
     found_by="track",
 )
 MISSED = Judged(outcome=Outcome.MISSED, errors={})
