@@ -46,7 +46,7 @@ from tracker.stages import Stages
 SEARCH_REACH_PX = 2.5
 # A hand in theatre moves the marker by a few pixels from image to image; prediction takes most of it.
 TRACK_REACH_PX = 6.0
-MOST_FITS = 4
+MOST_FITS = 2
 # Seen (2), with score and target score of 0.9 on average.
 CERTAIN_WORTH = 3.8
 PIXELS_FOR_NOISE = 125_000

@@ -10,6 +10,7 @@ from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import MarkerModel, ScoreSettings, contradiction_of, explanation_of
 from tracker.pose.occurrence import Occurrence, side_px_of
 from tracker.pose.planar import other_solution, pose_from_corners
+from tracker.pose.rivals import doubt_between
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.whole import Pixels, with_whole_shape
 
@@ -144,11 +145,13 @@ def _moved(scene: Scene, found: Occurrence, seen: Seen, corners_px: Array) -> Se
     if pose is None:
         return seen
     before = found.fit.camera_from_marker.rotation
-    nearer = max((pose, other_solution(pose)), key=lambda one: float(np.sum(one.rotation * before)))
+    both = (pose, other_solution(pose))
+    nearer, farther = sorted(both, key=lambda one: -float(np.sum(one.rotation * before)))
+    # Edges that were off have not decided between the two solutions.
+    spread = doubt_between(nearer, farther, gap=0.0, expected=scene.expected)[1]
     return replace(
         seen,
         camera_from_marker=nearer,
-        pose_covariance=found.fit.covariance * (1.0 + (moved / EDGES_OFF_PX) ** 2),
-        # Edges that were off have not decided between the two solutions.
+        pose_covariance=found.fit.covariance * (1.0 + (moved / EDGES_OFF_PX) ** 2) + spread,
         lead_sd2=0.0,
     )

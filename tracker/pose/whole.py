@@ -76,7 +76,9 @@ def with_whole_shape(
     if not near:
         return seen
     # The better one must be exact by itself: where it just is not, the worse one would be left alone.
-    costs = [COST_SHARE * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in near]
+    # Where neighbours err alike, as under smear that is not quite the model's, squares count for so much less.
+    share = COST_SHARE / max(one.alike_ratio for one in near)
+    costs = [share * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in near]
     first, *others = np.argsort(costs, kind="stable")
     if not _is_exact(near[first], pixels.noise_grey):
         return seen
