@@ -76,7 +76,7 @@ def with_whole_shape(
     if not near:
         return seen
     # The better one must be exact by itself: where it just is not, the worse one would be left alone.
-    # Where neighbours err alike, as under smear that is not quite the model's, squares count for so much less.
+    # Where neighbours err alike, as under smear that is not quite the model's, squares count so much less.
     share = COST_SHARE / max(one.alike_ratio for one in near)
     costs = [share * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in near]
     first, *others = np.argsort(costs, kind="stable")
