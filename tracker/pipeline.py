@@ -18,6 +18,7 @@ from tracker.marker import (
     MarkerModel,
     ScoreSettings,
     candidate_rounds,
+    pictures_of,
     practice_image,
     refuse_alike,
     templates_of,
@@ -112,6 +113,9 @@ class Tracker:
         self._watch: _Watch | None = None
         # What the last whole search said of each marker that it did not find.
         self._unseen = {model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models}
+        for model in self.models:
+            # Made when they are first asked for: now, not when the marker is first in doubt.
+            pictures_of(model.square)
         self._stages = Stages(None)
         if self.models and not Tracker._has_loaded:
             Tracker._has_loaded = True

@@ -1,7 +1,13 @@
 """The marker: its model and active edges, its occurrences in an image, and their scores."""
 
 from tracker.marker.active_edges import ActiveEdges
-from tracker.marker.explanation import Contradiction, Explanation, contradiction_of, explanation_of
+from tracker.marker.explanation import (
+    Contradiction,
+    Explanation,
+    contradiction_of,
+    explanation_of,
+    pictures_of,
+)
 from tracker.marker.looks import Templates, templates_of
 from tracker.marker.model import MarkerModel, refuse_alike
 from tracker.marker.practice import practice_image
@@ -29,6 +35,7 @@ __all__ = [
     "edge_crossings",
     "explanation_of",
     "model_agreement",
+    "pictures_of",
     "practice_image",
     "reach_px",
     "refuse_alike",

@@ -6,5 +6,6 @@ light are fitted, one after another, as long as that may explain what is left.
 
 from tracker.marker.explanation.contradiction import Contradiction, contradiction_of
 from tracker.marker.explanation.explanation import Explanation, explanation_of
+from tracker.marker.explanation.pictures import pictures_of
 
-__all__ = ["Contradiction", "Explanation", "contradiction_of", "explanation_of"]
+__all__ = ["Contradiction", "Explanation", "contradiction_of", "explanation_of", "pictures_of"]
