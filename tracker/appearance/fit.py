@@ -125,14 +125,14 @@ def whole_fits(
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
     seen = _samples(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=focus)
     few = _some(seen, FEW_PIXELS)
-    near = _in_question(few, [_near(few, start, focus) for start in starts])
+    near = [one for one in (_near(few, start, focus) for start in starts) if one is not None]
+    # Where even light leaves much, it has not been asked yet which of them is better.
+    if near and not _leaves_much(near, noise_grey):
+        near = _in_question(few, near)
     done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
     if not done:
         return []
-    if done[0].scale_grey > max(
-        EVEN_LEAVES_NOISES * noise_grey,
-        EVEN_LEAVES_CONTRAST_RATIO * float(typical_contrast(done[0].numbers, 0)),
-    ):
+    if _leaves_much(done[:1], noise_grey):
         uneven = [one for one in (_in_uneven_light(seen, one) for one in done) if one is not None]
         if uneven and uneven[0].scale_grey < UNEVEN_LEAVES_RATIO * done[0].scale_grey:
             done = uneven
@@ -185,11 +185,15 @@ def _some(seen: Samples, count: int) -> Samples:
     )
 
 
-def _in_question(few: Samples, fits: list[Fitted | None]) -> list[Fitted]:
+def _leaves_much(fits: list[Fitted], noise_grey: float) -> bool:
+    """Whether the best of some fits in even light leaves more than noise."""
+    best = min(fits, key=lambda one: one.scale_grey)
+    contrast = float(typical_contrast(best.numbers, 0))
+    return best.scale_grey > max(EVEN_LEAVES_NOISES * noise_grey, EVEN_LEAVES_CONTRAST_RATIO * contrast)
+
+
+def _in_question(few: Samples, near: list[Fitted]) -> list[Fitted]:
     """Those fits to the same few pixels that may be the best of all."""
-    near = [one for one in fits if one is not None]
-    if len(near) < 2:
-        return near
     scale = min(one.scale_grey for one in near)
     costs = [_cost(few, one, scale) for one in near]
     return [one for one, cost in zip(near, costs, strict=True) if cost < min(costs) + OUT_OF_QUESTION_SD2]

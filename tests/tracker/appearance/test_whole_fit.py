@@ -6,6 +6,7 @@ import pytest
 from tests.tracker.scenes import Image8, Print, camera_of, code_model, facing_at_px, rendered
 from tracker.appearance import WholeFit, textures_of, whole_fits
 from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+from tracker.pose import other_solution
 
 CAMERA = camera_of()
 MODEL = code_model()
@@ -106,3 +107,17 @@ def test_a_camera_that_bends_its_response_is_told_from_depth() -> None:
     depth_mm = fit.camera_from_marker.translation_mm[2]
     assert fit.response > 0.3
     assert depth_mm == pytest.approx(pose.translation_mm[2], rel=4e-4)
+
+
+@pytest.mark.parametrize(("shade", "asked"), [(0.0, 1), (0.6, 2)])
+def test_a_few_pixels_rule_out_a_solution_in_even_light_only(shade: float, asked: int) -> None:
+    """Under a shadow, what even light leaves says little of which solution is better."""
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 40.0, tilt_deg=30.0, about_deg=20.0, roll_deg=50.0)
+    image = _image(pose).astype(np.float64)
+    columns = np.arange(image.shape[1])
+    lit = np.round(image * (1.0 - shade / (1.0 + np.exp(-(columns - 330.0) / 2.5)))).astype(np.uint8)
+    starts = [other_solution(pose), pose]
+    fits = whole_fits(lit, CAMERA.lens, TEXTURES, starts, side_mm=MODEL.side_mm, side_px=40.0, noise_grey=1.5)
+    assert len(fits) == asked
+    best = min(fits, key=lambda one: one.cost_sd2).camera_from_marker
+    assert np.degrees(np.linalg.norm(vector_from_rotation(best.rotation @ pose.rotation.T))) < 0.5
