@@ -2,5 +2,6 @@
 
 from tracker.plan.channel import Channel
 from tracker.plan.surface import Surface
+from tracker.plan.volume import Volume
 
-__all__ = ["Channel", "Surface"]
+__all__ = ["Channel", "Surface", "Volume"]

@@ -1,0 +1,1 @@
+"""Images of the patient: DICOM and NIfTI in, meshes in. What is read here is handed to `tracker.plan`."""

@@ -1,0 +1,1 @@
+"""The steps before the theatre, each with its gate: camera, tool, plan."""
