@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,6 +26,21 @@ if TYPE_CHECKING:
 
 # An ordinary lens: about 45 degrees across. It only helps to find the marker, no millimetre comes from it.
 NOMINAL_FOCAL_BY_WIDTH = 1.2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CaseSetup:
+    """What the open case knows of camera, tools and plan; the rest stays as the settings have it.
+
+    Attributes:
+        camera: calibrated in this case.
+        tools: calibrated in this case, by name.
+        channel: the one that is to be drilled.
+    """
+
+    camera: CameraModel | None = None
+    tools: Mapping[str, ToolModel] = field(default_factory=dict)
+    channel: Channel | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +103,24 @@ class Preparation:
     def uncalibrated_setup_for(self, size_wh_px: tuple[int, int]) -> Setup:
         """A setup that finds and labels markers, and claims no millimetre."""
         return self._setup(nominal_camera(size_wh_px), calibrated=False)
+
+    def with_case(self, case: CaseSetup) -> "Preparation":
+        """The same with what a case knows in the place of what the settings say.
+
+        A channel of the case is not registered by whatever registered the one before: numbers against it wait
+        for a registration of their own. A tool whose marker is not looked for is left out.
+        """
+        markers = {model.name for model in self.models}
+        known = {name: tool for name, tool in case.tools.items() if tool.marker in markers}
+        changed = replace(self, camera=case.camera or self.camera, tools={**self.tools, **known})
+        if case.channel is None:
+            return changed
+        return replace(
+            changed,
+            channel=case.channel,
+            camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
+            registered_by="",
+        )
 
     def tracker_for(self, setup: Setup) -> Tracker:
         """A new tracker of these markers, which knows nothing of images before."""

@@ -4,6 +4,7 @@ At most 5 restarts in 60 s; then it says so and waits until the first of them is
 untouched screen in theatre has to come back by itself.
 """
 
+import contextlib
 import multiprocessing
 import signal
 import threading
@@ -12,7 +13,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from multiprocessing import forkserver
-from multiprocessing.connection import wait
+from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerProcess
 from typing import TypeAlias
 
@@ -22,6 +23,7 @@ from server.live import ProcessState, ProcessStatus, Trouble
 from server.loop.board import Board
 from server.loop.ring import ImageRing
 from server.loop.worker import WorkerLink, WorkerOrder, run_worker
+from server.setup import CaseSetup
 
 PRELOAD = ["server.loop.preload"]
 STOP_TIMEOUT_S = 1.0
@@ -72,6 +74,8 @@ class Supervisor:
         self._restarted_at_s: deque[float] = deque()
         self._restarts = 0
         self._pid: int | None = None
+        self._orders_lock = threading.Lock()
+        self._orders: Connection | None = None
         self._thread = threading.Thread(target=self._run, name="supervisor", daemon=True)
 
     @property
@@ -90,6 +94,15 @@ class Supervisor:
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
         self._thread.start()
+
+    def adopt(self, case: CaseSetup) -> None:
+        """Have the tracking process, and every later one, work with what this case knows. From any thread."""
+        with self._orders_lock:
+            self._order = replace(self._order, case=case)
+            if self._orders is not None:
+                # A process that is just ending is followed by one that has it in its order.
+                with contextlib.suppress(OSError):
+                    self._orders.send(case)
 
     def stop(self) -> None:
         """End the tracking process, and wait for it."""
@@ -113,19 +126,19 @@ class Supervisor:
     def _run_once(self) -> Trouble:
         """Start a process, watch it to its end, and say how it ended."""
         ring = ImageRing()
-        told, stop = self._context.Pipe(duplex=False)
-        link = WorkerLink(ring=ring, notice=self._board.notice, stop=told)
-        process = self._context.Process(
-            target=self._target, args=(self._next_order(), link), name="tracking", daemon=True
-        )
+        heard, orders = self._context.Pipe(duplex=False)
+        link = WorkerLink(ring=ring, notice=self._board.notice, orders=heard)
+        with self._orders_lock:
+            order, self._orders = self._next_order(), orders
+        process = self._context.Process(target=self._target, args=(order, link), name="tracking", daemon=True)
         started_s = time.monotonic()
         try:
             process.start()
         except (OSError, EOFError) as error:
-            stop.close()
+            self._let_go(orders)
             return _trouble(f"could not be started: {error}")
         finally:
-            told.close()
+            heard.close()
         self._pid = process.pid
         state = self._board.posted.process.state
         restarting = state if state is ProcessState.STARTING else ProcessState.RESTARTING
@@ -135,7 +148,7 @@ class Supervisor:
         # From here on nothing it left behind is live; everybody is told before it is cleaned up.
         if not self._stop.is_set():
             self._post(ProcessState.RESTARTING, ending)
-        stop.close()
+        self._let_go(orders)
         self._end(process)
         self._pid = None
         ring.close()
@@ -164,6 +177,12 @@ class Supervisor:
             process.join(STOP_TIMEOUT_S)
         if process.exitcode is not None:
             process.close()
+
+    def _let_go(self, orders: Connection) -> None:
+        """The process that listens at the other end shall end."""
+        with self._orders_lock:
+            self._orders = None
+        orders.close()
 
     def _next_order(self) -> WorkerOrder:
         source = self._board.source
