@@ -9,6 +9,9 @@ import threading
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+import numpy as np
+import numpy.typing as npt
+
 from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
 
@@ -95,6 +98,8 @@ class Instant:
         snapshot: what the newest image says; None before the first image, and from the moment on when
             capture or tracking is known to be dead (an old snapshot is not kept as if it were live).
         jpeg: the same image with the overlay burned in; empty when there is no snapshot.
+        image: the same image as the camera gave it, (h, w, 3) uint8 BGR, for set-up; None when there is no
+            snapshot. Never written into.
         server_ms: time of the server's own stages ("overlay", "encode") for this image.
     """
 
@@ -103,6 +108,7 @@ class Instant:
     process: ProcessStatus
     snapshot: NavigationSnapshot | None = None
     jpeg: bytes = b""
+    image: npt.NDArray[np.uint8] | None = None
     server_ms: dict[str, float] = field(default_factory=dict)
 
 
