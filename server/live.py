@@ -1,7 +1,8 @@
 """The newest instant: the one place where tracking hands over to everybody who watches.
 
-A thread publishes, any number of asyncio tasks wait. Newest wins: who is slow skips, and is told how many
-instants it skipped by the sequence number. Nothing is queued, so nobody can delay anybody or fill memory.
+A thread publishes, any number of asyncio tasks and threads wait. Newest wins: who is slow skips, and is told
+how many instants it skipped by the sequence number. Nothing is queued, so nobody can delay anybody or fill
+memory.
 """
 
 import asyncio
@@ -117,6 +118,7 @@ class LiveHub:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
+        self._published = threading.Condition(self._lock)
         self._newest: Instant | None = None
         self._waiting: set[tuple[asyncio.AbstractEventLoop, asyncio.Event]] = set()
 
@@ -125,6 +127,7 @@ class LiveHub:
         with self._lock:
             self._newest = instant
             waiting, self._waiting = self._waiting, set()
+            self._published.notify_all()
         for loop, event in waiting:
             # A loop that was closed meanwhile has nobody left to wake.
             if not loop.is_closed():
@@ -135,6 +138,15 @@ class LiveHub:
         """The newest instant, None before the first."""
         with self._lock:
             return self._newest
+
+    def wait_after(self, sequence: int, timeout_s: float) -> Instant | None:
+        """As `next_after`, for a thread; None when nothing came within this time."""
+        with self._lock:
+            self._published.wait_for(
+                lambda: self._newest is not None and self._newest.sequence > sequence, timeout_s
+            )
+            newest = self._newest
+        return newest if newest is not None and newest.sequence > sequence else None
 
     async def next_after(self, sequence: int) -> Instant:
         """The newest instant whose sequence is above `sequence` (use -1 to get whatever there is)."""
