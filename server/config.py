@@ -63,6 +63,12 @@ class RehearsalConfig(Section):
     blur: Strength = 1.0
     clutter: Strength = 1.0
     light: Annotated[float, Field(gt=0.0, le=10.0)] = 1.0
+    scene: Literal["operation", "pivot", "spin", "board"] = "operation"
+    """A drill at work; its tip at rest while it tilts, or turns; a board to calibrate with."""
+    board: Literal["dots", "checkerboard", "charuco"] = "dots"
+    """Which calibration board is shown."""
+    brings_setup: bool = True
+    """false: camera, tool, plan and registration are unknown until they are made."""
 
 
 class MarkerConfig(Section):

@@ -152,32 +152,34 @@ def build_setup(config: Config) -> Preparation:
     )
     scores = ScoreSettings(**config.tracker.model_dump())
     smoothing = SteadySettings(**config.smoothing.model_dump())
-    tools = {name: _tool(name, tool) for name, tool in config.tools.items()}
-    if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
-        theatre = _theatre(config)
-        return Preparation(
-            camera=theatre.camera,
-            models=(theatre.marker, *models),
-            tools={theatre.tool.name: theatre.tool, **tools},
-            channel=theatre.channels[0],
-            camera_from_vertebra=theatre.camera_from_vertebra,
-            registered_by="rehearsal",
-            score_settings=scores,
-            most_tip_sd_mm=config.limits.most_tip_sd_mm,
-            smoothing=smoothing,
-            theatre=theatre,
-        )
     calibration = config.camera.calibration
-    return Preparation(
+    bare = Preparation(
         camera=None if calibration is None else load_camera_file(calibration),
         models=models,
-        tools=tools,
+        tools={name: _tool(name, tool) for name, tool in config.tools.items()},
         channel=Absent(reason=AbsentReason.NO_PLAN),
         camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
         registered_by="",
         score_settings=scores,
         most_tip_sd_mm=config.limits.most_tip_sd_mm,
         smoothing=smoothing,
+    )
+    if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
+        theatre = _theatre(config)
+        unknowing = replace(bare, models=(theatre.marker, *models), theatre=theatre)
+        return _with_what_it_brings(unknowing, theatre) if config.rehearsal.brings_setup else unknowing
+    return bare
+
+
+def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparation:
+    """All that the rehearsal's theatre knows of itself."""
+    return replace(
+        unknowing,
+        camera=theatre.camera,
+        tools={theatre.tool.name: theatre.tool, **unknowing.tools},
+        channel=theatre.channels[0],
+        camera_from_vertebra=theatre.camera_from_vertebra,
+        registered_by="rehearsal",
     )
 
 
@@ -205,7 +207,7 @@ def _tool(name: str, tool: ToolConfig) -> ToolModel:
 
 def _theatre(config: Config) -> "Theatre":
     # Here, because it takes time to load and only the rehearsal needs it.
-    from tracker.rehearsal import Theatre, TheatreSettings  # noqa: PLC0415
+    from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings  # noqa: PLC0415
 
     rehearsal = config.rehearsal
     return Theatre(
@@ -216,5 +218,7 @@ def _theatre(config: Config) -> "Theatre":
             blur=rehearsal.blur,
             clutter=rehearsal.clutter,
             light=rehearsal.light,
+            scene=Scene(rehearsal.scene),
+            board=BoardKind(rehearsal.board),
         )
     )

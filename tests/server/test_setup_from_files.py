@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from server.camera_file import load_camera_file
-from server.config import CameraConfig, Config, MarkerConfig, ToolConfig
+from server.config import CameraConfig, Config, MarkerConfig, RehearsalConfig, ToolConfig
 from server.marker_file import load_marker_image
 from server.setup import CaseSetup, Preparation, build_setup, nominal_camera
 from tracker.errors import CalibrationError, InvalidInput
@@ -167,3 +167,12 @@ def test_a_channel_of_the_case_is_not_registered_by_what_registered_another() ->
     assert changed.channel is channel
     assert changed.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)
     assert rehearsal.with_case(CaseSetup()).camera_from_vertebra is rehearsal.camera_from_vertebra
+
+
+def test_a_rehearsal_that_brings_no_setup_knows_its_marker_alone() -> None:
+    bare = build_setup(Config(rehearsal=RehearsalConfig(brings_setup=False)))
+    assert [model.name for model in bare.models] == ["drill"]
+    assert bare.camera is None
+    assert bare.tools == {}
+    assert bare.channel == Absent(reason=AbsentReason.NO_PLAN)
+    assert bare.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)

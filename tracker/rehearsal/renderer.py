@@ -5,6 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array, Camera, Rigid, Tool
+from tracker.rehearsal.backdrop import Backdrop
 from tracker.rehearsal.drill import (
     BOARD_EDGE_GREY,
     BOARD_HALF_MM,
@@ -20,10 +21,9 @@ from tracker.rehearsal.drill import (
     drill_portrait,
 )
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
-from tracker.rehearsal.lens import NODE_PX, Box, RayGrid, spread
+from tracker.rehearsal.lens import NODE_PX, Box, spread
 from tracker.rehearsal.printed import PrintedPlane
-from tracker.rehearsal.scenery import still_scenery
-from tracker.rehearsal.sensor import DEFOCUS_PX, Sensor, spread_kernel
+from tracker.rehearsal.sensor import spread_kernel
 from tracker.rehearsal.theatre import Theatre, Truth
 
 Image8 = npt.NDArray[np.uint8]
@@ -47,16 +47,9 @@ class Renderer:
 
     def __init__(self, theatre: Theatre) -> None:
         self._theatre = theatre
-        self._rays = RayGrid(theatre.camera)
-        self._sensor = Sensor(theatre.settings)
-        scenery = still_scenery(theatre, self._rays)
-        self._depth_mm, self._points_mm = scenery.depth_mm, scenery.points_mm
-        picture = scenery.picture * self._sensor.gain[..., None]
-        sigma = DEFOCUS_PX * theatre.settings.blur
-        if sigma > 0.05:
-            picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
-        self._background = np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
-        self._sigmas = self._sensor.sigmas(self._background)
+        self._backdrop = Backdrop(theatre)
+        self._rays = self._backdrop.rays
+        self._depth_mm, self._points_mm = self._backdrop.depth_mm, self._backdrop.points_mm
         self._portrait = drill_portrait()
         self._marker_board = PrintedPlane(
             board_face(theatre.marker.image),
@@ -67,18 +60,16 @@ class Renderer:
     def image_at(self, at_s: float) -> Image8:
         """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
         truth = self._theatre.truth_at(at_s)
-        image, sigmas = self._background.copy(), self._sigmas
+        image = self._backdrop.picture()
         self._cast_shadow(image, truth)
         kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
         reach_px = 4 if kernel is None else 4 + kernel.shape[0] // 2
         box = self._rays.box_around(self._outline_px(truth), reach_px)
         if box is not None:
-            self._draw_drill(image, box, truth, kernel)
-            x, y, width, height = box
-            sigmas = sigmas.copy()
-            part = np.s_[y : y + height, x : x + width]
-            sigmas[part] = self._sensor.sigmas(image[part])
-        return self._sensor.read_out(image, sigmas, at_s)
+            layer = self._body(box, truth)
+            self._add_board(layer, box, truth)
+            self._backdrop.lay_over(image, box, layer, kernel)
+        return self._backdrop.read_out(image, box, at_s)
 
     def _outline_px(self, truth: Truth) -> Array:
         """Points (n, 2) around everything of the drill that can be in the image."""
@@ -93,21 +84,6 @@ class Renderer:
         )
         in_camera = to_camera.move_points(points)
         return self._theatre.camera.px_from_camera(in_camera[in_camera[:, 2] > 50.0])
-
-    def _draw_drill(self, image: Image8, box: Box, truth: Truth, kernel: Image32 | None) -> None:
-        layer = self._body(box, truth)
-        self._add_board(layer, box, truth)
-        if kernel is not None:
-            soft = cv2.filter2D(layer, -1, kernel, borderType=cv2.BORDER_REPLICATE)
-            layer = np.asarray(soft, dtype=np.uint8)
-        x, y, width, height = box
-        part = image[y : y + height, x : x + width]
-        layer = layer[: part.shape[0], : part.shape[1]]
-        gain = self._sensor.gain[y : y + height, x : x + width]
-        coverage = cv2.merge([255 - layer[..., 3]] * 3)
-        behind = cv2.multiply(part, coverage, scale=1.0 / 255.0)
-        colour = cv2.multiply(cv2.cvtColor(layer, cv2.COLOR_BGRA2BGR), cv2.merge([gain] * 3), dtype=cv2.CV_8U)
-        cv2.add(behind, colour, dst=part)
 
     def _speed_px_s(self, truth: Truth) -> Array:
         """How fast the marker moves through the image."""
