@@ -37,10 +37,10 @@ BOARD_FROM_KIND: dict[BoardKind, Board] = {
 PLACES = np.array(
     [
         [0.0, 0.0, 1.25, 0, 0, 0],
-        [-0.6, -0.6, 1.0, 8, 12, 4],
-        [0.6, -0.6, 1.0, 8, -12, -5],
-        [0.6, 0.6, 1.0, -10, -10, 3],
-        [-0.6, 0.6, 1.0, -10, 10, -4],
+        [-0.9, -0.9, 1.0, 8, 12, 2],
+        [0.9, -0.9, 1.0, 8, -12, -2],
+        [0.9, 0.9, 1.0, -10, -10, 2],
+        [-0.9, 0.9, 1.0, -10, 10, -2],
         [0.0, 0.1, 1.1, 30, 0, 6],
         [0.1, 0.0, 1.1, -30, 4, -8],
         [-0.1, 0.0, 1.15, 3, 32, 10],
@@ -122,7 +122,7 @@ class BoardHand:
         self._board = printed_board
         self._camera = camera
         random = np.random.default_rng([seed, 0x424F4152])
-        places = PLACES + random.normal(0.0, [0.03, 0.03, 0.03, 2.0, 2.0, 3.0], PLACES.shape)
+        places = PLACES + random.normal(0.0, [0.03, 0.03, 0.03, 1.5, 1.5, 1.0], PLACES.shape)
         self._nearest_mm = self._distance_at_which_it_takes(0.42)
         self._places = [self._into_the_image(place) for place in places]
         self._tremor_rad = random.uniform(0.0, 2.0 * np.pi, 6)
@@ -161,9 +161,11 @@ class BoardHand:
         last = np.array(self._camera.size_wh_px) - 1.0 - BOARD_MARGIN_PX
         for _ in range(200):
             px = self._camera.px_from_camera(self._pose(place).move_points(self._board.corners_mm))
-            if (px >= BOARD_MARGIN_PX).all() and (px <= last).all():
+            out = (px < BOARD_MARGIN_PX).any(axis=0) | (px > last).any(axis=0)
+            if not out.any():
                 break
-            place = place * [0.97, 0.97, 1.004, 1.0, 1.0, 1.0]
+            nearer = np.where(out, 0.97, 1.0)
+            place = place * np.array([*nearer, 1.004, 1.0, 1.0, 1.0])
         return place
 
 

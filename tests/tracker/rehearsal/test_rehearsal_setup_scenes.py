@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from tracker.camera import Board, CharucoBoard, CheckerBoard, DotBoard
+from tracker.camera.collecting import BoardCollector
 from tracker.geometry import angle_between_deg
 from tracker.rehearsal import BoardKind, Phase, Scene, Theatre, TheatreSettings
 from tracker.rehearsal.board_renderer import BoardRenderer
-from tracker.rehearsal.boards import BOARD_FROM_KIND, HOLD_S, MOVE_S
+from tracker.rehearsal.boards import BOARD_FROM_KIND, HOLD_S, MOVE_S, BoardHand, printed
 
 TIMES_S = np.arange(0.0, 40.0, 0.25)
 SIZE = (960, 540)
@@ -82,6 +83,21 @@ def test_the_board_holds_still_then_moves_on_and_stays_in_the_image() -> None:
         assert np.abs(px[1] - px[0]).max() < 0.5
         assert (px[0] > 0).all()
         assert (px[0] < np.array(SIZE) - 1).all()
+
+
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_one_round_of_the_board_is_all_that_a_calibration_needs(seed: int) -> None:
+    board = BOARD_FROM_KIND[BoardKind.CHECKERBOARD]
+    theatre = Theatre(TheatreSettings(seed=seed, scene=Scene.BOARD, board=BoardKind.CHECKERBOARD))
+    hand = BoardHand(printed(board), theatre.camera, seed)
+    collector = BoardCollector(theatre.camera.size_wh_px)
+    for at_s in np.arange(0.0, hand.cycle_s, 0.1):
+        points = board.object_points_mm
+        px = theatre.camera.px_from_camera(hand.camera_from_board_at(at_s).move_points(points))
+        collector.judge(
+            ids=np.arange(len(points)), object_points_mm=points, image_points_px=px, captured_at_s=at_s
+        )
+    assert collector.progress.missing == ()
 
 
 def test_a_pivoting_tip_rests_while_the_tool_tilts_to_all_sides() -> None:
