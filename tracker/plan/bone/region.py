@@ -48,6 +48,11 @@ class Region:
             )
 
     @classmethod
+    def between(cls, low_lps_mm: npt.ArrayLike, high_lps_mm: npt.ArrayLike) -> "Region":
+        """The box between two corners. Raises as the class."""
+        return cls(low_lps_mm=np.asarray(low_lps_mm), high_lps_mm=np.asarray(high_lps_mm))
+
+    @classmethod
     def around(cls, points_lps_mm: npt.ArrayLike, *, reach_mm: float = VERTEBRA_REACH_MM) -> "Region":
         """The box that holds each point (n, 3) and what is within reach of it along the axes.
 

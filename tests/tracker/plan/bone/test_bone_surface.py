@@ -48,8 +48,8 @@ def test_the_proposed_threshold_serves_too(scan: Volume) -> None:
 
 
 def test_in_noise_smoothing_brings_the_surface_nearer_to_the_truth() -> None:
-    scan = scanned((BODY,), affine_of(spacing=(0.5, 0.5, 0.5), shape_ijk=(72, 60, 48)), noise_hu=60.0,
-                   shape_ijk=(72, 60, 48))  # fmt: skip
+    size = (72, 60, 48)
+    scan = scanned((BODY,), affine_of(spacing=(0.5, 0.5, 0.5), shape_ijk=size), shape_ijk=size, noise_hu=60.0)
     rms = {}
     for rounds in (0, 10, 40):
         settings = BoneSettings(threshold_hu=HALF_HU, smoothing_rounds=rounds, most_faces=None)
@@ -87,7 +87,7 @@ def test_a_region_takes_one_bone_out_of_two_and_reads_only_it() -> None:
     below = Ellipsoid(centre_lps_mm=(12.0, -230.0, 944.0), half_axes_mm=(12.0, 8.0, 4.0))
     scan = scanned((above, below), affine_of(turn=(0.1, 0.2, 0.3)))
     region = Region.around([[12.0, -230.0, 958.0]], reach_mm=12.0)
-    region = Region(low_lps_mm=[*region.low_lps_mm[:2], 951.0], high_lps_mm=region.high_lps_mm)
+    region = Region.between([*region.low_lps_mm[:2], 951.0], region.high_lps_mm)
     made = bone_surface(scan, BoneSettings(threshold_hu=HALF_HU, region=region))
     assert made.region is region
     assert made.surface.volume_ml == pytest.approx(above.volume_ml, rel=0.02)
@@ -96,7 +96,7 @@ def test_a_region_takes_one_bone_out_of_two_and_reads_only_it() -> None:
 
 
 def test_bone_that_a_region_cuts_is_left_open_there() -> None:
-    region = Region(low_lps_mm=[-20.0, -260.0, 930.0], high_lps_mm=[12.0, -200.0, 970.0])
+    region = Region.between([-20.0, -260.0, 930.0], [12.0, -200.0, 970.0])
     made = bone_surface(scanned((BODY,), affine_of()), BoneSettings(threshold_hu=HALF_HU, region=region))
     assert not made.closed
     assert made.cut_at == ()
@@ -177,7 +177,7 @@ def test_a_surface_through_noise_is_refused_before_it_fills_the_memory(
 def test_a_region_without_voxels_is_refused(low: list[float], high: list[float], code: str) -> None:
     scan = scanned((BODY,), affine_of(), fine=1)
     with pytest.raises(PlanError) as told:
-        bone_surface(scan, BoneSettings(region=Region(low_lps_mm=low, high_lps_mm=high)))
+        bone_surface(scan, BoneSettings(region=Region.between(low, high)))
     assert told.value.code == code
 
 
@@ -197,5 +197,5 @@ def test_settings_that_cannot_be_are_refused() -> None:
         {"most_voxels": 1},
     ):
         with pytest.raises(PlanError) as told:
-            BoneSettings(**settings)  # type: ignore[arg-type]  # each has its own type
+            BoneSettings(**settings)
         assert told.value.code == "BONE_SETTINGS_INVALID"

@@ -1,12 +1,13 @@
 """The proposed threshold lies between soft tissue and bone, however much of either there is."""
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from tracker.plan.bone import proposed_threshold
 
 
-def tissue(*, bone_ratio: float, soft_hu: float = 45.0, noise_hu: float = 20.0) -> np.ndarray:
+def tissue(*, bone_ratio: float, soft_hu: float = 45.0, noise_hu: float = 20.0) -> npt.NDArray[np.int16]:
     """Fat, muscle, spongy and dense bone; air around."""
     rng = np.random.default_rng(3)
     count = 64**3
@@ -20,7 +21,7 @@ def tissue(*, bone_ratio: float, soft_hu: float = 45.0, noise_hu: float = 20.0) 
         ]
     )
     muscle = rng.normal(soft_hu, noise_hu, count - values.size)
-    return np.rint(np.concatenate([values, muscle])).astype(np.int16).reshape(64, 64, 64)
+    return np.asarray(np.rint(np.concatenate([values, muscle])), dtype=np.int16).reshape(64, 64, 64)
 
 
 @pytest.mark.parametrize("bone_ratio", [0.01, 0.05, 0.3])
