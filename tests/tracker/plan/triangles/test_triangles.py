@@ -1,0 +1,76 @@
+"""How triangles hang together, and what smoothing and joining them leaves as it was."""
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from tracker.plan.triangles import decimated, largest_part, links_of, referenced, smoothed
+
+TETRAHEDRON = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 10.0]])
+OUTWARDS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def sheet(side: int = 12) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+    """A flat square of triangles 1 mm wide, far from the origin."""
+    y, x = np.mgrid[:side, :side]
+    vertices = np.stack([x.ravel() + 500.0, y.ravel() - 900.0, np.full(x.size, 1200.0)], axis=1)
+    at = np.arange(side * side).reshape(side, side)
+    a, b, c, d = (part.ravel() for part in (at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]))
+    return vertices, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+
+
+def test_a_tetrahedron_is_closed_and_a_sheet_is_not() -> None:
+    assert links_of(OUTWARDS).closed
+    assert links_of(OUTWARDS).edges.shape == (6, 2)
+    open_sheet = links_of(sheet()[1])
+    assert not open_sheet.closed
+    assert open_sheet.border_edges == 44
+    assert open_sheet.border_vertices.size == 44
+
+
+def test_one_triangle_that_is_turned_is_seen() -> None:
+    turned = OUTWARDS.copy()
+    turned[3] = turned[3, ::-1]
+    assert links_of(turned).opposed_edges == 3
+    assert links_of(turned).closed
+
+
+def test_a_wall_that_ends_on_a_wall_is_seen() -> None:
+    crowded = links_of(np.concatenate([OUTWARDS, [[0, 1, 4]]]))
+    assert crowded.crowded_edges == 1
+    assert not crowded.closed
+
+
+def test_the_largest_part_is_that_with_the_largest_area_not_the_most_triangles() -> None:
+    vertices, faces = sheet()
+    both = np.concatenate([vertices, 5.0 * TETRAHEDRON])
+    count, kept = largest_part(both, np.concatenate([faces, OUTWARDS + vertices.shape[0]]))
+    assert count == 2
+    assert kept.tolist() == (OUTWARDS + vertices.shape[0]).tolist()
+    points, renamed = referenced(both, kept)
+    assert points == pytest.approx(5.0 * TETRAHEDRON)
+    assert renamed.tolist() == OUTWARDS.tolist()
+
+
+def test_smoothing_flattens_steps_and_leaves_a_border_where_it_is() -> None:
+    vertices, faces = sheet()
+    rough = vertices.copy()
+    rough[:, 2] += np.where(np.arange(vertices.shape[0]) % 2, 0.2, -0.2)
+    smooth = smoothed(rough, faces, rounds=20)
+    border = links_of(faces).border_vertices
+    assert smooth[border] == pytest.approx(rough[border], abs=1e-9)
+    inner = np.setdiff1d(np.arange(vertices.shape[0]), border)
+    assert smooth[inner, 2].std() < 0.5 * rough[inner, 2].std()
+
+
+def test_joining_triangles_keeps_a_sheet_flat_and_its_outline() -> None:
+    vertices, faces = sheet(30)
+    points, kept = decimated(vertices, faces, most_faces=200)
+    assert kept.shape[0] <= 200
+    assert points[:, 2] == pytest.approx(1200.0, abs=1e-6)
+    assert points.min(axis=0) == pytest.approx(vertices.min(axis=0), abs=1e-6)
+    assert points.max(axis=0) == pytest.approx(vertices.max(axis=0), abs=1e-6)
+
+
+def test_few_enough_triangles_are_left_alone() -> None:
+    assert decimated(TETRAHEDRON, OUTWARDS, most_faces=100)[1] is OUTWARDS

@@ -1,0 +1,110 @@
+"""The paper's ruler: millimetres from pixels by two measured distances to the camera (2.2, equations 1 to 5).
+
+It holds for short displacements across the line of sight, near the image's middle, with square pixels and no
+lens distortion. A calibrated camera needs none of that; the ruler is there to check one by hand.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ruler:
+    """A camera above and beside the object, and its focal length.
+
+    Attributes:
+        vertical_mm: V, how far the camera is above the object.
+        horizontal_mm: H, how far it is beside it.
+        focal_length_px: f, the camera constant.
+
+    Raises:
+        InvalidInput: RULER_INVALID, a distance is negative or not finite, or D or f is not above 0.
+    """
+
+    vertical_mm: float
+    horizontal_mm: float
+    focal_length_px: float
+
+    def __post_init__(self) -> None:
+        _needed(self.focal_length_px, "the focal length", "px")
+        _needed(axial_distance_mm(self.vertical_mm, self.horizontal_mm), "the distance to the camera", "mm")
+
+    @classmethod
+    def from_displacement(cls, *, vertical_mm: float, horizontal_mm: float, pixels_per_mm: float) -> "Ruler":
+        """The ruler whose focal length follows from one known displacement (equation 5)."""
+        focal_length_px = pixels_per_mm * axial_distance_mm(vertical_mm, horizontal_mm)
+        return cls(vertical_mm=vertical_mm, horizontal_mm=horizontal_mm, focal_length_px=focal_length_px)
+
+    @property
+    def axial_distance_mm(self) -> float:
+        """D, from the object to the camera."""
+        return axial_distance_mm(self.vertical_mm, self.horizontal_mm)
+
+    @property
+    def angle_deg(self) -> float:
+        """Theta, between the horizontal and the camera's axis."""
+        return angle_deg(self.vertical_mm, self.horizontal_mm)
+
+    @property
+    def pixels_per_mm(self) -> float:
+        """Pd/Rd, which the distance leaves (equation 4)."""
+        return self.focal_length_px / self.axial_distance_mm
+
+    def displacement_mm(self, pixel_distance_px: npt.ArrayLike) -> Array:
+        """Calculated Rd of each Pd (...): how far something moved that moved so many pixels."""
+        return np.asarray(np.asarray(pixel_distance_px, dtype=np.float64) / self.pixels_per_mm)
+
+
+def axial_distance_mm(vertical_mm: float, horizontal_mm: float) -> float:
+    """D, from the object to a camera so far above and beside it.
+
+    Raises:
+        InvalidInput: RULER_INVALID, a distance is negative or not finite.
+    """
+    for name, value in (("vertical", vertical_mm), ("horizontal", horizontal_mm)):
+        if not (math.isfinite(value) and value >= 0.0):
+            raise _unusable(f"the {name} distance is {value:g} mm, needed 0 or more", {f"{name}_mm": value})
+    return math.hypot(vertical_mm, horizontal_mm)
+
+
+def angle_deg(vertical_mm: float, horizontal_mm: float) -> float:
+    """Theta, between the horizontal and the axis of a camera so far above and beside the object."""
+    return math.degrees(math.atan2(vertical_mm, horizontal_mm))
+
+
+def distances(first: npt.ArrayLike, second: npt.ArrayLike) -> Array:
+    """Pd or Rd: how far each second point (..., 2) is from its first one, in the unit of both."""
+    return np.asarray(
+        np.linalg.norm(np.asarray(first, dtype=np.float64) - np.asarray(second, dtype=np.float64), axis=-1)
+    )
+
+
+def pixels_per_mm(pixel_distance_px: float, displacement_mm: float) -> float:
+    """Pd/Rd, how many pixels a millimetre takes (equation 3).
+
+    Raises:
+        InvalidInput: RULER_INVALID, the displacement or its pixels are not above 0.
+    """
+    _needed(displacement_mm, "the displacement", "mm")
+    _needed(pixel_distance_px, "the displacement in the image", "px")
+    return pixel_distance_px / displacement_mm
+
+
+def _needed(value: float, what: str, unit: str) -> None:
+    if not (math.isfinite(value) and value > 0.0):
+        raise _unusable(f"{what} is {value:g} {unit}, needed above 0", {f"value_{unit}": value})
+
+
+def _unusable(problem: str, context: dict[str, object]) -> InvalidInput:
+    return InvalidInput(
+        "RULER_INVALID",
+        f"the ruler cannot be used: {problem}",
+        "Measure V and H from the camera to the object in mm again, and a displacement that can be seen.",
+        context,
+    )

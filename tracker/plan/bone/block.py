@@ -1,0 +1,74 @@
+"""The voxels that a surface is made of: cut out of the CT, and averaged where there are too many."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+from tracker.plan.bone.region import Region
+from tracker.plan.volume import Volume
+
+# As float32 this is 100 MB, and marching cubes takes as much again.
+MOST_VOXELS = 24_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Block:
+    """A part of a CT, as marching cubes wants it.
+
+    Attributes:
+        hu: (slices, rows, columns) float32.
+        first_ijk: (3,) index in the CT of its first voxel.
+        averaged_ijk: (3,) how many voxels of the CT along i, j and k are one of its own.
+        cut_ijk: (2, 3) bool, whether its first and its last layer along i, j, k are the CT's own ends.
+    """
+
+    hu: npt.NDArray[np.float32]
+    first_ijk: npt.NDArray[np.int64]
+    averaged_ijk: npt.NDArray[np.int64]
+    cut_ijk: npt.NDArray[np.bool_]
+
+    def index_in_volume(self, index_kji: Array) -> Array:
+        """Indexes (n, 3) as i, j, k of the CT for indexes (n, 3) as k, j, i of this block."""
+        # The centre of an averaged voxel lies in the middle of those that it was made of.
+        own = index_kji[:, ::-1] * self.averaged_ijk + (self.averaged_ijk - 1) / 2.0
+        return np.asarray(own + self.first_ijk)
+
+
+def block_of(volume: Volume, region: Region | None, *, most_voxels: int = MOST_VOXELS) -> Block:
+    """The voxels of a region, or of the whole CT; neighbours are averaged until they are few enough.
+
+    Only these voxels are read, some slices at a time, so that a mapped CT stays on disk.
+
+    Raises:
+        PlanError: REGION_OUTSIDE.
+    """
+    size = np.array(volume.shape_ijk)
+    first, last = (np.zeros(3, dtype=np.int64), size) if region is None else region.indexes_in(volume)
+    averaged = _averaged(last - first, volume.spacing_mm, most_voxels)
+    # What is left over at the end of an axis is less than one averaged voxel.
+    shape = (last - first) // averaged
+    last = first + shape * averaged
+    hu = np.empty(tuple(shape[::-1]), dtype=np.float32)
+    for k in range(shape[2]):
+        start = first[2] + k * averaged[2]
+        part = volume.hu[start : start + averaged[2], first[1] : last[1], first[0] : last[0]]
+        if (averaged == 1).all():
+            hu[k] = part[0]
+        else:
+            cells = part.reshape(averaged[2], shape[1], averaged[1], shape[0], averaged[0])
+            hu[k] = cells.mean(axis=(0, 2, 4), dtype=np.float32)
+    return Block(
+        hu=hu, first_ijk=first, averaged_ijk=averaged, cut_ijk=np.stack([first == 0, last > size - averaged])
+    )
+
+
+def _averaged(shape_ijk: npt.NDArray[np.int64], spacing_mm: Array, most: int) -> npt.NDArray[np.int64]:
+    """How many voxels become one along each axis: those that are closest together first."""
+    averaged = np.ones(3, dtype=np.int64)
+    while np.prod(shape_ijk // averaged) > most:
+        can = shape_ijk // (averaged + 1) >= 2
+        spacing = np.where(can, spacing_mm * averaged, np.inf)
+        averaged[int(spacing.argmin())] += 1
+    return averaged

@@ -1,0 +1,203 @@
+"""The surface of the bone in a CT, with a record of how it was made."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from skimage.measure import marching_cubes
+
+from tracker.errors import PlanError
+from tracker.geometry import Array
+from tracker.plan.bone.block import MOST_VOXELS, Block, block_of
+from tracker.plan.bone.notes import notes_of
+from tracker.plan.bone.region import Region
+from tracker.plan.bone.threshold import ThresholdProposal, proposed_threshold
+from tracker.plan.remark import Remark
+from tracker.plan.surface import Surface
+from tracker.plan.triangles import decimated, largest_part, links_of, referenced, smoothed
+from tracker.plan.triangles.links import Faces, parts_of
+from tracker.plan.volume import Volume
+
+# Marching cubes makes two triangles for each vertex; 3 million of them take about 1 GB on the way.
+MOST_VERTICES = 3_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoneSettings:
+    """How the surface is made.
+
+    Attributes:
+        threshold_hu: from where on a voxel is bone; None takes what the histogram proposes.
+        region: the part of the CT that is looked at; None is all of it.
+        largest_part_only: leave out what does not hang together with the largest piece.
+        smoothing_rounds: of Taubin's smoothing; 0 for none.
+        most_faces: triangles of the result; None leaves all.
+        most_voxels: more than these are averaged.
+
+    Raises:
+        PlanError: BONE_SETTINGS_INVALID.
+    """
+
+    threshold_hu: float | None = None
+    region: Region | None = None
+    largest_part_only: bool = True
+    smoothing_rounds: int = 10
+    most_faces: int | None = 60_000
+    most_voxels: int = MOST_VOXELS
+
+    def __post_init__(self) -> None:
+        problem = ""
+        if self.threshold_hu is not None and not np.isfinite(self.threshold_hu):
+            problem = f"its threshold is {self.threshold_hu} HU"
+        elif not 0 <= self.smoothing_rounds <= 200:
+            problem = f"{self.smoothing_rounds} rounds of smoothing, allowed 0 to 200"
+        elif self.most_faces is not None and self.most_faces < 100:
+            problem = f"at most {self.most_faces} triangles, allowed 100 or more"
+        elif self.most_voxels < 1000:
+            problem = f"at most {self.most_voxels} voxels, allowed 1000 or more"
+        if problem:
+            raise PlanError(
+                "BONE_SETTINGS_INVALID",
+                f"a bone's surface cannot be made so: {problem}",
+                "Give a threshold in HU, 0 to 200 rounds of smoothing, and 100 triangles or more.",
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoneSurface:
+    """The bone's surface, and what was done to make it.
+
+    Attributes:
+        surface: in the vertebra's frame, wound outwards.
+        threshold_hu: from where on a voxel was taken for bone.
+        proposal: what the histogram proposes, taken or not.
+        region: what was looked at; None is the whole CT.
+        averaged_ijk: how many voxels along i, j, k were made one; all 1 where nothing was averaged.
+        voxel_mm: (3,) distance between the voxels that were used.
+        smoothing_rounds: of Taubin's smoothing.
+        parts: how many separate pieces of bone there were.
+        faces_before: triangles before they were made fewer.
+        closed: whether the surface has an inside.
+        cut_at: which ends of the CT the bone reaches, as "first slice", "last column" and so on.
+        remarks: what the user should know.
+    """
+
+    surface: Surface
+    threshold_hu: float
+    proposal: ThresholdProposal
+    region: Region | None
+    averaged_ijk: tuple[int, int, int]
+    voxel_mm: Array
+    smoothing_rounds: int
+    parts: int
+    faces_before: int
+    closed: bool
+    cut_at: tuple[str, ...]
+    remarks: tuple[Remark, ...]
+
+
+def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSurface:
+    """The surface of what is brighter than a threshold, from the voxels of a region.
+
+    It is open where the region or the CT ends: no wall is invented there.
+
+    Raises:
+        PlanError: REGION_OUTSIDE; BONE_THRESHOLD_OUTSIDE, no voxel is brighter, or none is darker;
+            BONE_NOT_FOUND; BONE_TOO_LARGE.
+    """
+    settings = settings or BoneSettings()
+    block = block_of(volume, settings.region, most_voxels=settings.most_voxels)
+    proposal = proposed_threshold(_as_int16(block.hu))
+    threshold = proposal.threshold_hu if settings.threshold_hu is None else settings.threshold_hu
+    vertices_kji, faces = _triangles(block.hu, threshold)
+    vertices, faces, cut_at = _placed(vertices_kji, faces, block, volume, settings.region)
+    if settings.largest_part_only:
+        parts, faces = largest_part(vertices, faces)
+    else:
+        parts, _ = parts_of(faces, vertices.shape[0])
+    cut_at = cut_at[np.isin(np.arange(vertices.shape[0]), faces)]
+    vertices, faces = referenced(vertices, faces)
+    faces_before = int(faces.shape[0])
+    if settings.smoothing_rounds:
+        vertices = smoothed(vertices, faces, rounds=settings.smoothing_rounds)
+    if settings.most_faces is not None:
+        vertices, faces = decimated(vertices, faces, most_faces=settings.most_faces)
+    averaged = (int(block.averaged_ijk[0]), int(block.averaged_ijk[1]), int(block.averaged_ijk[2]))
+    voxel_mm = volume.spacing_mm * block.averaged_ijk
+    ends, remarks = notes_of(cut_at, averaged, voxel_mm, threshold, proposal, given=settings.threshold_hu)
+    return BoneSurface(
+        surface=Surface(vertices_mm=vertices, faces=faces),
+        threshold_hu=float(threshold),
+        proposal=proposal,
+        region=settings.region,
+        averaged_ijk=averaged,
+        voxel_mm=voxel_mm,
+        smoothing_rounds=settings.smoothing_rounds,
+        parts=parts,
+        faces_before=faces_before,
+        closed=links_of(faces).closed,
+        cut_at=ends,
+        remarks=remarks,
+    )
+
+
+def _as_int16(hu: npt.NDArray[np.float32]) -> npt.NDArray[np.int16]:
+    return np.asarray(np.rint(hu), dtype=np.int16)
+
+
+def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array, Faces]:
+    """Marching cubes: vertices (n, 3) as k, j, i and faces (m, 3), wound outwards as i, j, k."""
+    low, high = float(hu.min()), float(hu.max())
+    if not low < threshold_hu <= high:
+        raise PlanError(
+            "BONE_THRESHOLD_OUTSIDE",
+            f"a threshold of {threshold_hu:.0f} HU parts nothing here, the voxels go from {low:.0f} to "
+            f"{high:.0f} HU",
+            "Give a threshold between them, or a region in which there is bone.",
+            {"threshold_hu": threshold_hu, "lowest_hu": low, "highest_hu": high},
+        )
+    # A whole number of HU is what many voxels have; half of one less makes no triangles without area, and
+    # still takes the same voxels for bone.
+    level = float(np.ceil(threshold_hu)) - 0.5
+    bone = hu >= level
+    crossings = sum(int(np.count_nonzero(np.diff(bone, axis=axis))) for axis in range(3))
+    if crossings > MOST_VERTICES:
+        raise PlanError(
+            "BONE_TOO_LARGE",
+            f"at {threshold_hu:.0f} HU the surface has {crossings} vertices, allowed {MOST_VERTICES}",
+            "Give a region around one vertebra, or a higher threshold that does not cut through noise.",
+            {"vertices": crossings, "threshold_hu": threshold_hu},
+        )
+    if crossings == 0:
+        raise _not_found(threshold_hu)
+    vertices, faces, _, _ = marching_cubes(  # type: ignore[no-untyped-call]  # it has no types
+        hu, level, gradient_direction="descent", allow_degenerate=False
+    )
+    return np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64)
+
+
+def _placed(
+    vertices_kji: Array, faces: Faces, block: Block, volume: Volume, region: Region | None
+) -> tuple[Array, Faces, npt.NDArray[np.bool_]]:
+    """In millimetres, cut to the region; and which vertices (n, 6) lie at which end of the CT."""
+    last = np.array(block.hu.shape)[::-1] - 1
+    own = vertices_kji[:, ::-1]
+    at_end = np.stack([own < 1e-3, own > last - 1e-3], axis=1) & block.cut_ijk
+    vertices = volume.lps_from_index(block.index_in_volume(vertices_kji))
+    if np.linalg.det(volume.lps_from_ijk[:3, :3]) < 0.0:
+        faces = faces[:, ::-1]
+    if region is not None:
+        inside = region.holds(vertices)
+        faces = faces[inside[faces].all(axis=1)]
+        if faces.shape[0] == 0:
+            raise _not_found(None)
+    return vertices, faces, at_end.reshape(-1, 6)
+
+
+def _not_found(threshold_hu: float | None) -> PlanError:
+    return PlanError(
+        "BONE_NOT_FOUND",
+        "there is no surface of bone in this region"
+        + ("" if threshold_hu is None else f" at {threshold_hu:.0f} HU"),
+        "Give a region in which there is bone, or another threshold.",
+    )

@@ -1,0 +1,21 @@
+"""What the user should know about a result that can be used all the same."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remark:
+    """A warning: like an error, but the work was done.
+
+    Attributes:
+        code: stable identifier in UPPER_SNAKE_CASE, for machines.
+        message: what was found in numbers, without a final full stop.
+        remedy: what may be done about it, one full sentence.
+        context: the numbers of the message by name, each with its unit in the name.
+    """
+
+    code: str
+    message: str
+    remedy: str
+    context: Mapping[str, object] = field(default_factory=dict)

@@ -1,0 +1,35 @@
+"""Smoothing that takes the steps of the slices away, and not the size of the bone."""
+
+import numpy as np
+from scipy.sparse import coo_array
+
+from tracker.geometry import Array
+from tracker.plan.triangles.links import Faces, links_of
+
+# Taubin 1995: a step in, and a slightly longer one out. What is larger than 1/PASS_BAND of an edge stays.
+STEP_RATIO = 0.5
+PASS_BAND = 0.1
+
+
+def smoothed(vertices_mm: Array, faces: Faces, *, rounds: int) -> Array:
+    """The vertices (n, 3), each moved towards the mean of its neighbours and back, so many times.
+
+    Vertices of a border stay where they are: they have neighbours on one side only, which would pull them in.
+
+    Source: G. Taubin, A signal processing approach to fair surface design, SIGGRAPH 1995.
+    """
+    links = links_of(faces)
+    count = vertices_mm.shape[0]
+    a, b = links.edges.T
+    graph = coo_array(
+        (np.ones(2 * a.size), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(count, count)
+    ).tocsr()
+    neighbours = np.maximum(np.asarray(graph.sum(axis=1)).reshape(-1, 1), 1.0)
+    moves = np.ones((count, 1))
+    moves[links.border_vertices] = 0.0
+    back_ratio = 1.0 / (PASS_BAND - 1.0 / STEP_RATIO)
+    out = vertices_mm - vertices_mm.mean(axis=0)
+    for _ in range(rounds):
+        for ratio in (STEP_RATIO, back_ratio):
+            out = out + ratio * moves * (graph @ out / neighbours - out)
+    return np.asarray(out + vertices_mm.mean(axis=0))
