@@ -11,7 +11,7 @@ with Home(home_folder()) as home, CaseStore(home) as store:
 
 from server.store.archive import Archive
 from server.store.case_store import CaseStore
-from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError
+from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError, told
 from server.store.files import NewFile
 from server.store.home import Home, home_folder
 from server.store.records import (
@@ -49,4 +49,5 @@ __all__ = [
     "StoredFile",
     "Withdrawal",
     "home_folder",
+    "told",
 ]

@@ -22,7 +22,7 @@ from server.store.archive.form import (
     PartForm,
     WithdrawalForm,
 )
-from server.store.cases import case_of, case_row, new_id
+from server.store.cases import case_of, case_row
 from server.store.documents import every_document
 from server.store.errors import StoreError, told
 from server.store.files import CHUNK_BYTES, all_files
@@ -76,7 +76,7 @@ def pack(ledger: Ledger, case_id: str, *, with_identity: bool) -> Archive:
         NotStored: CASE_UNKNOWN.
         StoreError: FILE_DAMAGED, a file is not as it was stored.
     """
-    path = ledger.home.temporary / f"{new_id()}.zip"
+    path = ledger.home.new_temporary(".zip")
     with ledger.holding(case_id), told(ledger.home.folder):
         try:
             with zipfile.ZipFile(path, "x", zipfile.ZIP_DEFLATED, compresslevel=FAST) as archive:
@@ -101,16 +101,22 @@ def _write_all(
         )
         writer.write(DOCUMENTS, lines)
     for file in files:
+        if not file.path.exists():
+            raise _damaged(file, "it is missing")
         part = writer.write(f"{FILES}{file.id}", _pieces(file.path), expected_bytes=file.size_bytes)
         if part.sha256 != file.sha256:
-            raise StoreError(
-                "FILE_DAMAGED",
-                f"the file {file.id} of the case {case_id} is not as it was stored (its SHA-256 differs)",
-                "Put it back from a copy, or withdraw the document that needs it and delete the case.",
-                {"case_id": case_id, "file_id": file.id},
-            )
+            raise _damaged(file, "its SHA-256 differs")
     manifest = ManifestForm(format=FORMAT, version=VERSION, made_at=ledger.now, parts=writer.parts)
     archive.writestr(MANIFEST, manifest.model_dump_json(indent=1))
+
+
+def _damaged(file: StoredFile, why: str) -> StoreError:
+    return StoreError(
+        "FILE_DAMAGED",
+        f"the file {file.id} of the case {file.case_id} is not as it was stored: {why}",
+        "Put the file back from a copy; until then the case cannot be copied out.",
+        {"case_id": file.case_id, "file_id": file.id},
+    )
 
 
 def _case_text(case: Case, files: tuple[StoredFile, ...], *, with_identity: bool) -> bytes:

@@ -12,6 +12,7 @@ import json
 import os
 import random
 import select
+import signal
 import subprocess
 import sys
 import tempfile
@@ -19,7 +20,8 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+
+from sqlalchemy.orm import Session
 
 from server.store import CaseStore, Document, DocumentKind, Home, documents, files
 
@@ -55,7 +57,7 @@ class Promised:
             self.files[case_id, said["id"]] = said["sha256"]
         elif what == "leaving":
             # Begun and perhaps done: no longer promised, and not to be gone either.
-            self.cases.pop(case_id)
+            self.cases.pop(case_id, None)
         elif what == "gone":
             self.deleted.add(case_id)
 
@@ -107,6 +109,7 @@ def kill_once(folder: Path, promised: Promised, *, after_s: float, seed: int, fa
         time.sleep(after_s)
         child.kill()
         rest = child.stdout.read()
+    assert child.returncode == -signal.SIGKILL, "the child ended by itself, with an error"
     # A line that was cut was not said.
     for line in rest.decode().split("\n")[:-1]:
         promised.note(line)
@@ -169,8 +172,8 @@ def _say_document(document: Document) -> None:
 def _acknowledge_before_commit() -> None:
     """As a store would that answers what it has not stored yet."""
 
-    def add_document(*given: Any, **named: Any) -> Document:
-        document = real(*given, **named)
+    def add_document(session: Session, case_id: str, new: documents.NewDocument, *, now: str) -> Document:
+        document = real(session, case_id, new, now=now)
         _say_document(document)
         return document
 

@@ -229,9 +229,12 @@ def test_a_damaged_file_is_not_copied_out(store: CaseStore, home: Home, case: Ca
     path = store.files(case.id)[0].path
     path.chmod(0o600)
     path.write_bytes(b"other bytes")
-    with pytest.raises(StoreError) as damaged:
+    with pytest.raises(StoreError, match="SHA-256 differs") as damaged:
         store.copy_out(case.id)
     assert damaged.value.code == "FILE_DAMAGED"
+    path.unlink()
+    with pytest.raises(StoreError, match="it is missing"):
+        store.copy_out(case.id)
     assert list(home.temporary.iterdir()) == []
 
 
