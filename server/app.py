@@ -12,11 +12,13 @@ from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, p
 from server.api.documentation import documentation_router
 from server.api.errors import install_errors, refusals
 from server.api.health import health_router
+from server.api.jobs import jobs_router
 from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.config import Config
+from server.jobs import Jobs
 from server.live import LiveHub
 from server.overlay.words import RESEARCH_SOFTWARE
 from server.scene import mount_scene
@@ -38,6 +40,7 @@ class AppParts:
         hub: where the newest instant is published.
         config: the settings; its limits are the ones that every door uses.
         store: where cases are kept; None where nothing is kept, and then nothing is answered about them.
+        jobs: where long work is done; None where there is none.
         setup: what stands before the first image, for the scene; None when it is known only later.
         surface: the bone, for the scene.
     """
@@ -45,6 +48,7 @@ class AppParts:
     hub: LiveHub
     config: Config
     store: CaseStore | None = None
+    jobs: Jobs | None = None
     setup: Setup | None = None
     surface: Surface | None = None
 
@@ -88,6 +92,8 @@ def create_app(parts: AppParts) -> FastAPI:
     app.include_router(metrics_router(metrics))
     if parts.store is not None:
         app.include_router(cases_router(parts.store))
+    if parts.jobs is not None:
+        app.include_router(jobs_router(parts.jobs))
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
         app,

@@ -10,6 +10,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.errors import CaptureError, SetupOrderError
+from server.jobs import JobUnknown
 from server.store import NotStored, OutOfDateError, StoreConflict, StoreError
 from server.stream.errors import CameraUnknown
 from server.stream.messages import TroubleMessage
@@ -29,6 +30,7 @@ STATUS_OF: dict[type[NavigationError], int] = {
     StoreConflict: 409,
     OutOfDateError: 409,
     StoreError: 503,
+    JobUnknown: 404,
 }
 # Where HTTP has a word of its own for what the code says.
 STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413}
