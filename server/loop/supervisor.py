@@ -12,7 +12,6 @@ import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from multiprocessing import forkserver
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerProcess
 from typing import TypeAlias
@@ -21,11 +20,11 @@ import structlog
 
 from server.live import ProcessState, ProcessStatus, Trouble
 from server.loop.board import Board
+from server.loop.forks import ending_words, forking_context
 from server.loop.ring import ImageRing
 from server.loop.worker import WorkerLink, WorkerOrder, run_worker
 from server.setup import CaseSetup
 
-PRELOAD = ["server.loop.preload"]
 STOP_TIMEOUT_S = 1.0
 
 Target: TypeAlias = Callable[[WorkerOrder, WorkerLink], None]
@@ -85,14 +84,7 @@ class Supervisor:
 
     def start(self) -> None:
         """Begin; call it from the main thread, whose end shall end the process that forks."""
-        self._context.set_forkserver_preload(PRELOAD)
-        # Blocked in everything started here: Ctrl+C in a terminal reaches the whole process group, and only
-        # the server may act on it.
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-        try:
-            forkserver.ensure_running()
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        forking_context()
         self._thread.start()
 
     def adopt(self, case: CaseSetup) -> None:
@@ -161,7 +153,7 @@ class Supervisor:
             ready = wait([process.sentinel, self._asleep], timeout=self._watch.look_every_s)
             if process.sentinel in ready:
                 process.join(STOP_TIMEOUT_S)
-                return _trouble(f"(pid {process.pid}) ended {_how(process.exitcode)}")
+                return _trouble(f"(pid {process.pid}) ended {ending_words(process.exitcode)}")
             if self._asleep in ready:
                 return _trouble("was stopped")
             limit_s = self._watch.silent_after_s if ring.images else self._watch.first_image_after_s
@@ -224,14 +216,3 @@ def _given_up(watch: Watch, last: Trouble) -> Trouble:
         "to try at once, stop the program and start it again.",
         context={"restarts": watch.restarts, "window_s": watch.window_s},
     )
-
-
-def _how(exitcode: int | None) -> str:
-    if exitcode is None:
-        return "in an unknown way"
-    if exitcode < 0:
-        try:
-            return f"by signal {-exitcode} ({signal.Signals(-exitcode).name})"
-        except ValueError:
-            return f"by signal {-exitcode}"
-    return f"with status {exitcode}"

@@ -9,8 +9,9 @@ with Home(home_folder()) as home, CaseStore(home) as store:
     store.standing(plan)        # Current(), until the CT is replaced or withdrawn
 """
 
+from server.store.archive import Archive
 from server.store.case_store import CaseStore
-from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError
+from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError, told
 from server.store.files import NewFile
 from server.store.home import Home, home_folder
 from server.store.records import (
@@ -28,6 +29,7 @@ from server.store.records import (
 )
 
 __all__ = [
+    "Archive",
     "Case",
     "CaseStore",
     "Current",
@@ -47,4 +49,5 @@ __all__ = [
     "StoredFile",
     "Withdrawal",
     "home_folder",
+    "told",
 ]

@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
+from pathlib import Path
 from types import TracebackType
 
 from server.store import cases, documents, files
+from server.store.archive import Archive, pack, unpack
 from server.store.checks import checked_name
 from server.store.documents import NewDocument
 from server.store.errors import OutOfDateError
@@ -246,6 +248,24 @@ class CaseStore:
     def verify(self, case_id: str) -> tuple[Damage, ...]:
         """Read every file of a case, and tell those that are missing or not as they were stored."""
         return files.damages(self._ledger, case_id)
+
+    # ------------------------------------------------------------ archives
+
+    def copy_out(self, case_id: str, *, with_identity: bool = False) -> Archive:
+        """A case as one file, without its name and without who the patient is unless asked for.
+
+        Raises:
+            StoreError: FILE_DAMAGED.
+        """
+        return pack(self._ledger, case_id, with_identity=with_identity)
+
+    def copy_in(self, archive: Path) -> Case:
+        """Take an archive in as a new case, whole or not at all.
+
+        Raises:
+            InvalidInput: ARCHIVE_INVALID, ARCHIVE_NEWER.
+        """
+        return unpack(self._ledger, archive)
 
     # ------------------------------------------------------------ end
 

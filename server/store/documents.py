@@ -2,18 +2,21 @@
 
 import json
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from sqlalchemy import func, select
+from sqlalchemy import ColumnClause, func, literal_column, select
 from sqlalchemy.orm import Session
 
 from server.store.cases import new_id
 from server.store.checks import checked_name, text_of
 from server.store.errors import NotStored, StoreConflict
-from server.store.records import Document, DocumentKind, Heading, Withdrawal
+from server.store.records import Document, DocumentKind, Withdrawal
 from server.store.tables import WHOLE, BasisRow, DocumentFileRow, DocumentRow, FileRow
 from tracker.errors import InvalidInput
+
+# As they were stored; clocks may go back.
+IN_ORDER: ColumnClause[int] = literal_column("documents.rowid")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,6 +114,18 @@ def versions(session: Session, case_id: str, kind: DocumentKind, name: str) -> t
     return _read(session, session.scalars(chosen).all())
 
 
+def every_document(session: Session, case_id: str) -> Iterator[Document]:
+    """All documents of a case, one after the other, each after those that it stands on."""
+    bases, files = links_of(session, case_id)
+    for row in session.scalars(
+        select(DocumentRow)
+        .where(DocumentRow.case_id == case_id)
+        .order_by(IN_ORDER)
+        .execution_options(yield_per=20)
+    ):
+        yield document_of(row, bases[row.id], files[row.id])
+
+
 def newest(session: Session, case_id: str, kind: DocumentKind, name: str | None) -> tuple[Document, ...]:
     """The newest version of each name, where it was not withdrawn; ordered by name."""
     last = (
@@ -154,12 +169,6 @@ def document_of(row: DocumentRow, stands_on: Iterable[str], files: Iterable[str]
 def withdrawal_of(at: str | None, by: str | None, reason: str | None) -> Withdrawal | None:
     """The record of a withdrawal, if there was one."""
     return None if at is None else Withdrawal(at=at, by=by or "", reason=reason or "")
-
-
-def heading_of(document: Heading) -> Heading:
-    """A document without its content."""
-    names = Heading.__slots__
-    return Heading(**{name: getattr(document, name) for name in names})
 
 
 def _read(session: Session, rows: Sequence[DocumentRow]) -> tuple[Document, ...]:

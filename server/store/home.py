@@ -1,6 +1,7 @@
 """The folder in which everything is kept, used by one server at a time."""
 
 import os
+import secrets
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
@@ -57,6 +58,10 @@ class Home:
             except OSError:
                 self._lock.release()
                 raise
+
+    def new_temporary(self, suffix: str = "") -> Path:
+        """A name for work that is not done; what is written there is gone at the next start."""
+        return self.temporary / f"{secrets.token_hex(8)}{suffix}"
 
     def close(self) -> None:
         """Let another server have the folder."""

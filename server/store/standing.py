@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from server.store.documents import links_of, withdrawal_of
+from server.store.documents import IN_ORDER, links_of, withdrawal_of
 from server.store.records import Current, DocumentKind, Heading, OutOfDate, Standing
 from server.store.tables import BasisRow, DocumentRow
 
@@ -59,7 +59,7 @@ def lineage_of(session: Session, case_id: str, document_id: str | None = None) -
         DocumentRow.withdrawn_by,
         DocumentRow.withdrawn_reason,
     )
-    chosen = select(*columns).where(DocumentRow.case_id == case_id).order_by(DocumentRow.made_at)
+    chosen = select(*columns).where(DocumentRow.case_id == case_id).order_by(IN_ORDER)
     ids = None if document_id is None else _ancestors(session, case_id, document_id)
     if ids is not None:
         chosen = chosen.where(DocumentRow.id.in_(ids))
