@@ -179,7 +179,7 @@ def nifti_of(
     hu_ijk: npt.NDArray[np.generic],
     affine: npt.NDArray[np.float64],
     *,
-    change: Callable[[object], None] = lambda _: None,
+    change: Callable[[nib.Nifti1Header], object] = lambda _: None,
 ) -> bytes:
     """The bytes of a NIfTI file; `change` may spoil its header."""
     image = nib.Nifti1Image(hu_ijk, affine)
