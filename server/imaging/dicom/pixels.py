@@ -1,32 +1,38 @@
-"""From stored pixels to Hounsfield units, slice by slice."""
+"""The stored pixels of slices, one by one: read here where they are plain, decoded elsewhere where not."""
 
 from collections.abc import Iterator
-from typing import Any, TypeAlias
+from typing import Any
 
-import numpy as np
-import numpy.typing as npt
 import pydicom
+from pydicom.encaps import encapsulate, generate_frames
 from pydicom.pixels.decoders.base import get_decoder
 from pydicom.pixels.utils import iter_pixels
 from pydicom.uid import UID
 
+from server.imaging.dicom.decoding import Encoded, Stored, decoded
 from server.imaging.dicom.frame import Frame, Shared
 from server.imaging.dicom.header import BAD_DICOM, quietly
-from server.imaging.voxels import LEAST_HU, MOST_HU, NOTHING_HU
 from tracker.errors import InvalidInput
 
-# Whole numbers of any size, with or without sign, as the file holds them.
-Stored: TypeAlias = npt.NDArray[np.integer[Any]]
+# Of one slice, whatever else its file holds; more would be read into memory at once.
+MOST_SLICE_BYTES = 2**29
 END_OF_IMAGE = b"\xff\xd9"
 SEND_AGAIN = "Copy or export the series again; a slice that breaks off cannot be repaired."
 UNCOMPRESSED = "Export the series again uncompressed, or with lossless JPEG 2000, JPEG-LS, JPEG or RLE."
+ENDS_ITSELF = frozenset(
+    [
+        *pydicom.uid.JPEGTransferSyntaxes,
+        *pydicom.uid.JPEGLSTransferSyntaxes,
+        *pydicom.uid.JPEG2000TransferSyntaxes,
+    ]
+)
 
 
 def check_readable(shared: Shared) -> None:
     """Refuses pixels of a kind that cannot be read, before any is read.
 
     Raises:
-        InvalidInput: CT_COMPRESSION_UNKNOWN, CT_PIXELS_UNKNOWN.
+        InvalidInput: CT_COMPRESSION_UNKNOWN, CT_SLICE_TOO_LARGE, CT_PIXELS_UNKNOWN.
     """
     syntax = UID(shared.compression)
     try:
@@ -41,6 +47,14 @@ def check_readable(shared: Shared) -> None:
             UNCOMPRESSED,
             {"transfer_syntax": shared.compression, "bits": stored},
         )
+    if shared.frames == 1 and shared.entry.size > MOST_SLICE_BYTES:
+        raise InvalidInput(
+            "CT_SLICE_TOO_LARGE",
+            f"a slice has a file of {shared.entry.size / 2**20:.0f} MiB, allowed "
+            f"{MOST_SLICE_BYTES / 2**20:.0f} MiB",
+            UNCOMPRESSED,
+            {"bytes": shared.entry.size, "most_bytes": MOST_SLICE_BYTES},
+        )
     if allocated not in {8, 16, 32} or not 1 <= stored <= allocated or high != stored - 1:
         raise InvalidInput(
             "CT_PIXELS_UNKNOWN",
@@ -50,36 +64,94 @@ def check_readable(shared: Shared) -> None:
         )
 
 
-def stored_pixels(shared: Shared, indexes: list[int]) -> Iterator[Stored]:
-    """The stored numbers (rows, columns) of these images of one file, one after the other.
+def stored_images(frames: list[Frame]) -> Iterator[tuple[int, Stored]]:
+    """The index of each slice among these, and its stored numbers (rows, columns); compressed ones last.
 
     Raises:
         InvalidInput: CT_SLICE_TRUNCATED, CT_SLICE_DAMAGED.
     """
-    native = not UID(shared.compression).is_encapsulated
-    options: dict[str, Any] = {"correct_unused_bits": False} if _keeps_unused_bits(shared) else {}
+    by_file: dict[int, list[int]] = {}
+    for index, frame in enumerate(frames):
+        by_file.setdefault(id(frame.shared), []).append(index)
+    files = [(frames[members[0]].shared, members) for members in by_file.values()]
+    for shared, members in files:
+        if not is_encoded(shared):
+            images = _plain(shared, [frames[index].index for index in members])
+            yield from ((index, _sized(image, shared)) for index, image in zip(members, images, strict=True))
+    encoded = (
+        one
+        for shared, members in files
+        if is_encoded(shared)
+        for one in _encoded(shared, members, [frames[index].index for index in members])
+    )
+    for index, image in decoded(encoded):
+        if image is None:
+            raise _damaged(frames[index].shared)
+        yield index, _sized(image, frames[index].shared)
+
+
+def is_encoded(shared: Shared) -> bool:
+    """Whether its pixels are decoded by compiled code in another process."""
+    syntax = UID(shared.compression)
+    return syntax.is_encapsulated and syntax != pydicom.uid.RLELossless
+
+
+def _plain(shared: Shared, indexes: list[int]) -> Iterator[Stored]:
+    """The images of one file that pydicom reads by itself."""
+    # pydicom would clear the bits above those stored, and with them the mark of what was not measured.
+    options: dict[str, Any] = {"correct_unused_bits": False}
     try:
         with quietly(), shared.entry.open() as file:
             if shared.frames > 1:
-                for pixels in iter_pixels(file, indices=indexes, raw=True, **options):
-                    yield _sized(pixels, shared)
+                yield from iter_pixels(file, indices=indexes, raw=True, **options)
                 return
-            dataset = pydicom.dcmread(file, force=True)
-            if "TransferSyntaxUID" not in dataset.file_meta:
-                dataset.file_meta.TransferSyntaxUID = UID(shared.compression)
-            _check_length(dataset, shared, native=native)
-            decoder = get_decoder(UID(shared.compression))
-            pixels, _ = decoder.as_array(dataset, index=0, raw=True, **options)
-            yield _sized(pixels, shared)
+            dataset = _whole(file, shared)
+            content = len(dataset.PixelData)
+            needed = shared.size_wh_px[0] * shared.size_wh_px[1] * shared.bits[0] // 8
+            if not UID(shared.compression).is_encapsulated and content < needed:
+                raise _truncated(shared, content, needed)
+            yield get_decoder(UID(shared.compression)).as_array(dataset, index=0, raw=True, **options)[0]
     except EOFError:
         raise _truncated(shared) from None
     except BAD_DICOM:
-        raise InvalidInput(
-            "CT_SLICE_DAMAGED",
-            f"a slice of {shared.entry.size} bytes cannot be decoded ({UID(shared.compression).name})",
-            SEND_AGAIN,
-            {"bytes": shared.entry.size},
-        ) from None
+        raise _damaged(shared) from None
+
+
+def _encoded(shared: Shared, members: list[int], indexes: list[int]) -> Iterator[Encoded]:
+    """The compressed images of one file."""
+    options: dict[str, object] = {
+        "transfer_syntax_uid": shared.compression,
+        "rows": shared.size_wh_px[1],
+        "columns": shared.size_wh_px[0],
+        "samples_per_pixel": 1,
+        "photometric_interpretation": shared.photometric or "MONOCHROME2",
+        "number_of_frames": 1,
+        "bits_allocated": shared.bits[0],
+        "bits_stored": shared.bits[1],
+        "pixel_representation": int(shared.is_signed),
+    }
+    try:
+        with quietly(), shared.entry.open() as file:
+            content = _whole(file, shared).PixelData
+        images = list(generate_frames(content, number_of_frames=shared.frames))
+    except EOFError:
+        raise _truncated(shared) from None
+    except BAD_DICOM:
+        raise _damaged(shared) from None
+    for member, index in zip(members, indexes, strict=True):
+        if index >= len(images) or END_OF_IMAGE not in images[index][-64:]:
+            # Some decoders would fill in what is missing.
+            raise _truncated(shared, len(content))
+        yield Encoded(index=member, options=options, content=encapsulate([images[index]], has_bot=False))
+
+
+def _whole(file: Any, shared: Shared) -> pydicom.Dataset:  # noqa: ANN401  what pydicom reads from
+    dataset = pydicom.dcmread(file, force=True)
+    if "PixelData" not in dataset:
+        raise _truncated(shared)
+    if "TransferSyntaxUID" not in dataset.file_meta:
+        dataset.file_meta.TransferSyntaxUID = UID(shared.compression)
+    return dataset
 
 
 def _sized(pixels: Stored, shared: Shared) -> Stored:
@@ -89,21 +161,13 @@ def _sized(pixels: Stored, shared: Shared) -> Stored:
     return pixels
 
 
-def _check_length(dataset: pydicom.Dataset, shared: Shared, *, native: bool) -> None:
-    """Refuses a slice of which a part is missing; some decoders would fill it in."""
-    content = dataset.get("PixelData")
-    if content is None:
-        raise _truncated(shared)
-    columns, rows = shared.size_wh_px
-    if native and len(content) < columns * rows * shared.bits[0] // 8:
-        raise _truncated(shared, len(content), columns * rows * shared.bits[0] // 8)
-    ends_itself = UID(shared.compression) in (
-        *pydicom.uid.JPEGTransferSyntaxes,
-        *pydicom.uid.JPEGLSTransferSyntaxes,
-        *pydicom.uid.JPEG2000TransferSyntaxes,
+def _damaged(shared: Shared) -> InvalidInput:
+    return InvalidInput(
+        "CT_SLICE_DAMAGED",
+        f"a slice of {shared.entry.size} bytes cannot be decoded ({UID(shared.compression).name})",
+        SEND_AGAIN,
+        {"bytes": shared.entry.size},
     )
-    if ends_itself and END_OF_IMAGE not in content[-64:]:
-        raise _truncated(shared, len(content))
 
 
 def _truncated(shared: Shared, found: int = 0, needed: int = 0) -> InvalidInput:
@@ -116,36 +180,3 @@ def _truncated(shared: Shared, found: int = 0, needed: int = 0) -> InvalidInput:
         SEND_AGAIN,
         {"bytes": shared.entry.size, "columns": columns, "rows": rows, "pixel_bytes": found},
     )
-
-
-def hounsfield(stored: Stored, frame: Frame) -> tuple[npt.NDArray[np.int16], int]:
-    """HU (rows, columns) int16 of the stored numbers, and how many lay beyond what int16 holds."""
-    shared = frame.shared
-    padded = None
-    if shared.padding is not None:
-        low, high = shared.padding
-        padded = (stored >= low) & (stored <= high)
-    values = _without_unused_bits(stored, shared)
-    slope, intercept = frame.slope[0], frame.intercept[0]
-    if slope == 1.0 and intercept == int(intercept) and abs(intercept) < 2**30 and shared.bits[1] <= 16:
-        hu: npt.NDArray[np.int32 | np.float64] = values.astype(np.int32) + np.int32(intercept)
-    else:
-        hu = np.rint(values.astype(np.float64) * slope + intercept)
-    if padded is not None:
-        hu = np.where(padded, np.asarray(NOTHING_HU, dtype=hu.dtype), hu)
-    beyond = int(np.count_nonzero((hu < LEAST_HU) | (hu > MOST_HU)))
-    return np.clip(hu, LEAST_HU, MOST_HU).astype(np.int16), beyond
-
-
-def _without_unused_bits(stored: Stored, shared: Shared) -> Stored:
-    """The bits above those stored may hold anything: overlays, or nothing."""
-    unused = stored.dtype.itemsize * 8 - shared.bits[1]
-    if unused <= 0 or not _keeps_unused_bits(shared):
-        return stored
-    return np.asarray(np.right_shift(np.left_shift(stored, unused), unused))
-
-
-def _keeps_unused_bits(shared: Shared) -> bool:
-    """Whether the bits above those stored come along; pydicom would clear some padding with them."""
-    syntax = UID(shared.compression)
-    return not syntax.is_encapsulated or syntax == pydicom.uid.RLELossless

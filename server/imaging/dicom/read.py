@@ -9,7 +9,8 @@ from server.imaging.container import Container
 from server.imaging.ct import Ct, Progress, SeriesDescription
 from server.imaging.dicom.agreement import check_agreement, said_of
 from server.imaging.dicom.frame import Frame
-from server.imaging.dicom.pixels import hounsfield, stored_pixels
+from server.imaging.dicom.hounsfield import hounsfield
+from server.imaging.dicom.pixels import stored_images
 from server.imaging.dicom.series import check_one_patient, choose, describe, frames_by_series
 from server.imaging.plausible import said_of_values
 from server.imaging.voxels import Voxels, voxels_to_fill
@@ -56,25 +57,19 @@ def read_dicom(container: Container, *, series: str | None, progress: Progress, 
 def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress) -> int:
     """Reads every slice to its place; gives how many values were beyond what is kept."""
     place = {index: k for k, members in enumerate(stack.slices) for index in members}
-    by_file: dict[int, list[int]] = {}
-    for index, frame in enumerate(frames):
-        by_file.setdefault(id(frame.shared), []).append(index)
     written: set[int] = set()
     differing: Counter[int] = Counter()
-    beyond = done = 0
-    for members in by_file.values():
-        images = stored_pixels(frames[members[0]].shared, [frames[index].index for index in members])
-        for index, image in zip(members, images, strict=True):
-            hu, lost = hounsfield(image, frames[index])
-            k = place[index]
-            if k in written:
-                differing[k] += int(not np.array_equal(voxels.hu[k], hu))
-            else:
-                voxels.hu[k] = hu
-                beyond += lost
-            written.add(k)
-            done += 1
-            progress(done, len(frames))
+    beyond = 0
+    for done, (index, image) in enumerate(stored_images(frames), start=1):
+        hu, lost = hounsfield(image, frames[index])
+        k = place[index]
+        if k in written:
+            differing[k] += int(not np.array_equal(voxels.hu[k], hu))
+        else:
+            voxels.hu[k] = hu
+            beyond += lost
+        written.add(k)
+        progress(done, len(frames))
     places = sum(count > 0 for count in differing.values())
     if places:
         raise InvalidInput(
