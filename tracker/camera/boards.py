@@ -1,0 +1,219 @@
+"""The boards that a camera is calibrated with: what is printed on them, in millimetres.
+
+A board lies in its own plane z = 0: x to the right and y down on the printed face, the first point at the
+origin. Points count row by row from the top left.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TypeAlias
+
+import cv2
+import numpy as np
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+
+LEAST_POINTS, MOST_POINTS = 4, 10_000
+
+
+class DotLayout(StrEnum):
+    """How dots stand to each other."""
+
+    SYMMETRIC = "symmetric"
+    """On a square grid."""
+    ASYMMETRIC = "asymmetric"
+    """Each second row is shifted by half of the distance between two dots of a row."""
+
+
+class CharucoLayout(StrEnum):
+    """Which corner square of a ChArUco board is black; they differ where the number of rows is even."""
+
+    NEWER = "newer"
+    """OpenCV 4.6 and later: the top left square is black."""
+    OLDER = "older"
+    """Before OpenCV 4.6: the bottom left square is black."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DotBoard:
+    """A grid of dots; some may be larger, to tell which way up the board is.
+
+    Attributes:
+        columns: dots in a row.
+        rows: rows of dots.
+        pitch_mm: from a dot to the next one; of an asymmetric board half the distance between two dots of a
+            row, which is also the distance between two rows (OpenCV's asymmetric grid).
+        layout: symmetric or asymmetric.
+        fiducials: indexes of the larger dots, row by row from 0; empty where all are alike.
+
+    Raises:
+        InvalidInput: BOARD_INVALID, with the number that cannot be.
+    """
+
+    columns: int
+    rows: int
+    pitch_mm: float
+    layout: DotLayout = DotLayout.SYMMETRIC
+    fiducials: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        _refuse_counts(self.columns, self.rows, self.columns * self.rows)
+        _refuse_length("pitch_mm", self.pitch_mm)
+        object.__setattr__(self, "layout", DotLayout(self.layout))
+        object.__setattr__(self, "fiducials", tuple(sorted({int(i) for i in self.fiducials})))
+        count = self.columns * self.rows
+        beyond = [index for index in self.fiducials if not 0 <= index < count]
+        if beyond or len(self.fiducials) == count:
+            raise _invalid(
+                f"larger dots {list(self.fiducials)} of {count} dots, allowed indexes 0 to {count - 1}"
+            )
+
+    @property
+    def object_points_mm(self) -> Array:
+        """Centres of the dots (n, 3) in mm, row by row."""
+        column, row = _indexes(self.columns, self.rows)
+        if self.layout is DotLayout.ASYMMETRIC:
+            column = 2.0 * column + row % 2
+        return _points(column * self.pitch_mm, row * self.pitch_mm)
+
+    @property
+    def transposed(self) -> "DotBoard":
+        """The same numbers read the other way round: columns as rows; indexes count along the new rows."""
+        return DotBoard(
+            columns=self.rows,
+            rows=self.columns,
+            pitch_mm=self.pitch_mm,
+            layout=self.layout,
+            fiducials=self.fiducials,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckerBoard:
+    """A checkerboard, counted by its inner corners.
+
+    Attributes:
+        columns: inner corners in a row (one less than squares).
+        rows: rows of inner corners.
+        square_mm: side of a square.
+
+    Raises:
+        InvalidInput: BOARD_INVALID, with the number that cannot be.
+    """
+
+    columns: int
+    rows: int
+    square_mm: float
+
+    def __post_init__(self) -> None:
+        _refuse_counts(self.columns, self.rows, self.columns * self.rows)
+        _refuse_length("square_mm", self.square_mm)
+
+    @property
+    def object_points_mm(self) -> Array:
+        """Inner corners (n, 3) in mm, row by row."""
+        column, row = _indexes(self.columns, self.rows)
+        return _points(column * self.square_mm, row * self.square_mm)
+
+    @property
+    def tells_its_way_up(self) -> bool:
+        """Whether its colours change when it is turned by 180 degrees: odd by even corners."""
+        return (self.columns + self.rows) % 2 == 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CharucoBoard:
+    """A checkerboard with an ArUco marker in each white square; every corner is known by itself.
+
+    Attributes:
+        columns: squares in a row.
+        rows: rows of squares.
+        square_mm: side of a square.
+        marker_mm: side of a marker, black rim included.
+        dictionary: OpenCV's name of the markers' dictionary, as DICT_6X6_250.
+        layout: newer or older, see `CharucoLayout`; None lets detection find out.
+
+    Raises:
+        InvalidInput: BOARD_INVALID, with what cannot be.
+    """
+
+    columns: int
+    rows: int
+    square_mm: float
+    marker_mm: float
+    dictionary: str
+    layout: CharucoLayout | None = None
+
+    def __post_init__(self) -> None:
+        _refuse_counts(self.columns, self.rows, (self.columns - 1) * (self.rows - 1))
+        _refuse_length("square_mm", self.square_mm)
+        _refuse_length("marker_mm", self.marker_mm)
+        if self.marker_mm >= self.square_mm:
+            raise _invalid(f"a marker of {self.marker_mm:g} mm in a square of {self.square_mm:g} mm")
+        if self.dictionary not in dictionaries():
+            raise _invalid(f"the dictionary '{self.dictionary}', allowed {', '.join(dictionaries())}")
+        if self.layout is not None:
+            object.__setattr__(self, "layout", CharucoLayout(self.layout))
+        held = int(self.opencv_dictionary.bytesList.shape[0])
+        needed = self.columns * self.rows // 2
+        if needed > held:
+            raise _invalid(f"{needed} markers, and {self.dictionary} holds {held}")
+
+    @property
+    def object_points_mm(self) -> Array:
+        """Inner corners (n, 3) in mm, row by row; the board's own top left corner is the origin."""
+        column, row = _indexes(self.columns - 1, self.rows - 1)
+        return _points((column + 1.0) * self.square_mm, (row + 1.0) * self.square_mm)
+
+    @property
+    def opencv_dictionary(self) -> cv2.aruco.Dictionary:
+        """The dictionary as OpenCV knows it."""
+        return cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, self.dictionary))
+
+    def opencv_board(self, layout: CharucoLayout | None = None) -> cv2.aruco.CharucoBoard:
+        """The board as OpenCV knows it, in this layout or its own (newer if it has none)."""
+        board = cv2.aruco.CharucoBoard(
+            (self.columns, self.rows), self.square_mm, self.marker_mm, self.opencv_dictionary
+        )
+        board.setLegacyPattern((layout or self.layout) is CharucoLayout.OLDER)
+        return board
+
+
+Board: TypeAlias = DotBoard | CheckerBoard | CharucoBoard
+
+
+def dictionaries() -> tuple[str, ...]:
+    """The names of OpenCV's dictionaries of markers."""
+    return tuple(sorted(name for name in dir(cv2.aruco) if name.startswith("DICT_")))
+
+
+def _indexes(columns: int, rows: int) -> tuple[Array, Array]:
+    row, column = np.divmod(np.arange(columns * rows), columns)
+    return column.astype(np.float64), row.astype(np.float64)
+
+
+def _points(x: Array, y: Array) -> Array:
+    points = np.stack([x, y, np.zeros_like(x)], axis=1)
+    points.setflags(write=False)
+    return points
+
+
+def _refuse_counts(columns: int, rows: int, points: int) -> None:
+    if min(columns, rows) < 2 or not LEAST_POINTS <= points <= MOST_POINTS:
+        raise _invalid(
+            f"{columns} x {rows}, which is {points} points, allowed {LEAST_POINTS} to {MOST_POINTS}"
+        )
+
+
+def _refuse_length(name: str, length_mm: float) -> None:
+    if not (np.isfinite(length_mm) and 0.0 < length_mm <= 10_000.0):
+        raise _invalid(f"{name} {length_mm:g}, allowed above 0 to 10000")
+
+
+def _invalid(what: str) -> InvalidInput:
+    return InvalidInput(
+        "BOARD_INVALID",
+        f"there is no such calibration board: {what}",
+        "Count the board again: dots, or inner corners of a checkerboard, or squares of a ChArUco board.",
+    )
