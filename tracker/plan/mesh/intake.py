@@ -69,7 +69,8 @@ def surface_from_mesh(
 
     Raises:
         PlanError: MESH_EMPTY, MESH_INVALID, MESH_UNIT_INVALID; MESH_UNIT_NEEDED, in mm it is neither a
-            vertebra nor several, and another unit is proposed; MESH_SIZE_IMPLAUSIBLE, no unit or not the given one.
+            vertebra nor several, and another unit is proposed; MESH_SIZE_IMPLAUSIBLE, it is neither in any
+            unit, or not in the one that was given.
     """
     points, corners = _checked(np.asarray(vertices, np.float64), np.asarray(faces, np.int64))
     points, corners, dropped = _cleaned(points, corners)
