@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 import pytest
+from cv2.typing import MatLike
 
 from server.printing import Label, Line, board_sheet, pdf_from_sheet, svg_from_sheet
 from server.printing.board_marks import box_of, marks_of_board
@@ -53,13 +54,11 @@ def page_of(board: Board, **how: str) -> Grey:
     return drawn(svg_from_sheet(board_sheet(board, **how)))  # type: ignore[arg-type]  # its words alone
 
 
-def in_mm(px: npt.NDArray[np.float32]) -> Points:
+def in_mm(px: MatLike) -> Points:
     return (np.asarray(px, np.float64).reshape(-1, 2) + 0.5) / PX_PER_MM
 
 
-def assert_at_true_size(
-    found_px: npt.NDArray[np.float32], board: Board, ids: list[int] | None = None
-) -> None:
+def assert_at_true_size(found_px: MatLike, board: Board, ids: list[int] | None = None) -> None:
     """Distances between all points are the board's, neither turned nor mirrored."""
     wanted = board.object_points_mm[:, :2] if ids is None else board.object_points_mm[ids, :2]
     found = in_mm(found_px)
@@ -95,7 +94,7 @@ def test_dots_are_found_at_their_places(board: DotBoard, flag: int) -> None:
     assert_at_true_size(in_page_order(centres, board), board)
 
 
-def in_page_order(centres: npt.NDArray[np.float32], board: DotBoard) -> npt.NDArray[np.float32]:
+def in_page_order(centres: MatLike, board: DotBoard) -> MatLike:
     """Row by row: OpenCV may begin at another corner of a grid that looks the same from there."""
     points = centres.reshape(-1, 2)
     row = np.rint((points[:, 1] - points[:, 1].min()) / (board.pitch_mm * PX_PER_MM))
