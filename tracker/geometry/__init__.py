@@ -1,7 +1,7 @@
 """Frames, rigid motions, angles, and covariance carried through them."""
 
 from tracker.geometry.cylinder import cylinder_ring_mm, cylinder_silhouette_mm
-from tracker.geometry.frames import Camera, Marker, Reference, Tool, Vertebra
+from tracker.geometry.frames import Camera, Marker, Pattern, Reference, Tool, Vertebra
 from tracker.geometry.rigid import Rigid, point_covariance_mm2
 from tracker.geometry.rotations import (
     Array,
@@ -16,6 +16,7 @@ __all__ = [
     "Array",
     "Camera",
     "Marker",
+    "Pattern",
     "Reference",
     "Rigid",
     "Tool",
