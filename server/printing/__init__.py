@@ -1,8 +1,21 @@
 """A sheet of paper in millimetres, and the two kinds of file that a printer takes."""
 
+from server.printing.board_sheet import board_sheet
 from server.printing.marker_sheet import marker_sheet
+from server.printing.paper import PAPER_MM
 from server.printing.pdf import pdf_from_sheet
-from server.printing.sheet import Fill, Label, Line, Sheet
+from server.printing.sheet import Disc, Fill, Label, Line, Sheet
 from server.printing.svg import svg_from_sheet
 
-__all__ = ["Fill", "Label", "Line", "Sheet", "marker_sheet", "pdf_from_sheet", "svg_from_sheet"]
+__all__ = [
+    "PAPER_MM",
+    "Disc",
+    "Fill",
+    "Label",
+    "Line",
+    "Sheet",
+    "board_sheet",
+    "marker_sheet",
+    "pdf_from_sheet",
+    "svg_from_sheet",
+]

@@ -2,17 +2,16 @@
 
 from collections.abc import Iterator
 
+from server.printing.paper import A4_MM
+from server.printing.rulers import MM_PER_INCH, inch_ruler, millimetre_ruler
 from server.printing.sheet import Fill, Label, Line, Point, Sheet, rectangle
 from tracker.design import Shape
 from tracker.errors import InvalidInput
 
-A4_MM = (210.0, 297.0)
 EDGE_MM = 20.0
 # White paper around the square, in sides; the cut is made outside of it.
 QUIET_RATIO = 0.25
 CROP_MARK_MM, CROP_GAP_MM = 6.0, 1.0
-MM_PER_INCH = 25.4
-RULER_MM, RULER_INCHES = 50, 2
 SMALLEST_SIDE_MM, LARGEST_SIDE_MM = 5.0, 100.0
 
 
@@ -49,14 +48,8 @@ def marker_sheet(shape: Shape, *, side_mm: float, name: str) -> Sheet:
                 for patch in shape.patches
             ),
             *_crop_marks((left - quiet, top - quiet), side_mm + 2.0 * quiet),
-            *_ruler((EDGE_MM + 10.0, foot), unit_mm=1.0, units=RULER_MM, long_each=10, word="mm"),
-            *_ruler(
-                (EDGE_MM + 10.0, foot + 20.0),
-                unit_mm=MM_PER_INCH / 8.0,
-                units=RULER_INCHES * 8,
-                long_each=8,
-                word="in",
-            ),
+            *millimetre_ruler((EDGE_MM + 10.0, foot)),
+            *inch_ruler((EDGE_MM + 10.0, foot + 20.0)),
         ),
     )
 
@@ -80,18 +73,3 @@ def _crop_marks(corner_mm: Point, side_mm: float) -> Iterator[Line]:
         for y, outward_y in ((top, -1.0), (top + side_mm, 1.0)):
             yield Line(start_mm=(x + outward_x * gap, y), end_mm=(x + outward_x * end, y))
             yield Line(start_mm=(x, y + outward_y * gap), end_mm=(x, y + outward_y * end))
-
-
-def _ruler(at_mm: Point, *, unit_mm: float, units: int, long_each: int, word: str) -> Iterator[Line | Label]:
-    """A line with a tick for each unit, longer and numbered ones at every `long_each`."""
-    left, base = at_mm
-    yield Line(start_mm=(left, base), end_mm=(left + units * unit_mm, base), width_mm=0.15)
-    for tick in range(units + 1):
-        x = left + tick * unit_mm
-        numbered = tick % long_each == 0
-        height = 5.0 if numbered else 3.5 if tick % (long_each // 2) == 0 else 2.0
-        yield Line(start_mm=(x, base), end_mm=(x, base - height), width_mm=0.15)
-        if numbered:
-            number = tick if long_each == 10 else tick // long_each
-            yield Label(words=f"{number}", at_mm=(x - 1.0, base - 6.0), size_mm=3.0)
-    yield Label(words=word, at_mm=(left + units * unit_mm + 3.0, base), size_mm=3.5)

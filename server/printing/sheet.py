@@ -15,6 +15,14 @@ class Fill:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Disc:
+    """A circle filled with black ink."""
+
+    centre_mm: Point
+    radius_mm: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
     """A thin line."""
 
@@ -32,6 +40,9 @@ class Label:
     size_mm: float = 3.5
 
 
+Mark: TypeAlias = Fill | Disc | Line | Label
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sheet:
     """One page.
@@ -44,7 +55,7 @@ class Sheet:
 
     title: str
     size_mm: Point
-    marks: tuple[Fill | Line | Label, ...]
+    marks: tuple[Mark, ...]
 
 
 def rectangle(left_mm: float, top_mm: float, width_mm: float, height_mm: float) -> tuple[Point, ...]:

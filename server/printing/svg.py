@@ -2,7 +2,7 @@
 
 from xml.sax.saxutils import escape
 
-from server.printing.sheet import Fill, Label, Line, Sheet
+from server.printing.sheet import Disc, Fill, Line, Mark, Sheet
 
 
 def svg_from_sheet(sheet: Sheet) -> str:
@@ -18,10 +18,13 @@ def svg_from_sheet(sheet: Sheet) -> str:
     )
 
 
-def _element(mark: Fill | Line | Label) -> str:
+def _element(mark: Mark) -> str:
     if isinstance(mark, Fill):
         points = " ".join(f"{x:.4f},{y:.4f}" for x, y in mark.corners_mm)
         return f'<polygon points="{points}" fill="{"white" if mark.white else "black"}"/>'
+    if isinstance(mark, Disc):
+        (x, y), radius = mark.centre_mm, mark.radius_mm
+        return f'<circle cx="{x:.4f}" cy="{y:.4f}" r="{radius:.4f}" fill="black"/>'
     if isinstance(mark, Line):
         (x1, y1), (x2, y2) = mark.start_mm, mark.end_mm
         return (

@@ -7,8 +7,8 @@
 | Tool      | tip of the burr                | +z the drilling direction                      | mm   |
 | Vertebra  | the CT's patient coordinates   | LPS                                            | mm   |
 | Reference | marker fixed to the patient    | as Marker                                      | mm   |
-| Pattern   | the calibration board's first  | x right, y down on the printed face, z into it | mm   |
-|           | point                          |                                                |      |
+| Pattern   | first point of a camera's      | x right, y down on the printed face, z into it | mm   |
+|           | calibration board              |                                                |      |
 
 Pixels (u, v) count from the centre of the top-left pixel, which is (0, 0). The classes below are never
 instantiated: they are the type arguments of `Rigid[To, From]`, so that a swapped product fails in the type

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from server.printing import Fill, Label, Sheet, marker_sheet, pdf_from_sheet, svg_from_sheet
+from server.printing import Fill, Label, Line, Sheet, marker_sheet, pdf_from_sheet, svg_from_sheet
 from tracker.design import Patch, Shape
 from tracker.errors import InvalidInput
 
@@ -111,7 +111,7 @@ def test_nothing_is_printed_in_the_white_margin() -> None:
     for mark in sheet.marks:
         if isinstance(mark, Label):
             points.append(mark.at_mm)
-        elif not isinstance(mark, Fill):
+        elif isinstance(mark, Line):
             points += [mark.start_mm, mark.end_mm]
     inside = [point for point in points if (low < point).all() and (point < high).all()]
     assert inside == []

@@ -1,0 +1,130 @@
+"""Meshes in and out: STL, OBJ and PLY files as surfaces of the plan.
+
+trimesh reads and writes them, from bytes alone: it is given no folder and no address, so that a file's
+references to materials, textures or other files lead nowhere.
+"""
+
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from server.imaging.mesh_headers import checked_content
+from tracker.errors import InvalidInput, NavigationError
+from tracker.plan import Surface
+from tracker.plan.mesh import MeshSurface, surface_from_mesh
+from tracker.plan.mesh.intake import Space
+
+FORMATS = ("stl", "obj", "ply")
+MOST_BYTES = 256 * 2**20
+MOST_FACES = 4_000_000
+AS_TRIANGLES = "Export the bone's surface again as triangles in STL, OBJ or PLY."
+# 3D Slicer writes this into the first lines of what it exports.
+SPACE = re.compile(rb"SPACE\s*=\s*(LPS|RAS)", re.IGNORECASE)
+WHERE_SPACE_IS = 4096
+
+
+def read_mesh(path: Path, *, unit: str | None = None, space: Space | None = None) -> MeshSurface:
+    """The surface in a file, whose end tells the format.
+
+    Raises:
+        InvalidInput: MESH_UNREADABLE, and as `mesh_from_bytes`.
+        PlanError: as `mesh_from_bytes`.
+    """
+    try:
+        _refuse_large(path.stat().st_size)
+        content = path.read_bytes()
+    except OSError as error:
+        message = f"the mesh cannot be read: {(error.strerror or str(error)).lower()}"
+        raise InvalidInput("MESH_UNREADABLE", message, AS_TRIANGLES) from error
+    return mesh_from_bytes(content, file_format=path.suffix[1:], unit=unit, space=space)
+
+
+def mesh_from_bytes(
+    content: bytes, *, file_format: str, unit: str | None = None, space: Space | None = None
+) -> MeshSurface:
+    """The surface in a file's bytes.
+
+    Args:
+        content: of an STL (text or binary), OBJ or PLY file.
+        file_format: "stl", "obj" or "ply".
+        unit: "mm", "cm", "m", "inch" or "um"; None where the mesh has to show by its size that it is in mm.
+        space: LPS or RAS; None takes what the file says of itself, and LPS if it says nothing.
+
+    Raises:
+        InvalidInput: MESH_FORMAT_UNKNOWN, MESH_TOO_LARGE, MESH_UNREADABLE.
+        PlanError: as `tracker.plan.mesh.surface_from_mesh`.
+    """
+    _refuse_large(len(content))
+    file_format = file_format.lower()
+    if file_format not in FORMATS:
+        raise InvalidInput(
+            "MESH_FORMAT_UNKNOWN",
+            f"'{file_format}' is no format of a mesh that is read, those are {', '.join(FORMATS)}",
+            AS_TRIANGLES,
+            {"allowed": list(FORMATS)},
+        )
+    said = SPACE.search(content[:WHERE_SPACE_IS])
+    stated = None if said is None else Space(said[1].decode().upper())
+    mesh = _parsed(checked_content(content, file_format), file_format)
+    faces = np.asarray(mesh.faces)
+    if faces.shape[0] > MOST_FACES:
+        raise InvalidInput(
+            "MESH_TOO_LARGE",
+            f"the mesh has {faces.shape[0]} triangles, allowed {MOST_FACES}",
+            "Export it with fewer triangles; 60000 show a vertebra well.",
+            {"faces": int(faces.shape[0])},
+        )
+    return surface_from_mesh(mesh.vertices, faces, unit=unit, space=space or stated or Space.LPS)
+
+
+def ply_from_surface(surface: Surface) -> bytes:
+    """The surface as a binary PLY file, in mm of LPS, to the last digit."""
+    header = (
+        "ply\nformat binary_little_endian 1.0\ncomment Coaxial SPACE=LPS UNIT=mm\n"
+        f"element vertex {surface.vertices_mm.shape[0]}\n"
+        "property double x\nproperty double y\nproperty double z\n"
+        f"element face {surface.faces.shape[0]}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    rows = np.empty(surface.faces.shape[0], dtype=[("count", "u1"), ("corners", "<i4", (3,))])
+    rows["count"], rows["corners"] = 3, surface.faces
+    return header.encode() + surface.vertices_mm.astype("<f8").tobytes() + rows.tobytes()
+
+
+def stl_from_surface(surface: Surface) -> bytes:
+    """The surface as a binary STL file, in mm of LPS, to seven digits, as STL has no more."""
+    mesh = trimesh.Trimesh(surface.vertices_mm, surface.faces, process=False)
+    content = bytes(trimesh.exchange.stl.export_stl(mesh))
+    return b"Coaxial SPACE=LPS UNIT=mm".ljust(80, b"\0") + content[80:]
+
+
+def _refuse_large(size: int) -> None:
+    if size > MOST_BYTES:
+        raise InvalidInput(
+            "MESH_TOO_LARGE",
+            f"the mesh has {size / 2**20:.0f} MB, allowed {MOST_BYTES / 2**20:.0f}",
+            "Export it with fewer triangles, or as binary STL or PLY.",
+            {"bytes": size},
+        )
+
+
+def _parsed(content: bytes, file_format: str) -> trimesh.Trimesh:
+    """What trimesh makes of the bytes, with each of its many errors told in one way."""
+    try:
+        mesh = trimesh.load_mesh(
+            io.BytesIO(content), file_type=file_format, process=False, resolver=None, skip_materials=True
+        )
+        if not isinstance(mesh, trimesh.Trimesh) or np.ndim(mesh.faces) != 2:
+            mesh = trimesh.Trimesh()
+    except NavigationError:
+        raise
+    except Exception as error:
+        raise InvalidInput(
+            "MESH_UNREADABLE",
+            f"the mesh is no {file_format.upper()} file that can be read: {type(error).__name__}",
+            AS_TRIANGLES,
+            {"reason": str(error)[:200]},
+        ) from error
+    return mesh

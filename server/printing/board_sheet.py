@@ -1,0 +1,107 @@
+"""The page on which a calibration board is printed: true size, with rulers both ways."""
+
+from collections.abc import Iterator
+
+from server.printing.board_marks import box_of, marks_of_board, moved
+from server.printing.paper import PAPER_MM
+from server.printing.rulers import millimetre_ruler, standing_ruler
+from server.printing.sheet import Fill, Label, Point, Sheet, rectangle
+from tracker.camera.boards import Board, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from tracker.errors import InvalidInput
+
+# Around the board: words above, rulers on the left and below, and what no printer reaches.
+LEFT_MM, RIGHT_MM, TOP_MM, FOOT_MM = 16.0, 8.0, 12.0, 14.0
+RULER_MM = 100
+# White around the board. No more of it, so that the usual board of 9 x 6 corners with 25 mm squares fits A4.
+QUIET_MM = 4.0
+
+
+def board_sheet(board: Board, *, paper: str = "A4", dot_mm: float | None = None) -> Sheet:
+    """One page with a board in the middle, upright or across, whichever it fits.
+
+    Args:
+        board: which one.
+        paper: "A4", "A3" or "letter".
+        dot_mm: diameter of dots, see `marks_of_board`.
+
+    Raises:
+        InvalidInput: PAPER_UNKNOWN, BOARD_TOO_LARGE, BOARD_DOTS_UNPRINTABLE.
+    """
+    if paper not in PAPER_MM:
+        raise InvalidInput(
+            "PAPER_UNKNOWN",
+            f"there is no paper '{paper}' here",
+            f"Give --paper one of {', '.join(PAPER_MM)}.",
+            {"paper": paper, "allowed": list(PAPER_MM)},
+        )
+    ink = marks_of_board(board, dot_mm=dot_mm)
+    (low_x, low_y), (high_x, high_y) = box_of(ink)
+    needed = (high_x - low_x + 2.0 * QUIET_MM, high_y - low_y + 2.0 * QUIET_MM)
+    page = _page(needed, paper)
+    free = _free(page)
+    by = (
+        LEFT_MM + (free[0] - needed[0]) / 2.0 + QUIET_MM - low_x,
+        TOP_MM + (free[1] - needed[1]) / 2.0 + QUIET_MM - low_y,
+    )
+    return Sheet(
+        title=f"Calibration board, {description_of(board)}",
+        size_mm=page,
+        marks=(
+            # A viewer with a dark ground must not show the margin dark.
+            Fill(corners_mm=rectangle(0.0, 0.0, *page), white=True),
+            *_words(board),
+            *(moved(mark, by) for mark in ink),
+            *millimetre_ruler((LEFT_MM, page[1] - 5.0), length_mm=RULER_MM),
+            *standing_ruler((8.0, (page[1] - RULER_MM) / 2.0), length_mm=RULER_MM),
+        ),
+    )
+
+
+def description_of(board: Board) -> str:
+    """The board in a line, as it is told to `coaxial calibrate`."""
+    size = f"{board.columns}x{board.rows}"
+    if isinstance(board, DotBoard):
+        asymmetric = " asymmetric" if board.layout is DotLayout.ASYMMETRIC else ""
+        larger = f", larger dots {','.join(map(str, board.fiducials))}" if board.fiducials else ""
+        return f"dots {size}{asymmetric}, pitch {board.pitch_mm:g} mm{larger}"
+    if isinstance(board, CheckerBoard):
+        return f"checkerboard {size} inner corners, square {board.square_mm:g} mm"
+    layout = board.layout or CharucoLayout.NEWER
+    return (
+        f"charuco {size} squares, square {board.square_mm:g} mm, marker {board.marker_mm:g} mm, "
+        f"{board.dictionary}, {layout.value} layout"
+    )
+
+
+def _page(needed_mm: Point, paper: str) -> Point:
+    """The paper upright or across; upright if both will do."""
+    width, height = PAPER_MM[paper]
+    for page in ((width, height), (height, width)):
+        free = _free(page)
+        if needed_mm[0] <= free[0] and needed_mm[1] <= free[1]:
+            return page
+    free = _free((width, height))
+    raise InvalidInput(
+        "BOARD_TOO_LARGE",
+        f"the board needs {needed_mm[0]:.1f} x {needed_mm[1]:.1f} mm with its white margin, "
+        f"{paper} has {free[0]:.1f} x {free[1]:.1f} mm upright",
+        "Take fewer or smaller dots or squares, or a larger paper with --paper A3.",
+        {"needed_mm": list(needed_mm), "free_mm": list(free), "paper": paper},
+    )
+
+
+def _free(page_mm: Point) -> Point:
+    return page_mm[0] - LEFT_MM - RIGHT_MM, page_mm[1] - TOP_MM - FOOT_MM
+
+
+def _words(board: Board) -> Iterator[Label]:
+    lines = (
+        (6.5, 3.5, f"Coaxial: {description_of(board)}"),
+        (
+            10.5,
+            2.6,
+            "Print at 100 %, glue it flat. Where 100 mm of both rulers are not 100 mm, measure the board.",
+        ),
+    )
+    for base_mm, size_mm, words in lines:
+        yield Label(words=words, at_mm=(LEFT_MM, base_mm), size_mm=size_mm)

@@ -1,0 +1,22 @@
+"""A camera calibrated from views of a board, with a report of how far it can be trusted."""
+
+from tracker.camera.calibration.calibrate import CalibrationSettings, calibrate
+from tracker.camera.calibration.report import (
+    CalibrationReport,
+    CalibrationWarning,
+    Coverage,
+    ModelChoice,
+    ParameterEstimate,
+    ViewReport,
+)
+
+__all__ = [
+    "CalibrationReport",
+    "CalibrationSettings",
+    "CalibrationWarning",
+    "Coverage",
+    "ModelChoice",
+    "ParameterEstimate",
+    "ViewReport",
+    "calibrate",
+]

@@ -1,0 +1,76 @@
+"""What each view says about what all views share, with the view's own pose taken out (Schur complement)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from tracker.camera.calibration.fit import Fit
+from tracker.camera.detection.view import BoardView
+from tracker.geometry import Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Block:
+    """One view in the normal equations of the shared numbers.
+
+    Attributes:
+        information: (p, p), in units of 1 / px2 before scaling by the noise.
+        gradient: (p,), what this view pulls.
+        squares_px2: the sum of its squared residuals.
+        coordinates: how many numbers it measured (two a point).
+        own: how many numbers it has for itself alone.
+    """
+
+    information: Array
+    gradient: Array
+    squares_px2: float
+    coordinates: int
+    own: int
+
+
+def reduced(shared: Array, own: Array, residuals: Array) -> Block:
+    """A view's block from derivatives of its coordinates (m, p) and (m, q), and residuals (m,)."""
+    # By orthogonal projection: normal equations would lose half the digits.
+    basis, _ = np.linalg.qr(own)
+    left = shared - basis @ (basis.T @ shared)
+    return Block(
+        information=left.T @ left,
+        gradient=left.T @ residuals,
+        squares_px2=float(residuals @ residuals),
+        coordinates=len(residuals),
+        own=own.shape[1],
+    )
+
+
+def blocks_of(fit: Fit, views: Sequence[BoardView]) -> list[Block]:
+    """The block of each view of one camera; shared are fx, fy, cx, cy and the lens."""
+    blocks = []
+    for view, r, t, residuals in zip(
+        views, fit.rotations_rad, fit.translations_mm, fit.residuals_px, strict=True
+    ):
+        by_pose, by_camera = derivatives(view.object_points_mm, r, t, fit.matrix, fit.distortion)
+        blocks.append(reduced(by_camera, by_pose, residuals.ravel()))
+    return blocks
+
+
+def derivatives(
+    points_mm: Array, rotation_rad: Array, translation_mm: Array, matrix: Array, lens: Array
+) -> tuple[Array, Array]:
+    """Of projected coordinates (2n,) by the pose (2n, 6) and by fx, fy, cx, cy and the lens (2n, 4 + k)."""
+    _, derivative = cv2.projectPoints(points_mm.reshape(-1, 1, 3), rotation_rad, translation_mm, matrix, lens)
+    by: Array = np.asarray(derivative, dtype=np.float64)
+    return by[:, :6], by[:, 6 : 10 + lens.size]
+
+
+def total_information(blocks: Sequence[Block]) -> Array:
+    """The sum (p, p) over all views."""
+    return np.asarray(sum(block.information for block in blocks))
+
+
+def inverse(information: Array) -> Array:
+    """The inverse of an information matrix whose units differ by powers of ten."""
+    scale = 1.0 / np.sqrt(np.maximum(np.diag(information), 1e-300))
+    scaled = information * scale[:, None] * scale[None, :]
+    return np.asarray(np.linalg.pinv(scaled, rcond=1e-14, hermitian=True) * scale[:, None] * scale[None, :])

@@ -1,0 +1,212 @@
+"""From views of a board to a camera with its report."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.camera.calibration.blocks import blocks_of
+from tracker.camera.calibration.choice import choose_model
+from tracker.camera.calibration.coverage import coverage_of, warnings_of
+from tracker.camera.calibration.fit import MODELS, NAMES, Fit, board_pose, projected
+from tracker.camera.calibration.order import fault_of, refuse_one_pose
+from tracker.camera.calibration.report import (
+    CalibrationReport,
+    ModelChoice,
+    ParameterEstimate,
+    ViewReport,
+    rms,
+)
+from tracker.camera.calibration.robust import Kept, without_odd_points, without_odd_views
+from tracker.camera.calibration.sureness import Uncertainty, noise_is_alike, uncertainty
+from tracker.camera.detection.view import BoardView
+from tracker.camera.model import CameraModel
+from tracker.errors import CalibrationError, InvalidInput
+from tracker.geometry import Array, Camera, Pattern, Rigid
+
+LEAST_VIEWS = 3
+FIRST_MODEL = 5
+MOST_OUT_RATIO = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CalibrationSettings:
+    """How a camera is calibrated.
+
+    Attributes:
+        coefficients: 4, 5 or 8 of the lens; None takes what describes views held out best.
+    """
+
+    coefficients: int | None = None
+
+
+def calibrate(
+    views: Sequence[BoardView],
+    *,
+    size_wh_px: tuple[int, int],
+    names: Sequence[str] | None = None,
+    settings: CalibrationSettings | None = None,
+) -> CalibrationReport:
+    """The camera that took these views of a board, and how far it can be trusted.
+
+    Views are left out where their points are in a wrong order or do not fit to the others, never for a
+    better figure: a view stays up to three times the usual error.
+
+    Args:
+        views: of one board or of several; each has its own pose.
+        size_wh_px: of all images.
+        names: of the views, for the report; numbers from 1 if left out.
+        settings: None takes the usual ones.
+
+    Raises:
+        CalibrationError: TOO_FEW_VIEWS, VIEWS_FROM_ONE_PLACE, VIEWS_ALL_PARALLEL, VIEWS_DISAGREE or
+            CALIBRATION_DIVERGED.
+        InvalidInput: COEFFICIENTS_INVALID.
+    """
+    settings = settings or CalibrationSettings()
+    if settings.coefficients not in (None, *MODELS):
+        raise InvalidInput(
+            "COEFFICIENTS_INVALID",
+            f"a lens with {settings.coefficients} coefficients, allowed {', '.join(map(str, MODELS))}",
+            "Leave it out, and the number that describes views held out best is taken.",
+        )
+    names = tuple(names) if names is not None else tuple(str(n + 1) for n in range(len(views)))
+    faults = [fault_of(view, size_wh_px) for view in views]
+    sound = [index for index, fault in enumerate(faults) if not fault]
+    _refuse_few(len(sound), views, faults)
+    usable = [views[index] for index in sound]
+    refuse_one_pose(usable, size_wh_px)
+    first = without_odd_views(usable, size_wh_px, FIRST_MODEL)
+    reach_px = float(np.linalg.norm(size_wh_px)) / 2.0
+    choice = _choice(settings, first, size_wh_px, reach_px)
+    kept = without_odd_points(usable, first, size_wh_px, choice.coefficients)
+    out = {index: fault for index, fault in enumerate(faults) if fault}
+    out |= {sound[index]: reason for index, reason in kept.out.items()}
+    _refuse_disagreement(kept, len(usable))
+    blocks = blocks_of(kept.fit, kept.views)
+    alike = noise_is_alike(kept.views, kept.fit.residuals_px, blocks)
+    sure = uncertainty(blocks, is_noise_alike=alike)
+    parameters = _parameters(kept.fit, sure)
+    camera = CameraModel(matrix=kept.fit.matrix, distortion=kept.fit.distortion, size_wh_px=size_wh_px)
+    reports = _view_reports(views, names, kept, sound, out)
+    coverage = coverage_of(np.concatenate([view.image_points_px for view in kept.views]), size_wh_px)
+    covariance = sure.covariance.copy()
+    covariance.setflags(write=False)
+    return CalibrationReport(
+        camera=camera,
+        rms_px=rms(np.concatenate(kept.fit.residuals_px)),
+        noise_px=sure.noise_px,
+        is_noise_alike=alike,
+        parameters=parameters,
+        covariance=covariance,
+        views=reports,
+        coverage=coverage,
+        choice=choice,
+        warnings=warnings_of(reports, parameters, coverage, choice, size_wh_px),
+    )
+
+
+def _choice(
+    settings: CalibrationSettings, kept: Kept, size_wh_px: tuple[int, int], reach_px: float
+) -> ModelChoice:
+    if settings.coefficients is not None:
+        return ModelChoice(
+            coefficients=settings.coefficients,
+            held_out_rms_px=(),
+            reason=f"{settings.coefficients} were asked for",
+        )
+    return choose_model(kept.views, size_wh_px, reach_px)
+
+
+def _parameters(fit: Fit, sure: Uncertainty) -> tuple[ParameterEstimate, ...]:
+    sds = np.sqrt(np.diag(sure.covariance))
+    return tuple(
+        ParameterEstimate(
+            name=name,
+            value=float(value),
+            sd=float(sd),
+            low_95=float(value - reach),
+            high_95=float(value + reach),
+            degrees_of_freedom=sure.degrees_of_freedom,
+        )
+        for name, value, sd, reach in zip(
+            NAMES[: fit.shared.size], fit.shared, sds, sure.reach_95, strict=True
+        )
+    )
+
+
+def _view_reports(
+    views: Sequence[BoardView], names: Sequence[str], kept: Kept, sound: Sequence[int], out: dict[int, str]
+) -> tuple[ViewReport, ...]:
+    at_of = {sound[index]: at for at, index in enumerate(kept.indexes)}
+    sound_at = {index: at for at, index in enumerate(sound)}
+    reports = []
+    for index, (view, name) in enumerate(zip(views, names, strict=True)):
+        at = at_of.get(index)
+        if at is not None:
+            pose = kept.fit.rotations_rad[at], kept.fit.translations_mm[at]
+            shown, residuals = kept.views[at], kept.fit.residuals_px[at]
+            dropped = int((~kept.points[sound_at[index]]).sum())
+        else:
+            found = board_pose(view, kept.fit.matrix, kept.fit.distortion) if index in sound_at else None
+            pose = found or (np.zeros(3), np.zeros(3))
+            shown, dropped = view, 0
+            residuals = np.full((view.ids.size, 2), np.nan)
+            if found is not None:
+                fit = kept.fit
+                residuals = view.image_points_px - projected(
+                    view.object_points_mm, *pose, fit.matrix, fit.distortion
+                )
+        reports.append(_view_report(view, shown, name, out.get(index, ""), pose, residuals, dropped))
+    return tuple(reports)
+
+
+def _view_report(
+    view: BoardView,
+    shown: BoardView,
+    name: str,
+    reason: str,
+    pose: tuple[Array, Array],
+    residuals: Array,
+    dropped: int,
+) -> ViewReport:
+    placed: Rigid[Camera, Pattern] = Rigid.from_vector(*pose)
+    middle = placed.rotation @ view.object_points_mm.mean(axis=0) + placed.translation_mm
+    return ViewReport(
+        name=name,
+        used=not reason,
+        reason=reason,
+        rms_px=rms(residuals),
+        points=view.ids.size,
+        dropped_points=dropped,
+        tilt_deg=float(np.degrees(np.arccos(np.clip(abs(placed.rotation[2, 2]), 0.0, 1.0)))),
+        distance_mm=float(np.linalg.norm(middle)),
+        camera_from_pattern=placed,
+        image_points_px=shown.image_points_px,
+        residuals_px=residuals,
+    )
+
+
+def _refuse_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -> None:
+    if sound >= LEAST_VIEWS:
+        return
+    why = next((fault for fault in faults if fault), "")
+    raise CalibrationError(
+        "TOO_FEW_VIEWS",
+        f"{sound} of {len(views)} views of the board can be used, at least {LEAST_VIEWS} are needed"
+        + (f" (the first that cannot: {why})" if why else ""),
+        "Take 10 to 20 images with the whole board in view, tilted by 20 to 45 deg to different sides.",
+        {"views": len(views), "usable": sound, "needed": LEAST_VIEWS},
+    )
+
+
+def _refuse_disagreement(kept: Kept, usable: int) -> None:
+    left = len(kept.indexes)
+    if left >= LEAST_VIEWS and usable - left <= MOST_OUT_RATIO * usable:
+        return
+    raise CalibrationError(
+        "VIEWS_DISAGREE",
+        f"{usable - left} of {usable} views do not fit to the camera of the rest, allowed is half of them",
+        "Check columns, rows and layout of the board; zoom and focus must stay the same in all images.",
+        {"usable": usable, "used": left},
+    )

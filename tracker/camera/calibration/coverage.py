@@ -1,0 +1,131 @@
+"""Where in the image the board was seen, and what the views cannot tell because of where it was not."""
+
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+
+from tracker.camera.calibration.report import (
+    CalibrationWarning,
+    Coverage,
+    ModelChoice,
+    ParameterEstimate,
+    ViewReport,
+)
+from tracker.geometry import Array
+
+GRID = (8, 6)
+FEW_VIEWS = 8
+LITTLE_TILT_DEG = 15.0
+ONE_DISTANCE_RATIO = 1.15
+LEAST_CORNER_REACH_RATIO = 0.7
+UNSURE_FOCAL_RATIO, UNSURE_MIDDLE_RATIO = 0.01, 0.01
+MANY_OUT_RATIO = 0.25
+MORE_VIEWS = "Take 10 to 20 views; a few views determine the lens poorly."
+
+
+def coverage_of(points_px: Array, size_wh_px: tuple[int, int]) -> Coverage:
+    """What part of the image the points (n, 2) of all views cover."""
+    size = np.array(size_wh_px, dtype=np.float64)
+    cells = np.clip((points_px / size * GRID).astype(int), 0, np.array(GRID) - 1)
+    hull = cv2.convexHull(points_px.astype(np.float32))
+    middle = (size - 1.0) / 2.0
+    reach = []
+    for corner in np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * middle:
+        along = (points_px - middle) @ corner / float(corner @ corner)
+        aside = np.abs((points_px - middle) @ np.array([-corner[1], corner[0]])) / float(corner @ corner)
+        # Towards a corner counts what lies within 30 degrees of the way to it.
+        near = along[aside <= np.tan(np.pi / 6) * along]
+        reach.append(float(np.clip(near.max(initial=0.0), 0.0, 1.0)))
+    return Coverage(
+        cells_ratio=len(np.unique(cells, axis=0)) / (GRID[0] * GRID[1]),
+        hull_ratio=float(cv2.contourArea(hull) / (size[0] * size[1])),
+        corner_reach_ratios=(reach[0], reach[1], reach[2], reach[3]),
+    )
+
+
+def warnings_of(
+    views: Sequence[ViewReport],
+    parameters: Sequence[ParameterEstimate],
+    coverage: Coverage,
+    choice: ModelChoice,
+    size_wh_px: tuple[int, int],
+) -> tuple[CalibrationWarning, ...]:
+    """What these views determine poorly."""
+    used = [view for view in views if view.used]
+    told: list[CalibrationWarning] = []
+
+    def warn(code: str, message: str, remedy: str) -> None:
+        told.append(CalibrationWarning(code=code, message=message, remedy=remedy))
+
+    if len(used) < FEW_VIEWS:
+        warn("FEW_VIEWS", f"{len(used)} views are used, advised are {FEW_VIEWS} and more", MORE_VIEWS)
+    out = len(views) - len(used)
+    if out > MANY_OUT_RATIO * len(views):
+        warn(
+            "MANY_VIEWS_OUT",
+            f"{out} of {len(views)} views are not used",
+            "Read the reasons: columns and rows of the board, blur, a bent board.",
+        )
+    widest = widest_tilt_deg(used)
+    if widest < LITTLE_TILT_DEG:
+        warn(
+            "LITTLE_TILT",
+            f"the board's directions differ by {widest:.1f} deg at most, advised are {LITTLE_TILT_DEG:g} deg",
+            "Add views with the board tilted by 20 to 45 deg: else focal length is mixed with distance.",
+        )
+    distances = [view.distance_mm for view in used]
+    if max(distances) < ONE_DISTANCE_RATIO * min(distances):
+        warn(
+            "ONE_DISTANCE",
+            f"the board is always {min(distances):.0f} to {max(distances):.0f} mm away",
+            "Add views from nearer and farther, over the distances at which you will work.",
+        )
+    low = [
+        name
+        for name, reach in zip(
+            ("top left", "top right", "bottom right", "bottom left"),
+            coverage.corner_reach_ratios,
+            strict=True,
+        )
+        if reach < LEAST_CORNER_REACH_RATIO
+    ]
+    if low:
+        least = 100 * min(coverage.corner_reach_ratios)
+        warn(
+            "CORNERS_UNCOVERED",
+            f"towards the image's {', '.join(low)} corner points reach {least:.0f} % of the way, advised are "
+            f"{100 * LEAST_CORNER_REACH_RATIO:.0f} %",
+            "Add views with the board there: beyond its points the lens is a guess.",
+        )
+    told.extend(_unsure(parameters, size_wh_px))
+    if not choice.held_out_rms_px:
+        warn("MODEL_NOT_TRIED", f"lens model: {choice.reason}", MORE_VIEWS)
+    return tuple(told)
+
+
+def _unsure(parameters: Sequence[ParameterEstimate], size_wh_px: tuple[int, int]) -> list[CalibrationWarning]:
+    told = []
+    for one in parameters:
+        limit = {
+            "f": UNSURE_FOCAL_RATIO * one.value,
+            "c": UNSURE_MIDDLE_RATIO * max(size_wh_px),
+        }.get(one.name[0])
+        if limit is not None and one.sd > limit:
+            told.append(
+                CalibrationWarning(
+                    code="FOCAL_LENGTH_UNSURE" if one.name[0] == "f" else "PRINCIPAL_POINT_UNSURE",
+                    message=f"{one.name} is {one.value:.1f} px with a standard deviation of {one.sd:.1f} px, "
+                    f"advised is {limit:.1f} px",
+                    remedy="Add views with the board tilted in other directions and filling the image.",
+                )
+            )
+    return told
+
+
+def widest_tilt_deg(views: Sequence[ViewReport]) -> float:
+    """The largest angle between the board's directions in two views."""
+    if len(views) < 2:
+        return 0.0
+    normals = np.array([view.camera_from_pattern.rotation[:, 2] for view in views])
+    return float(np.degrees(np.arccos(np.clip(normals @ normals.T, -1.0, 1.0).min())))

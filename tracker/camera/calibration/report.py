@@ -1,0 +1,149 @@
+"""What a calibration gives, and what is told about it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.camera.model import CameraModel
+from tracker.geometry import Array, Camera, Pattern, Rigid
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ParameterEstimate:
+    """One number of the camera and how sure it is.
+
+    Attributes:
+        name: fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6.
+        value: focal lengths and principal point in px, the lens without unit.
+        sd: standard deviation, of the same unit.
+        low_95, high_95: between these it lies with 95 % (Student's t with `degrees_of_freedom`).
+        degrees_of_freedom: that the standard deviation stands on.
+    """
+
+    name: str
+    value: float
+    sd: float
+    low_95: float
+    high_95: float
+    degrees_of_freedom: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ViewReport:
+    """What became of one view.
+
+    Attributes:
+        name: as the caller named it.
+        used: whether the camera stands on it.
+        reason: why it is not used, with numbers, or an empty string.
+        rms_px: root mean square distance between seen and expected points; of a view that is not used, as
+            its best pose leaves it, and NaN where it has none.
+        points: that were seen.
+        dropped_points: of them, that lie off by more than noise and have no say.
+        tilt_deg: between the board's face and the image plane.
+        distance_mm: from the camera to the middle of what is seen of the board.
+        camera_from_pattern: the board's pose; identity where there is none.
+        image_points_px: (n, 2) seen, with the bias of tilted dots taken out.
+        residuals_px: (n, 2) seen minus expected, of the points that have a say.
+    """
+
+    name: str
+    used: bool
+    reason: str
+    rms_px: float
+    points: int
+    dropped_points: int
+    tilt_deg: float
+    distance_mm: float
+    camera_from_pattern: Rigid[Camera, Pattern]
+    image_points_px: Array
+    residuals_px: Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Coverage:
+    """Where in the image points were seen.
+
+    Attributes:
+        cells_ratio: of the image's cells (8 x 6), those with a point.
+        hull_ratio: of the image's area, what lies between the points.
+        corner_reach_ratios: towards the top left, top right, bottom right and bottom left corner, how much of
+            the way from the middle points reach.
+    """
+
+    cells_ratio: float
+    hull_ratio: float
+    corner_reach_ratios: tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelChoice:
+    """Which lens model was taken, and what it did on views that it was not fitted to.
+
+    Attributes:
+        coefficients: 4, 5 or 8.
+        held_out_rms_px: by number of coefficients; empty where there were too few views to hold any out.
+        reason: a sentence, without full stop.
+    """
+
+    coefficients: int
+    held_out_rms_px: tuple[tuple[int, float], ...]
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CalibrationWarning:
+    """What these views cannot determine well, with numbers, and what would mend it."""
+
+    code: str
+    message: str
+    remedy: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CalibrationReport:
+    """A calibrated camera and what it stands on.
+
+    Attributes:
+        camera: the result.
+        rms_px: root mean square distance between seen and expected points, over all views used.
+        noise_px: standard deviation of one coordinate of one point.
+        is_noise_alike: errors of neighbouring points, or of whole views, are alike (a bent board, blur); the
+            standard deviations then come from how the views differ from each other, not from the points.
+        parameters: each estimated number.
+        covariance: (n, n) of `parameters`, in their order.
+        views: all of them, in the order given.
+        coverage: of the image.
+        choice: of the lens model.
+        warnings: what is not determined well.
+    """
+
+    camera: CameraModel
+    rms_px: float
+    noise_px: float
+    is_noise_alike: bool
+    parameters: tuple[ParameterEstimate, ...]
+    covariance: Array
+    views: tuple[ViewReport, ...]
+    coverage: Coverage
+    choice: ModelChoice
+    warnings: tuple[CalibrationWarning, ...]
+
+    def parameter(self, name: str) -> ParameterEstimate:
+        """The estimate of this name."""
+        return next(one for one in self.parameters if one.name == name)
+
+    @property
+    def views_used(self) -> int:
+        """How many views the camera stands on."""
+        return sum(view.used for view in self.views)
+
+    @property
+    def pixel_aspect_ratio(self) -> float:
+        """How high the focal length is to how wide, fy / fx: above 1 where pixels are wider than high."""
+        return float(self.camera.matrix[1, 1] / self.camera.matrix[0, 0])
+
+
+def rms(residuals_px: Array) -> float:
+    """Root mean square length of residuals (n, 2); NaN of none."""
+    return float(np.sqrt((residuals_px**2).sum(axis=1).mean())) if len(residuals_px) else float("nan")

@@ -1,0 +1,139 @@
+"""Views and points that do not fit to the others, taken out with a reason, never for a better figure."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.camera.calibration.dot_shift import dot_shifts_px
+from tracker.camera.calibration.fit import Fit, fit_camera, projected
+from tracker.camera.detection.view import BoardView
+from tracker.geometry import Array
+
+# A view is out when its RMS is so many times the usual one; honest views differ by less than twice.
+MOST_VIEW_RATIO = 3.0
+# Below this a view is never out, whatever the others reach: nobody measures better than that in a photo.
+GOOD_VIEW_PX = 0.15
+# A point is out beyond so many standard deviations of the noise: of 10 000 honest points none.
+MOST_POINT_SDS = 5.5
+MOST_POINTS_OUT_RATIO = 0.25
+LEAST_POINTS, LEAST_VIEWS = 6, 2
+DOT_ROUNDS = 2
+ROUNDS = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kept:
+    """What a camera is fitted to, and what is left out.
+
+    Attributes:
+        indexes: which of the given views.
+        views: these, without the points that are out and with the bias of tilted dots taken out.
+        points: for each given view (n,), which of its points have a say.
+        out: the reason, by the index of a view that is out.
+        fit: to all that is kept.
+    """
+
+    indexes: tuple[int, ...]
+    views: tuple[BoardView, ...]
+    points: tuple[npt.NDArray[np.bool_], ...]
+    out: dict[int, str]
+    fit: Fit
+
+
+def without_odd_views(views: Sequence[BoardView], size_wh_px: tuple[int, int], coefficients: int) -> Kept:
+    """The views that fit one camera; the worst is taken out and all is fitted anew, until the rest agree."""
+    kept = list(range(len(views)))
+    points = tuple(np.ones(view.ids.size, dtype=bool) for view in views)
+    out: dict[int, str] = {}
+    fit = fit_camera([views[i] for i in kept], size_wh_px, coefficients)
+    while len(kept) > LEAST_VIEWS:
+        # A few bad points must not cost a good view: its median tells what the view is like.
+        typical = np.array([_typical_px(residuals) for residuals in fit.residuals_px])
+        usual = float(np.median(typical))
+        worst = int(np.argmax(typical))
+        limit = max(MOST_VIEW_RATIO * usual, GOOD_VIEW_PX)
+        if typical[worst] <= limit:
+            break
+        out[kept[worst]] = (
+            f"its points lie off by {typical[worst]:.2f} px where other views have {usual:.2f} px, "
+            f"allowed {limit:.2f} px: their order is wrong, or the board has moved or is bent"
+        )
+        del kept[worst]
+        fit = fit_camera([views[i] for i in kept], size_wh_px, coefficients)
+    return Kept(indexes=tuple(kept), views=tuple(views[i] for i in kept), points=points, out=out, fit=fit)
+
+
+def without_odd_points(
+    views: Sequence[BoardView], kept: Kept, size_wh_px: tuple[int, int], coefficients: int
+) -> Kept:
+    """The same without points that lie off by more than noise, and with dots where their middles are."""
+    points, out = list(kept.points), dict(kept.out)
+    indexes = list(kept.indexes)
+    moved = [views[i] for i in indexes]
+    fit = fit_camera(
+        [v.part(points[i]) for i, v in zip(indexes, moved, strict=True)], size_wh_px, coefficients
+    )
+    has_dots = any(view.dot_radii_mm.size for view in moved)
+    for turn in range(ROUNDS):
+        if has_dots and turn < DOT_ROUNDS:
+            moved = [_unshifted(views[i], fit, at) for at, i in enumerate(indexes)]
+        changed = has_dots and turn < DOT_ROUNDS
+        sigma = _noise_px(fit)
+        for at, i in enumerate(list(indexes)):
+            off = np.linalg.norm(_all_residuals(fit, at, moved[at]), axis=1)
+            now = off <= MOST_POINT_SDS * sigma
+            changed |= bool((now != points[i]).any())
+            points[i] = now
+        too_few = [
+            at
+            for at, i in enumerate(indexes)
+            if points[i].sum() < max(LEAST_POINTS, (1 - MOST_POINTS_OUT_RATIO) * points[i].size)
+        ]
+        if too_few and len(indexes) - len(too_few) >= LEAST_VIEWS:
+            for at in reversed(too_few):
+                i = indexes[at]
+                out[i] = (
+                    f"{int((~points[i]).sum())} of its {points[i].size} points lie off by more than "
+                    f"{MOST_POINT_SDS * sigma:.2f} px, allowed {100 * MOST_POINTS_OUT_RATIO:.0f} % of them"
+                )
+                points[i] = np.ones(points[i].size, dtype=bool)
+                del indexes[at], moved[at]
+        if not changed:
+            break
+        fit = fit_camera(
+            [v.part(points[i]) for i, v in zip(indexes, moved, strict=True)], size_wh_px, coefficients
+        )
+    return Kept(
+        indexes=tuple(indexes),
+        views=tuple(v.part(points[i]) for i, v in zip(indexes, moved, strict=True)),
+        points=tuple(points),
+        out=out,
+        fit=fit,
+    )
+
+
+def _unshifted(view: BoardView, fit: Fit, at: int) -> BoardView:
+    return BoardView(
+        ids=view.ids,
+        object_points_mm=view.object_points_mm,
+        image_points_px=view.image_points_px - dot_shifts_px(fit, at, view),
+        dot_radii_mm=view.dot_radii_mm,
+        sureness=view.sureness,
+    )
+
+
+def _all_residuals(fit: Fit, at: int, view: BoardView) -> Array:
+    pose = fit.rotations_rad[at], fit.translations_mm[at]
+    return view.image_points_px - projected(view.object_points_mm, *pose, fit.matrix, fit.distortion)
+
+
+def _typical_px(residuals: Array) -> float:
+    """What would be the RMS distance if all points were like the middle one."""
+    return float(np.median(np.linalg.norm(residuals, axis=1)) * np.sqrt(2.0 / (2.0 * np.log(2.0))))
+
+
+def _noise_px(fit: Fit) -> float:
+    """Standard deviation of one coordinate, told by the middle of all so that wild points have no say."""
+    return float(1.4826 * np.median(np.abs(np.concatenate([r.ravel() for r in fit.residuals_px])))) + 1e-9

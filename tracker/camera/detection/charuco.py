@@ -1,0 +1,96 @@
+"""ChArUco boards: every corner is known by the markers around it, so that a part of the board is enough."""
+
+import cv2
+import numpy as np
+
+from tracker.camera.boards import CharucoBoard, CharucoLayout
+from tracker.camera.detection.blobs import GreyImage
+from tracker.camera.detection.lattice import Cells, step_lengths_px
+from tracker.camera.detection.plane import off_plane_px
+from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
+from tracker.geometry import Array
+
+LEAST_CORNERS = 6
+# A corner farther than this from where its neighbours expect it, in sides of a square, is another one.
+OFF_NEIGHBOURS_RATIO = 0.15
+
+
+def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
+    """The corners of the board in an image, or why not; the layout is found out where it is not told."""
+    layouts = list(CharucoLayout) if board.layout is None and board.rows % 2 == 0 else [board.layout]
+    ids, corners, most_markers = np.zeros(0, dtype=np.int64), np.zeros((0, 2)), 0
+    for layout in layouts:
+        found_ids, found, markers = _detected(grey, board, layout)
+        most_markers = max(most_markers, markers)
+        if len(found_ids) > len(ids):
+            ids, corners = found_ids, found
+    if len(ids) < LEAST_CORNERS:
+        return BoardNotFound(
+            reason=NotFoundReason.TOO_FEW_POINTS if most_markers else NotFoundReason.NO_POINTS,
+            sentence=f"{most_markers} markers of {board.dictionary} and {len(ids)} corners between them "
+            f"are seen, at least {LEAST_CORNERS} corners are needed",
+            seen_points=len(ids),
+        )
+    return BoardView(ids=ids, object_points_mm=board.object_points_mm[ids], image_points_px=corners)
+
+
+def charuco_layout(views: list[tuple[int, int]]) -> CharucoLayout:
+    """The layout that more corners speak for; `views` has for each image corners as newer and as older."""
+    newer, older = (sum(one[axis] for one in views) for axis in (0, 1))
+    return CharucoLayout.OLDER if older > newer else CharucoLayout.NEWER
+
+
+def corner_counts(grey: GreyImage, board: CharucoBoard) -> tuple[int, int]:
+    """How many corners hold together if the board is of the newer, and of the older layout."""
+    newer, older = (len(_detected(grey, board, layout)[0]) for layout in CharucoLayout)
+    return newer, older
+
+
+def _detected(
+    grey: GreyImage, board: CharucoBoard, layout: CharucoLayout | None
+) -> tuple[np.ndarray[tuple[int], np.dtype[np.int64]], Array, int]:
+    """Ids, corners (n, 2) and the number of markers, for one layout."""
+    detector = cv2.aruco.CharucoDetector(board.opencv_board(layout))
+    found, ids, _, marker_ids = detector.detectBoard(grey)
+    markers = _count(marker_ids)
+    if not _count(ids) and markers >= LEAST_CORNERS:
+        # One marker that was read wrongly makes OpenCV refuse all; wrong corners are taken out below.
+        unchecked = cv2.aruco.CharucoParameters()
+        unchecked.checkMarkers = False
+        detector.setCharucoParameters(unchecked)
+        found, ids, _, marker_ids = detector.detectBoard(grey)
+    if _count(ids) < LEAST_CORNERS:
+        return np.zeros(0, dtype=np.int64), np.zeros((0, 2)), markers
+    named = np.asarray(ids, dtype=np.int64).ravel()
+    px = np.asarray(found, dtype=np.float64).reshape(-1, 2)
+    row, column = np.divmod(named, board.columns - 1)
+    cells = np.column_stack([column, row])
+    kept = _with_neighbours(px, cells)
+    named, px, cells = named[kept], px[kept], cells[kept]
+    if len(named) < LEAST_CORNERS:
+        return np.zeros(0, dtype=np.int64), np.zeros((0, 2)), markers
+    # OpenCV places a corner in a window that ends before the markers; a larger one only made it worse.
+    return named, px, markers
+
+
+def _count(found: object) -> int:
+    """OpenCV gives None for nothing, whatever its types say."""
+    return 0 if found is None else len(np.asarray(found))
+
+
+def _with_neighbours(px: Array, cells: Cells) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which corners stand where those around them expect them: a wrong one stands off its plane's map."""
+    kept = np.ones(len(px), dtype=bool)
+    for _ in range(4):
+        off = _off_map(px[kept], cells[kept])
+        side, _ = step_lengths_px(px[kept], cells[kept])
+        bad = off > OFF_NEIGHBOURS_RATIO * np.median(side) + 3.0 * np.median(off)
+        if not bad.any() or kept.sum() - bad.sum() < LEAST_CORNERS:
+            return kept
+        kept[np.flatnonzero(kept)[bad]] = False
+    return kept
+
+
+def _off_map(px: Array, cells: Cells) -> Array:
+    off = off_plane_px(cells.astype(np.float64), px, is_robust=True)
+    return np.zeros(len(px)) if off is None else np.asarray(np.linalg.norm(off, axis=1))

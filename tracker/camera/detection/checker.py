@@ -1,0 +1,118 @@
+"""Checkerboards: whole by OpenCV's finders, in part by their corners alone."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.camera.boards import CheckerBoard
+from tracker.camera.detection.blobs import GreyImage
+from tracker.camera.detection.corners import SADDLE_SMOOTHING_PX, quarter_signs, refined, saddles
+from tracker.camera.detection.lattice import Cells, lattices, step_lengths_px
+from tracker.camera.detection.placing import placed
+from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
+from tracker.geometry import Array
+
+SECTOR_FLAGS = cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_ACCURACY
+QUAD_FLAGS = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
+LEAST_CORNERS = 12
+LEAST_SIDE = 3
+MOST_GRIDS = 4
+# Corners of a part of a board at which the colours may be told wrongly, as by glare.
+MOST_ODD_RATIO = 0.05
+
+
+def find_checker(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
+    """The inner corners of the board in an image, or why not."""
+    corners = _whole(grey, board)
+    if corners is not None:
+        row, column = np.divmod(np.arange(len(corners)), board.columns)
+        return _viewed(grey, board, corners, np.column_stack([column, row]), is_whole=True)
+    return _in_part(grey, board)
+
+
+def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
+    """The largest grid of corners that can be a part of the board; others may be in view."""
+    best: BoardView | None = None
+    other: BoardNotFound | None = None
+    most_seen = 0
+    for smoothing_px in SADDLE_SMOOTHING_PX:
+        points = saddles(grey, smoothing_px=smoothing_px)
+        for lattice in lattices(points, most=MOST_GRIDS):
+            most_seen = max(most_seen, len(lattice.members))
+            if len(lattice.members) < min(LEAST_CORNERS, board.columns * board.rows):
+                break
+            seen = _viewed(grey, board, points[lattice.members], lattice.cells)
+            if isinstance(seen, BoardNotFound):
+                other = other or seen
+            elif best is None or seen.ids.size > best.ids.size:
+                best = seen
+    if best is not None:
+        return best
+    return other or BoardNotFound(
+        reason=NotFoundReason.TOO_FEW_POINTS if most_seen else NotFoundReason.NO_POINTS,
+        sentence=f"{most_seen} corners of squares stand in a grid, at least {LEAST_CORNERS} are needed",
+        seen_points=most_seen,
+    )
+
+
+def _whole(grey: GreyImage, board: CheckerBoard) -> Array | None:
+    size = (board.columns, board.rows)
+    if min(size) < LEAST_SIDE:
+        return None
+    found, corners = cv2.findChessboardCornersSB(grey, size, flags=SECTOR_FLAGS)
+    if not found:
+        found, corners = cv2.findChessboardCorners(grey, size, flags=QUAD_FLAGS)
+    return np.asarray(corners, dtype=np.float64).reshape(-1, 2) if found else None
+
+
+def _viewed(
+    grey: GreyImage, board: CheckerBoard, corners_px: Array, cells: Cells, *, is_whole: bool = False
+) -> BoardView | BoardNotFound:
+    """Corners placed to a fraction of a pixel, and the grid placed on its board by its colours."""
+    sides_px, _ = step_lengths_px(corners_px, cells)
+    corners = refined(grey, corners_px, sides_px)
+    if _is_mirrored(cells, corners):
+        cells = np.column_stack([cells[:, 0], cells[:, 1].max() - cells[:, 1]])
+    wide, high = (int(v) + 1 for v in cells.max(axis=0))
+    row, column = np.divmod(np.arange(board.columns * board.rows), board.columns)
+    names = (column + row) % 2
+    grid = np.arange(board.columns * board.rows).reshape(board.rows, board.columns)
+    place = None
+    if min(wide, high) >= min(LEAST_SIDE, board.columns, board.rows):
+        # Where the shape leaves a choice, the outermost square at the first corner is taken to be dark.
+        looks = _looks(grey, corners, cells)
+        place = placed(cells, corners, looks, grid, names, quarters_swap_looks=True)
+    if place is None:
+        return BoardNotFound(
+            reason=NotFoundReason.OTHER_SIZE,
+            sentence=f"a grid of {wide} x {high} corners, and the board has {board.columns} x {board.rows}",
+            seen_points=len(cells),
+        )
+    if not is_whole and place.misfits > MOST_ODD_RATIO * len(cells):
+        return BoardNotFound(
+            reason=NotFoundReason.TOO_FEW_POINTS,
+            sentence=f"{len(cells)} corners stand in a grid, and dark and light do not take turns at "
+            f"{place.misfits} of them",
+            seen_points=len(cells),
+        )
+    return BoardView(
+        ids=place.ids,
+        object_points_mm=board.object_points_mm[place.ids],
+        image_points_px=corners,
+        sureness=place.sureness,
+    )
+
+
+def _looks(grey: GreyImage, corners: Array, cells: Cells) -> npt.NDArray[np.int64]:
+    """At each corner 0 where the square towards the next column and row is dark, 1 where it is light."""
+    design = np.column_stack([cells, np.ones(len(cells))])
+    affine, *_ = np.linalg.lstsq(design, corners, rcond=None)
+    a, b = (np.broadcast_to(affine[axis], corners.shape) for axis in (0, 1))
+    light = quarter_signs(grey, corners, a, b)
+    return (light > 0).astype(np.int64)
+
+
+def _is_mirrored(cells: Cells, corners: Array) -> bool:
+    design = np.column_stack([cells, np.ones(len(cells))])
+    affine, *_ = np.linalg.lstsq(design, corners, rcond=None)
+    return bool(affine[0, 0] * affine[1, 1] - affine[0, 1] * affine[1, 0] < 0)

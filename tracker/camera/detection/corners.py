@@ -1,0 +1,56 @@
+"""Corners of squares: found anywhere in an image, and placed to a fraction of a pixel."""
+
+import cv2
+import numpy as np
+
+from tracker.camera.detection.blobs import GreyImage
+from tracker.geometry import Array
+
+REFINE_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-4)
+# Half the window in which a corner is placed, as a part of the shortest side of the squares around it: the
+# next corner, and most of what a lens bends, stay outside.
+WINDOW_RATIO = 0.3
+SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX = 2, 12
+SADDLE_SMOOTHING_PX = (1.5, 3.0)
+MOST_SADDLES = 3000
+
+
+def refined(grey: GreyImage, corners_px: Array, sides_px: Array) -> Array:
+    """Corners (n, 2) where the edges around them point to; `sides_px` (n,) is the shortest side at each."""
+    windows = np.clip(np.rint(WINDOW_RATIO * sides_px), SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX).astype(int)
+    placed = corners_px.copy()
+    for window in np.unique(windows):
+        some = windows == window
+        start = corners_px[some].astype(np.float32).reshape(-1, 1, 2)
+        found = cv2.cornerSubPix(grey, start, (int(window), int(window)), (-1, -1), REFINE_CRITERIA)
+        moved = np.asarray(found, dtype=np.float64).reshape(-1, 2)
+        # A corner that runs away stays where it was.
+        near = np.linalg.norm(moved - corners_px[some], axis=1) < max(1.5, 0.5 * window)
+        placed[some] = np.where(near[:, None], moved, corners_px[some])
+    return placed
+
+
+def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
+    """Points (n, 2) at which two dark and two light quarters meet, strongest first."""
+    smooth = cv2.GaussianBlur(grey.astype(np.float32), (0, 0), smoothing_px)
+    xx = cv2.Sobel(smooth, cv2.CV_32F, 2, 0)
+    yy = cv2.Sobel(smooth, cv2.CV_32F, 0, 2)
+    xy = cv2.Sobel(smooth, cv2.CV_32F, 1, 1)
+    strength = np.maximum(xy * xy - xx * yy, 0.0)
+    reach = 2 * round(smoothing_px * 1.5) + 1
+    peak = cv2.dilate(strength, np.ones((reach, reach), np.uint8))
+    floor = 0.04 * float(np.percentile(peak, 99.0))
+    y, x = np.nonzero((strength >= peak) & (strength > max(floor, 1.0)))
+    strongest = np.argsort(-strength[y, x])[:MOST_SADDLES]
+    return np.stack([x[strongest], y[strongest]], axis=1).astype(np.float64)
+
+
+def quarter_signs(grey: GreyImage, corners_px: Array, a_px: Array, b_px: Array) -> Array:
+    """At each corner (n,), how much lighter the quarters along a + b and -a - b are than the other two."""
+    smooth = cv2.GaussianBlur(grey, (0, 0), 0.8).astype(np.float32)
+    total = np.zeros(len(corners_px))
+    for sign_a, sign_b in ((1, 1), (-1, -1), (1, -1), (-1, 1)):
+        at = (corners_px + 0.3 * (sign_a * a_px + sign_b * b_px)).astype(np.float32)
+        values = cv2.remap(smooth, at[:, 0], at[:, 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        total += sign_a * sign_b * values.ravel()
+    return total

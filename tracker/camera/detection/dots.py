@@ -1,0 +1,127 @@
+"""Dot grids: symmetric or asymmetric, with larger dots or without, whole or in part."""
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.camera.boards import DotBoard, DotLayout
+from tracker.camera.detection.blobs import WINDOW_RATIOS, Blobs, GreyImage, dark_blobs
+from tracker.camera.detection.lattice import Cells, Lattice, largest_lattice, step_lengths_px
+from tracker.camera.detection.placing import placed
+from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
+from tracker.geometry import Array
+
+LEAST_DOTS = 12
+LARGER_AREA_RATIO = 1.6
+
+
+def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
+    """The dots of the board in an image, or why not."""
+    seen = _best_grid(grey, board)
+    if seen is None:
+        return BoardNotFound(reason=NotFoundReason.NO_POINTS, sentence="no dots that stand in a grid")
+    blobs, lattice = seen
+    needed = min(LEAST_DOTS, board.columns * board.rows)
+    if len(lattice.members) < needed:
+        return BoardNotFound(
+            reason=NotFoundReason.TOO_FEW_POINTS,
+            sentence=f"{len(lattice.members)} dots stand in a grid, at least {needed} are needed",
+            seen_points=len(lattice.members),
+        )
+    px, areas_px2 = blobs.centres_px[lattice.members], blobs.areas_px2[lattice.members]
+    _, cell_areas_px2 = step_lengths_px(px, lattice.cells)
+    share = areas_px2 / cell_areas_px2
+    larger = share > LARGER_AREA_RATIO * float(np.median(share))
+    looks = larger.astype(np.int64) if board.fiducials else np.full(len(px), -1, dtype=np.int64)
+    board_looks = np.zeros(board.columns * board.rows, dtype=np.int64)
+    board_looks[list(board.fiducials)] = 1
+    cells, kept = _on_board(lattice.cells, board)
+    px, looks, share, larger = px[kept], looks[kept], share[kept], larger[kept]
+    place = placed(cells, px, looks, _cells_of(board), board_looks)
+    if place is None:
+        wide, high = cells.max(axis=0) + 1
+        return BoardNotFound(
+            reason=NotFoundReason.OTHER_SIZE,
+            sentence=f"a grid of {wide} x {high} steps, and the board has {board.columns} x {board.rows}",
+            seen_points=len(cells),
+        )
+    expected = int(board_looks[place.ids].sum())
+    if board.fiducials and place.misfits > max(1, expected // 2):
+        return BoardNotFound(
+            reason=NotFoundReason.OTHER_FIDUCIALS,
+            sentence=f"{int(larger.sum())} larger dots are seen, and {place.misfits} dots differ in size "
+            f"from the board with larger dots {list(board.fiducials)}",
+            seen_points=len(cells),
+        )
+    return BoardView(
+        ids=place.ids,
+        object_points_mm=board.object_points_mm[place.ids],
+        image_points_px=px,
+        dot_radii_mm=_radii_mm(share, larger, board),
+        sureness=place.sureness,
+    )
+
+
+def larger_dots(view: BoardView) -> npt.NDArray[np.int64]:
+    """The ids of dots that are larger than most in this view."""
+    radii = view.dot_radii_mm
+    return np.asarray(view.ids[radii > np.sqrt(LARGER_AREA_RATIO) * float(np.median(radii))])
+
+
+def _best_grid(grey: GreyImage, board: DotBoard) -> tuple[Blobs, Lattice] | None:
+    """The grid with most dots, over sizes of what surrounds a dot, dark dots before light ones."""
+    best: tuple[Blobs, Lattice] | None = None
+    whole = board.columns * board.rows
+    for image in (grey, 255 - grey):
+        for ratio in WINDOW_RATIOS:
+            blobs = dark_blobs(image, window_ratio=ratio)
+            lattice = largest_lattice(blobs.centres_px)
+            if len(lattice.members) >= LEAST_DOTS // 2 and (
+                best is None or len(lattice.members) > len(best[1].members)
+            ):
+                best = blobs, lattice
+            if best is not None and len(best[1].members) == whole:
+                return best
+        if best is not None and len(best[1].members) >= LEAST_DOTS:
+            return best
+    return best
+
+
+def _on_board(cells: Cells, board: DotBoard) -> tuple[Cells, npt.NDArray[np.bool_]]:
+    """Cells in steps of the board's pitch; lines at the rim that hold next to nothing are no part of it."""
+    asymmetric = board.layout is DotLayout.ASYMMETRIC
+    if asymmetric:
+        # The nearest dots of an asymmetric board stand on its diagonals.
+        cells = np.column_stack([cells[:, 0] - cells[:, 1], cells[:, 0] + cells[:, 1]])
+    most = sorted((2 * board.columns if asymmetric else board.columns, board.rows))
+    kept = np.ones(len(cells), dtype=bool)
+    for _ in range(8):
+        inside = cells[kept]
+        low, high = inside.min(axis=0), inside.max(axis=0)
+        size = high - low + 1
+        if sorted(size)[0] <= most[0] and sorted(size)[1] <= most[1]:
+            break
+        lines = [(axis, end) for axis in (0, 1) for end in (low[axis], high[axis])]
+        counts = [int((inside[:, axis] == end).sum()) for axis, end in lines]
+        weakest = int(np.argmin(counts))
+        if counts[weakest] > 0.25 * len(inside) / float(size[lines[weakest][0]]):
+            break
+        kept &= cells[:, lines[weakest][0]] != lines[weakest][1]
+    inside = cells[kept]
+    return inside - inside.min(axis=0), kept
+
+
+def _cells_of(board: DotBoard) -> npt.NDArray[np.int64]:
+    """The id of the dot at each cell, -1 where there is none."""
+    steps = np.rint(board.object_points_mm[:, :2] / board.pitch_mm).astype(int)
+    cells = np.full((steps[:, 1].max() + 1, steps[:, 0].max() + 1), -1, dtype=np.int64)
+    cells[steps[:, 1], steps[:, 0]] = np.arange(len(steps))
+    return cells
+
+
+def _radii_mm(share: Array, larger: npt.NDArray[np.bool_], board: DotBoard) -> Array:
+    """One radius for small dots and one for larger: of a single dot it would be noise."""
+    asymmetric = board.layout is DotLayout.ASYMMETRIC
+    cell_mm2 = (2.0 if asymmetric else 1.0) * board.pitch_mm**2
+    small = float(np.median(share[~larger])) if (~larger).any() else float(np.median(share))
+    large = float(np.median(share[larger])) if larger.any() else small
+    return np.sqrt(np.where(larger, large, small) * cell_mm2 / np.pi)

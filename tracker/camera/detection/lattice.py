@@ -1,0 +1,219 @@
+"""Which of many points form a regular grid, and where in it each one stands."""
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from tracker.camera.detection.plane import off_plane_px
+from tracker.geometry import Array
+
+Cells = npt.NDArray[np.int64]
+Cell = tuple[int, int]
+
+# A step is expected to be like the last one, within this part of its length.
+STEP_TOLERANCE_RATIO = 0.3
+LEAST_MEMBERS = 6
+NEIGHBOURS = 9
+SEEDS = 40
+LEAST_ANGLE_SINE = 0.35
+# Farther than this from a smooth map of the grid, in steps, a point is none of it.
+OFF_GRID_RATIO = 0.2
+DIRECTIONS: tuple[Cell, ...] = ((1, 0), (-1, 0), (0, 1), (0, -1))
+# Other bases of the same grid: seen very obliquely, a diagonal may be shorter than a side.
+BASES = tuple(
+    np.array(basis)
+    for basis in (((1, 0), (0, 1)), ((1, 1), (0, 1)), ((1, -1), (0, 1)), ((1, 0), (1, 1)), ((1, 0), (-1, 1)))
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lattice:
+    """Points of one regular grid.
+
+    Attributes:
+        members: (n,) which of the given points.
+        cells: (n, 2) where each stands, as steps along two sides; x then y turns clockwise in the image.
+    """
+
+    members: npt.NDArray[np.int64]
+    cells: Cells
+
+
+def lattices(points_px: Array, *, most: int) -> Iterator[Lattice]:
+    """Regular grids among points (n, 2), each of what the ones before it left."""
+    left = np.arange(len(points_px))
+    for _ in range(most):
+        found = largest_lattice(points_px[left])
+        if len(found.members) < LEAST_MEMBERS:
+            return
+        yield Lattice(members=left[found.members], cells=found.cells)
+        left = np.delete(left, found.members)
+
+
+def largest_lattice(points_px: Array) -> Lattice:
+    """The largest regular grid among points (n, 2); a grid of no points if there is none."""
+    best: dict[Cell, int] = {}
+    if len(points_px) >= 5:
+        tree = cKDTree(points_px)
+        tried: set[int] = set()
+        for seed in _seeds(points_px):
+            if seed in tried:
+                continue
+            basis = _basis_at(points_px, tree, seed)
+            if basis is None:
+                continue
+            grown = _grown(points_px, tree, seed, basis)
+            tried.update(grown.values())
+            if len(grown) > len(best):
+                best = grown
+            if len(best) > len(points_px) // 2:
+                break
+    members = np.array(list(best.values()), dtype=np.int64)
+    cells = np.array(list(best), dtype=np.int64).reshape(-1, 2)
+    lattice = _smooth_part(points_px, Lattice(members=members, cells=cells))
+    return _upright(points_px, lattice)
+
+
+def step_lengths_px(points_px: Array, cells: Cells) -> tuple[Array, Array]:
+    """Of each point of a lattice the shortest step to a neighbour, and the area of its cell in px2."""
+    place = {(int(x), int(y)): index for index, (x, y) in enumerate(cells)}
+    lengths, areas = np.zeros(len(cells)), np.zeros(len(cells))
+    for index, (x, y) in enumerate(cells):
+        steps = {}
+        for dx, dy in DIRECTIONS:
+            other = place.get((int(x) + dx, int(y) + dy))
+            if other is not None:
+                steps[dx, dy] = points_px[other] - points_px[index]
+        along = [step * (dx + dy) for (dx, dy), step in steps.items() if dy == 0]
+        across = [step * (dx + dy) for (dx, dy), step in steps.items() if dx == 0]
+        if steps:
+            lengths[index] = min(float(np.linalg.norm(step)) for step in steps.values())
+        if along and across:
+            a, b = np.mean(along, axis=0), np.mean(across, axis=0)
+            areas[index] = abs(a[0] * b[1] - a[1] * b[0])
+    known = areas > 0
+    areas[~known] = np.median(areas[known]) if known.any() else 1.0
+    stepped = lengths > 0
+    lengths[~stepped] = np.median(lengths[stepped]) if stepped.any() else 1.0
+    return lengths, areas
+
+
+def _seeds(points_px: Array) -> list[int]:
+    """Where to begin: near the middle of all points, and spread over them."""
+    from_middle = np.argsort(np.linalg.norm(points_px - np.median(points_px, axis=0), axis=1))
+    spread = np.linspace(0, len(points_px) - 1, min(SEEDS, len(points_px))).astype(int)
+    return [int(i) for i in from_middle[: SEEDS // 4]] + [int(i) for i in from_middle[spread]]
+
+
+def _basis_at(points_px: Array, tree: cKDTree, seed: int) -> tuple[Array, Array] | None:
+    """Two steps that lead from this point to a neighbour, and back to another one."""
+    here = points_px[seed]
+    _, near = tree.query(here, k=min(NEIGHBOURS, len(points_px)))
+    steps: list[Array] = []
+    for other in near[1:]:
+        step = points_px[other] - here
+        length = float(np.linalg.norm(step))
+        back, _ = tree.query(here - step)
+        if length < 2.0 or back > STEP_TOLERANCE_RATIO * length:
+            continue
+        if not steps:
+            steps.append(step)
+            continue
+        sine = abs(steps[0][0] * step[1] - steps[0][1] * step[0]) / (float(np.linalg.norm(steps[0])) * length)
+        if sine > LEAST_ANGLE_SINE:
+            return steps[0], step
+    return None
+
+
+def _grown(points_px: Array, tree: cKDTree, seed: int, basis: tuple[Array, Array]) -> dict[Cell, int]:
+    """Cells reached from the seed, step by step, each step like those before it."""
+    a, b = basis
+    if a[0] * b[1] - a[1] * b[0] < 0:
+        b = -b
+    place: dict[Cell, int] = {(0, 0): seed}
+    owner = {seed: (0, 0)}
+    steps: dict[Cell, tuple[Array, Array]] = {(0, 0): (a, b)}
+    queue = deque([(0, 0)])
+    while queue:
+        cell = queue.popleft()
+        here = points_px[place[cell]]
+        for direction in DIRECTIONS:
+            target = (cell[0] + direction[0], cell[1] + direction[1])
+            if target in place:
+                continue
+            expected = direction[0] * steps[cell][0] + direction[1] * steps[cell][1]
+            distance, found = tree.query(here + expected)
+            found = int(found)
+            if distance > STEP_TOLERANCE_RATIO * float(np.linalg.norm(expected)) or found in owner:
+                continue
+            place[target], owner[found] = found, target
+            step = points_px[found] - here
+            a_new, b_new = steps[cell]
+            if direction[0]:
+                a_new = direction[0] * step
+            else:
+                b_new = direction[1] * step
+            steps[target] = (a_new, b_new)
+            queue.append(target)
+    return place
+
+
+def _smooth_part(points_px: Array, lattice: Lattice) -> Lattice:
+    """Without the points that stand off a smooth map of the grid; a lens only bends it."""
+    for _ in range(3):
+        count = len(lattice.members)
+        if count < 12:
+            return lattice
+        px = points_px[lattice.members]
+        off = _off_smooth(px, lattice.cells)
+        lengths, _ = step_lengths_px(px, lattice.cells)
+        kept = off < np.maximum(OFF_GRID_RATIO * lengths, 4.0 * np.median(off))
+        if kept.all():
+            return lattice
+        lattice = Lattice(members=lattice.members[kept], cells=lattice.cells[kept])
+    return lattice
+
+
+def _off_smooth(px: Array, cells: Cells) -> Array:
+    """Distance of each point from a homography and a cubic bend on it, with little say for outliers."""
+    grid = cells.astype(np.float64)
+    residual = off_plane_px(grid, px, is_robust=True)
+    if residual is None:
+        return np.zeros(len(px))
+    flat = px - residual
+    middle, size = flat.mean(axis=0), flat.std() + 1e-9
+    x, y = ((flat - middle) / size).T
+    order = 3 if len(px) >= 30 else 1
+    terms = np.stack([x**i * y**j for i in range(order + 1) for j in range(order + 1 - i)], axis=1)
+    weight = np.ones(len(px))
+    off = np.linalg.norm(residual, axis=1)
+    for _ in range(8):
+        root = np.sqrt(weight)[:, None]
+        bend, *_ = np.linalg.lstsq(terms * root, residual * root, rcond=None)
+        off = np.linalg.norm(residual - terms @ bend, axis=1)
+        weight = 1.0 / (1.0 + (off / (3.0 * np.median(off) + 1e-6)) ** 2)
+    return np.asarray(off, dtype=np.float64)
+
+
+def _upright(points_px: Array, lattice: Lattice) -> Lattice:
+    """The same grid with sides along its rows and columns, counted from 0."""
+    if len(lattice.members) < 4:
+        return lattice
+    best, best_fill = lattice.cells, 0.0
+    for basis in BASES:
+        cells = np.rint(lattice.cells @ np.linalg.inv(basis)).astype(np.int64)
+        extent = cells.max(axis=0) - cells.min(axis=0) + 1
+        fill = len(cells) / float(extent[0] * extent[1])
+        if fill > best_fill + 1e-9:
+            best, best_fill = cells, fill
+    cells = best - best.min(axis=0)
+    px = points_px[lattice.members]
+    design = np.column_stack([cells, np.ones(len(cells))])
+    affine, *_ = np.linalg.lstsq(design, px, rcond=None)
+    if affine[0, 0] * affine[1, 1] - affine[0, 1] * affine[1, 0] < 0:
+        cells = np.column_stack([cells[:, 0], cells[:, 1].max() - cells[:, 1]])
+    return Lattice(members=lattice.members, cells=cells)

@@ -1,0 +1,6 @@
+"""A mesh that somebody else made: is it a vertebra, in which unit, wound which way, and is it whole?"""
+
+from tracker.plan.mesh.intake import MeshSurface, surface_from_mesh
+from tracker.plan.mesh.units import MM_FROM_UNIT, FittingUnit, fitting_units
+
+__all__ = ["MM_FROM_UNIT", "FittingUnit", "MeshSurface", "fitting_units", "surface_from_mesh"]

@@ -1,0 +1,188 @@
+"""A mesh from elsewhere becomes a surface of the plan, or is refused with what must be said first."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import PlanError
+from tracker.geometry import Array
+from tracker.plan.mesh.notes import Findings, remarks_of
+from tracker.plan.mesh.units import MM_FROM_UNIT, FittingUnit, Kind, fitting_units, kind_of
+from tracker.plan.remark import Remark
+from tracker.plan.surface import Surface
+from tracker.plan.triangles import links_of, referenced, wound_outwards
+from tracker.plan.triangles.links import Faces, areas_of, parts_of
+
+
+class Space(StrEnum):
+    """Which way a file's first two axes run: to the patient's left and back, or right and front."""
+
+    LPS = "LPS"
+    RAS = "RAS"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshSurface:
+    """A mesh as the plan uses it, and what was found in it.
+
+    Attributes:
+        surface: in LPS, in mm, wound outwards as far as that can be told.
+        kind: a vertebra or several, by its size.
+        unit: that its numbers were in.
+        unit_given: whether a person said so; otherwise they are plausible in mm.
+        space: that its numbers were in.
+        size_mm: (3,) the sides of the box around it.
+        parts: how many pieces do not touch.
+        closed: whether it has an inside.
+        turned_faces: triangles that were wound the other way.
+        remarks: what the user should know.
+    """
+
+    surface: Surface
+    kind: Kind
+    unit: str
+    unit_given: bool
+    space: Space
+    size_mm: Array
+    parts: int
+    closed: bool
+    turned_faces: int
+    remarks: tuple[Remark, ...]
+
+
+def surface_from_mesh(
+    vertices: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    *,
+    unit: str | None = None,
+    space: Space = Space.LPS,
+) -> MeshSurface:
+    """The surface of a mesh; nothing is scaled unless its unit is given.
+
+    Args:
+        vertices: (n, 3) in the mesh's own unit.
+        faces: (m, 3) indices.
+        unit: a key of `MM_FROM_UNIT`, or None where it has to show by its size that it is in mm.
+        space: of its coordinates.
+
+    Raises:
+        PlanError: MESH_EMPTY, MESH_INVALID, MESH_UNIT_INVALID; MESH_UNIT_NEEDED, in mm it is neither a
+            vertebra nor several, and another unit is proposed; MESH_SIZE_IMPLAUSIBLE, it is neither in any
+            unit, or not in the one that was given.
+    """
+    points, corners = _checked(np.asarray(vertices, np.float64), np.asarray(faces, np.int64))
+    points, corners, dropped = _cleaned(points, corners)
+    kind = _kind(np.ptp(points, axis=0), unit)
+    signs = np.array([-1.0, -1.0, 1.0]) if space is Space.RAS else np.ones(3)
+    points = points * signs * MM_FROM_UNIT[unit or "mm"]
+    links = links_of(corners)
+    corners, turned = wound_outwards(points, corners)
+    parts, _ = parts_of(corners, points.shape[0])
+    size_mm = np.ptp(points, axis=0)
+    found = Findings(
+        kind=kind, size_mm=size_mm, parts=parts, links=links, turned=turned,
+        faces=int(corners.shape[0]), dropped=dropped, mirrored=space is Space.RAS,
+    )  # fmt: skip
+    return MeshSurface(
+        surface=Surface(vertices_mm=points, faces=corners),
+        kind=kind,
+        unit=unit or "mm",
+        unit_given=unit is not None,
+        space=space,
+        size_mm=size_mm,
+        parts=parts,
+        closed=links.closed,
+        turned_faces=turned,
+        remarks=remarks_of(found),
+    )
+
+
+def _checked(points: Array, corners: Faces) -> tuple[Array, Faces]:
+    """Arrays that name what is there."""
+    if points.size == 0 or corners.size == 0:
+        raise PlanError(
+            "MESH_EMPTY",
+            f"the mesh holds {points.size // 3} vertices and {corners.size // 3} triangles",
+            "Export the bone's surface again as triangles in STL, OBJ or PLY.",
+        )
+    problem = ""
+    if points.ndim != 2 or points.shape[1] != 3 or corners.ndim != 2 or corners.shape[1] != 3:
+        problem = f"its vertices have shape {points.shape} and its faces {corners.shape}"
+    elif corners.min() < 0 or corners.max() >= points.shape[0]:
+        wrong = int(corners.min()) if corners.min() < 0 else int(corners.max())
+        problem = f"a face names vertex {wrong}, there are {points.shape[0]}"
+    elif not np.isfinite(points[np.unique(corners)]).all():
+        problem = "a coordinate is not finite"
+    elif np.abs(points[np.unique(corners)]).max() > 1e9:
+        problem = "a coordinate is above 1e9"
+    if problem:
+        raise PlanError(
+            "MESH_INVALID",
+            f"the mesh cannot be used: {problem}",
+            "Export the bone's surface again as triangles in STL, OBJ or PLY.",
+        )
+    return points, corners
+
+
+def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
+    """Equal vertices joined, triangles without area or that are there twice left out, and how many were."""
+    before = int(corners.shape[0])
+    points, corners = referenced(points, corners)
+    unique, renamed = np.unique(points, axis=0, return_inverse=True)
+    corners = np.asarray(renamed.reshape(-1)[corners], dtype=np.int64)
+    corners = corners[areas_of(unique, corners) > 1e-12 * float(np.ptp(unique, axis=0).max()) ** 2]
+    _, first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)
+    corners = corners[np.sort(first)]
+    if corners.shape[0] < 4:
+        raise PlanError(
+            "MESH_EMPTY",
+            f"the mesh holds {corners.shape[0]} triangles with an area, needed 4 or more",
+            "Export the bone's surface again as triangles in STL, OBJ or PLY.",
+            {"faces": before},
+        )
+    return *referenced(unique, corners), before - int(corners.shape[0])
+
+
+def _kind(size: Array, unit: str | None) -> Kind:
+    """What the mesh is in the unit that was given, or in mm."""
+    if unit is not None and unit not in MM_FROM_UNIT:
+        raise PlanError(
+            "MESH_UNIT_INVALID",
+            f"'{unit}' is no unit of a mesh",
+            f"Give one of {', '.join(MM_FROM_UNIT)}.",
+            {"unit": unit, "allowed": list(MM_FROM_UNIT)},
+        )
+    kind = kind_of(size * MM_FROM_UNIT[unit or "mm"])
+    if kind is not None:
+        return kind
+    fits = fitting_units(size)
+    context: dict[str, object] = {
+        "size": size.tolist(),
+        "unit": unit,
+        "proposed_unit": fits[0].unit if fits else None,
+        "possible_units": [fit.unit for fit in fits],
+    }
+    message = (
+        f"the mesh is {_sides(size)} in its own numbers, which in {unit or 'mm'} is "
+        "neither a vertebra nor several"
+    )
+    if not fits:
+        remedy = "It fits in no unit: export one vertebra, with its unit, and nothing else."
+        raise PlanError("MESH_SIZE_IMPLAUSIBLE", message, remedy, context)
+    told = "; ".join(_told(fit) for fit in fits)
+    code = "MESH_UNIT_NEEDED" if unit is None else "MESH_SIZE_IMPLAUSIBLE"
+    raise PlanError(code, message, f"Say its unit, after measuring it: {told}.", context)
+
+
+def _told(fit: FittingUnit) -> str:
+    return f"in {fit.unit} it is {_sides(fit.size_mm)} mm, the size of {_words(fit.kind)}"
+
+
+def _words(kind: Kind) -> str:
+    return "a vertebra" if kind is Kind.VERTEBRA else kind.value
+
+
+def _sides(size: Array) -> str:
+    return " x ".join(f"{side:.3g}" for side in size)
