@@ -56,7 +56,6 @@ class WholeFit:
         scale_grey: sd of what is not explained, in grey levels.
         contrast_grey: bright less dark, at the marker's centre.
         explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
-        blur_px2: (3,), variances of the blur along u, along v, and between, in px of the image.
         response: bend of the camera's response, 0 where grey levels are proportional to light.
         cost_sd2: robust sum of squared residuals in units of the smaller scale of both; 0 of one alone.
     """
@@ -67,7 +66,6 @@ class WholeFit:
     scale_grey: float
     contrast_grey: float
     explained_ratio: float
-    blur_px2: Array
     response: float
     cost_sd2: float
 
@@ -316,7 +314,6 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit:
         scale_grey=one.scale_grey,
         contrast_grey=float(typical_contrast(one.numbers, one.nodes)),
         explained_ratio=one.explained_ratio,
-        blur_px2=one.numbers[BLUR : BLUR + 3].copy(),
         response=float(one.numbers[RESPONSE]),
         cost_sd2=cost_sd2,
     )

@@ -13,8 +13,6 @@ from tracker.marker.score import LEAST_RESPONSE_RATIO
 from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
 from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surprise
 
-__all__ = ["Fit", "doubt_between", "projected_edges", "refined_pose", "surprise"]
-
 # Camera response, ink and blooming shift all edges towards dark or bright alike: by up to 0.25 px.
 SHIFT_SD_PX = 0.25
 # Neighbouring edgels share pixels, so that their errors are alike over about three of them.
@@ -33,8 +31,6 @@ class Fit:
     Attributes:
         camera_from_marker: the pose.
         covariance: (6, 6) [mm, rad], as in `Seen`.
-        cost_px2: robust sum of squared residuals.
-        residual_px: sd of the residuals along the normals.
         shift_px: by how much all edges are shifted towards their bright side.
         doubt_ratio: probability that the other planar solution is the true one, 0..0.5.
         lead_sd2: as in `Seen`.
@@ -42,8 +38,6 @@ class Fit:
 
     camera_from_marker: Rigid[Camera, Marker]
     covariance: Array
-    cost_px2: float
-    residual_px: float
     shift_px: float
     doubt_ratio: float = 0.0
     lead_sd2: float = float("inf")
@@ -165,7 +159,5 @@ def _fit(
     return Fit(
         camera_from_marker=pose,
         covariance=inverse * variance,
-        cost_px2=cost,
-        residual_px=float(np.sqrt(squares / weights)),
         shift_px=shift,
     )

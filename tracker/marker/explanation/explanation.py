@@ -63,7 +63,6 @@ class Explanation:
         hidden_ratio: part of the square that is covered, 0..1.
         inner_hidden_ratio: the same of where the model has its shape.
         inside_ratio: area of the largest piece that contradicts and is not covered, by the square's.
-        left_ratio: rms of what is left where the model has its shape, by the contrast there.
         corners_px: (4, 2), where they explain it best.
         moved_px: how far the corners (4, 2) had to be moved to explain it best, the farthest.
         blur_px: (2,), sd along the sharpest and the most blurred direction.
@@ -77,7 +76,6 @@ class Explanation:
     hidden_ratio: float
     inner_hidden_ratio: float
     inside_ratio: float
-    left_ratio: float
     corners_px: Array
     moved_px: float
     blur_px: tuple[float, float]
@@ -212,19 +210,11 @@ def _explanation(fit: Fit) -> Explanation:
         hidden_ratio=1.0 - float(visible[inside_square()].mean()),
         inner_hidden_ratio=1.0 - float(visible[shape].mean()),
         inside_ratio=inside / FIELDS**2,
-        left_ratio=_left(fit, telling & shape),
         corners_px=_to_px(fit.to_px, fit.corners),
         moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
         under_highlights=fit.light.shape[1] > MOST_SMOOTH_TERMS,
         blur_px=_blur_px(fit.blur, fit.field_px),
     )
-
-
-def _left(fit: Fit, chosen: Mask) -> float:
-    if not chosen.any():
-        return 1.0
-    contrast = float(np.median(fit.gain[chosen]))
-    return float(np.sqrt(np.mean(fit.rest[chosen] ** 2))) / contrast if contrast > 0.0 else 1.0
 
 
 def _to_px(h: Array, corners: Array) -> Array:

@@ -27,9 +27,9 @@ def _smoothed(rest, contrast):
 def wrong_pieces(rest, contrast, ring, limit, least, labels):
     """Connected pieces of fields (n, n) whose neighbourhood is off by more than `limit` of the contrast.
 
-    Fills `labels`: 0 none, -1 what comes over the border (from the ring,
-    or, as bright as the paper there, where the outline is missing), `k` the k-th piece inside. Pieces of
-    fewer than `least` fields count for nothing. Returns the areas of the pieces inside.
+    Fills `labels`: 0 for none, -1 for a piece that reaches into the `ring` fields along the border, k for the
+    k-th piece inside. Pieces of fewer than `least` fields count for nothing. Returns the areas (k,) of the
+    pieces inside, in fields.
     """
     n = len(rest)
     off = _smoothed(rest, contrast)
