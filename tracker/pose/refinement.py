@@ -32,14 +32,12 @@ class Fit:
         camera_from_marker: the pose.
         covariance: (6, 6) [mm, rad], as in `Seen`.
         shift_px: by how much all edges are shifted towards their bright side.
-        doubt_ratio: probability that the other planar solution is the true one, 0..0.5.
         lead_sd2: as in `Seen`.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
     covariance: Array
     shift_px: float
-    doubt_ratio: float = 0.0
     lead_sd2: float = float("inf")
 
 
@@ -84,11 +82,10 @@ def refined_pose(
     if fit is None:
         return None
     gap = abs(costs[1] - costs[0])
-    doubt, spread = doubt_between(poses[best], poses[1 - best], gap=gap, expected=expected)
+    spread = doubt_between(poses[best], poses[1 - best], gap=gap, expected=expected)
     return replace(
         fit,
         covariance=fit.covariance + spread,
-        doubt_ratio=doubt,
         lead_sd2=lead_between(costs, poses, best),
     )
 
