@@ -10,7 +10,7 @@ from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, nodes_of_pla
 from tracker.appearance.picture.kernels import collect
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
-from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
 
 # Half of the part of the plane that is looked at, in sides: the outline's blurred outer half lies on the
 # white paper, and what lies beyond the paper must not come in.
@@ -306,9 +306,8 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit:
         BLOCKS,
     )
     alike = max(float(np.trace(np.linalg.solve(alone, together))) / 6.0, 1.0)
-    u, _, vt = np.linalg.svd(one.rotation)
     return WholeFit(
-        camera_from_marker=Rigid(rotation=u @ vt, translation_mm=one.translation_mm),
+        camera_from_marker=Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm),
         covariance=alone * alike,
         alike_ratio=alike,
         scale_grey=one.scale_grey,
