@@ -11,6 +11,7 @@ from tracker.appearance.picture.kernels import collect
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
+from tracker.geometry.kernels import pose_rows
 
 # Half of the part of the plane that is looked at, in sides: the outline's blurred outer half lies on the
 # white paper, and what lies beyond the paper must not come in.
@@ -136,7 +137,8 @@ def whole_fits(
             done = uneven
     scale = min(one.scale_grey for one in done)
     costs = [_cost(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
-    return [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
+    records = [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
+    return [one for one in records if one is not None]
 
 
 def _samples(
@@ -291,10 +293,13 @@ def _cost(seen: Samples, one: Fitted, scale_grey: float) -> float:
     )
 
 
-def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit:
-    size = np.sqrt(np.diag(one.matrix))
-    inverse = np.linalg.inv(one.matrix / np.outer(size, size)) / np.outer(size, size)
-    alone = inverse[:6, :6] * one.scale_grey**2
+def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
+    """What the fit says of the pose; None where it says nothing."""
+    # What is known beforehand is in the matrix: it needs no ridge.
+    rows, is_told = pose_rows(one.matrix, 0.0)
+    if not is_told:
+        return None
+    alone = rows[:, :6] * one.scale_grey**2
     together = scores_spread(
         seen.values,
         one.looked,
@@ -302,7 +307,7 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit:
         one.nodes,
         one.scale_grey,
         CUT,
-        np.ascontiguousarray(inverse[:6]),
+        rows,
         BLOCKS,
     )
     alike = max(float(np.trace(np.linalg.solve(alone, together))) / 6.0, 1.0)

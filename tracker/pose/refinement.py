@@ -7,7 +7,7 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.geometry.kernels import pose_inverse
+from tracker.geometry.kernels import RIDGE, pose_rows
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import LEAST_RESPONSE_RATIO
 from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
@@ -150,11 +150,11 @@ def _fit(
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES
-    inverse, is_told = pose_inverse(matrix)
+    inverse, is_told = pose_rows(matrix, RIDGE)
     if not is_told:
         return None
     return Fit(
         camera_from_marker=pose,
-        covariance=inverse * variance,
+        covariance=inverse[:, :6] * variance,
         shift_px=shift,
     )

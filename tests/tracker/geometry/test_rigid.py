@@ -167,7 +167,6 @@ def test_a_rotation_that_rounding_has_bent_becomes_one_again() -> None:
     assert np.linalg.norm(straight - bent) < np.linalg.norm(rotation - bent)
 
 
-
 @pytest.mark.parametrize("direction", [(0, 0, 1), (1, 0, 0), (1, -2, 3)])
 def test_opposite_directions_are_half_a_turn_apart(direction: tuple[float, float, float]) -> None:
     rotation = rotation_between(direction, np.negative(direction))
