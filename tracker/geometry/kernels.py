@@ -44,8 +44,8 @@ def turn_by(rotation, w):
 def _factor(a, ridge, lower, d):
     """Cholesky factor of a symmetric positive definite matrix (n, n), scaled to a unit diagonal by `d` (n,).
 
-    False where it is not positive. `ridge` is added to that diagonal. Scaled, because mm and radians differ by
-    orders of magnitude.
+    False where it is not positive. `ridge` is added to that diagonal. Scaled, because mm and radians differ
+    by orders of magnitude.
     """
     n = len(d)
     for i in range(n):

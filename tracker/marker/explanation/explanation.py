@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from tracker.camera.blur.kernels import axes_of
 from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import PART_CONTRAST, Mask, covered, weights_beside_a_cover
@@ -224,8 +225,8 @@ def _to_px(h: Array, corners: Array) -> Array:
 
 
 def _blur_px(blur: Array, field_px: float) -> tuple[float, float]:
-    mean, half = 0.5 * float(blur[0] + blur[1]), float(np.hypot(0.5 * (blur[0] - blur[1]), blur[2]))
-    least, most = (float(np.sqrt(max(one - SPREAD, 0.0))) for one in (mean - half, mean + half))
+    larger, smaller, _, _ = axes_of(blur[0], blur[1], blur[2])
+    least, most = (float(np.sqrt(max(one - SPREAD, 0.0))) for one in (smaller, larger))
     return least * field_px, most * field_px
 
 

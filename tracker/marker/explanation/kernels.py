@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tracker.camera.blur.kernels import axes_of, keep_within, level_of
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
 from tracker.marker.kernels import sample_square, square_to_quad
@@ -40,13 +41,9 @@ def _taps(blur, blurs, weights):
     """
     weights[:, :] = 0.0
     middle = len(weights) // 2
-    mean, half = 0.5 * (blur[0] + blur[1]), np.sqrt((0.5 * (blur[0] - blur[1])) ** 2 + blur[2] ** 2)
-    larger, smaller = mean + half, max(mean - half, 1e-6)
-    angle = 0.5 * np.arctan2(2.0 * blur[2], blur[0] - blur[1])
-    ex, ey = np.cos(angle), np.sin(angle)
-    level = 0
-    while level < len(blurs) - 1 and blurs[level] * blurs[level + 1] < smaller:
-        level += 1
+    larger, smaller, ex, ey = axes_of(blur[0], blur[1], blur[2])
+    smaller = max(smaller, 1e-6)
+    level = level_of(smaller, blurs)
     has = blurs[level] ** 2
     more = larger - smaller
     across = smaller - has
@@ -184,13 +181,7 @@ def _step(corners, blur, step, field_px):
         blur[k] += min(max(step[6 + k], -0.5 * wide - 0.3), wide + 0.3)
     least = SPREAD + (LEAST_BLUR_PX / field_px) ** 2
     most = SPREAD + (MOST_BLUR_PX / field_px) ** 2
-    mean, half = 0.5 * (blur[0] + blur[1]), np.sqrt((0.5 * (blur[0] - blur[1])) ** 2 + blur[2] ** 2)
-    larger, smaller = min(max(mean + half, least), most), min(max(mean - half, least), most)
-    angle = 0.5 * np.arctan2(2.0 * blur[2], blur[0] - blur[1])
-    ex, ey = np.cos(angle), np.sin(angle)
-    blur[0] = larger * ex * ex + smaller * ey * ey
-    blur[1] = larger * ey * ey + smaller * ex * ex
-    blur[2] = (larger - smaller) * ex * ey
+    keep_within(blur, least, most)
     changed = np.abs(blur - before).max() / wide
     return far > SETTLED_FIELDS or changed > SETTLED_BLUR
 
