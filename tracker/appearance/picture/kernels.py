@@ -7,11 +7,12 @@ import numpy as np
 from tracker.camera.blur.kernels import axes_of, level_of
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
+from tracker.marker.model import PAPER_RATIO
 
 MOST_TAPS = 13
 BRIGHTEST = 254
-# White paper around the square, in sides; what is seen beyond so many sd of the blur is not mixed in.
-PAPER_RATIO, FAR_SDS = 0.2, 4.0
+# What lies beyond the paper, so many sd of the blur away, is not mixed in.
+FAR_SDS = 4.0
 STRAIGHT_PX = 4
 
 

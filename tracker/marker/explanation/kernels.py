@@ -5,7 +5,8 @@ import numpy as np
 from tracker.camera.blur.kernels import axes_of, keep_within, level_of
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
-from tracker.marker.kernels import sample_square, square_to_quad
+from tracker.marker.kernels import sample_square
+from tracker.marker.model import PAPER_RATIO
 
 FIELDS, RING = 24, 3  # fields a side of the square, and of its white paper around it
 WIDE = FIELDS + 2 * RING
@@ -22,14 +23,14 @@ LEAST_BLUR_PX, MOST_BLUR_PX = 0.3, 4.5
 SETTLED_FIELDS, SETTLED_BLUR = 0.01, 0.02
 # Fewer fields than this are like anything.
 LEAST_COUNT = 40
-# White paper around the square, in sides; what lies so many sd of the blur away is a thirtieth of a field.
-PAPER_RATIO, FAR_SDS = 0.2, 1.85
+# What lies beyond the paper, so many sd of the blur away, is a thirtieth of a field.
+FAR_SDS = 1.85
 LEAST_WEIGHT = 1e-3
 
 
 @compiled
 def u_of(c):
-    """Where a column (or a row) of fields lies, -1..1 over the square."""
+    """Where a column (or a row) of fields lies: its middle, -1..1 over the square."""
     return (c - 0.5 * (WIDE - 1)) * (2.0 / FIELDS)
 
 
@@ -279,14 +280,6 @@ def clear_of_beyond(blur, clear):
     for r in range(WIDE):
         for c in range(WIDE):
             clear[r, c] = abs(u_of(c)) < most_u and abs(u_of(r)) < most_v
-
-
-@compiled
-def unit_to_px(corners):
-    """The homography (8,) from the unit square to four corners (4, 2)."""
-    h = np.empty(8)
-    square_to_quad(corners, h)
-    return h
 
 
 @compiled
