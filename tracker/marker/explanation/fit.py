@@ -21,7 +21,7 @@ from tracker.marker.explanation.kernels import (
 )
 from tracker.marker.explanation.light import contrasts, grid, smooth_light
 from tracker.marker.explanation.pictures import Pictures
-from tracker.marker.kernels import square_to_quad
+from tracker.marker.sampling.kernels import square_to_quad
 
 # Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
 FIRST_BLUR_PX = 0.8

@@ -5,8 +5,8 @@ import numpy as np
 from tracker.camera.blur.kernels import axes_of, keep_within, level_of
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
-from tracker.marker.kernels import sample_square
 from tracker.marker.model import PAPER_RATIO
+from tracker.marker.sampling.kernels import sample_square
 
 FIELDS, RING = 24, 3  # fields a side of the square, and of its white paper around it
 WIDE = FIELDS + 2 * RING
