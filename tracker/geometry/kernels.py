@@ -113,6 +113,16 @@ def turn_between(a, b):
 
 
 @compiled
+def could_be_tilted(squares, squared_area, least_ratio):
+    """Whether two sides of a parallelogram could be those of a square, squashed to no less than this.
+
+    `squares`: the sum of their squared lengths. The ratio of its singular values is the cosine of the tilt.
+    """
+    root = np.sqrt(max(squares * squares - 4.0 * squared_area, 0.0))
+    return squares - root > least_ratio * least_ratio * (squares + root)
+
+
+@compiled
 def pose_rows(matrix, ridge):
     """The first six rows (6, n) of the inverse of a positive matrix (n, n), and False where it has none.
 
