@@ -19,6 +19,7 @@ from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
 from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
+from tracker.marker.sampling.kernels import through
 
 FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 3, 6, 4, 3
 LEAST_HOPE = 0.55
@@ -211,17 +212,11 @@ def _explanation(fit: Fit) -> Explanation:
         hidden_ratio=1.0 - float(visible[inside_square()].mean()),
         inner_hidden_ratio=1.0 - float(visible[shape].mean()),
         inside_ratio=inside / FIELDS**2,
-        corners_px=_to_px(fit.to_px, fit.corners),
+        corners_px=np.array([through(fit.to_px, a, b) for a, b in fit.corners]),
         moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
         under_highlights=fit.light.shape[1] > MOST_SMOOTH_TERMS,
         blur_px=_blur_px(fit.blur, fit.field_px),
     )
-
-
-def _to_px(h: Array, corners: Array) -> Array:
-    a, b = corners[:, 0], corners[:, 1]
-    w = h[6] * a + h[7] * b + 1.0
-    return np.stack([(h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w], axis=1)
 
 
 def _blur_px(blur: Array, field_px: float) -> tuple[float, float]:

@@ -6,7 +6,7 @@ from tracker.camera.blur.kernels import axes_of, keep_within, level_of
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
 from tracker.marker.model import PAPER_RATIO
-from tracker.marker.sampling.kernels import sample_square
+from tracker.marker.sampling.kernels import sample_square, through
 
 FIELDS, RING = 24, 3  # fields a side of the square, and of its white paper around it
 WIDE = FIELDS + 2 * RING
@@ -111,8 +111,7 @@ def sample_fields(image, h, corners):
     for k in range(4):
         a = mu + (corners[k, 0] - mu) * (WIDE / FIELDS)
         b = mv + (corners[k, 1] - mv) * (WIDE / FIELDS)
-        w = h[6] * a + h[7] * b + 1.0
-        px[k, 0], px[k, 1] = (h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w
+        px[k, 0], px[k, 1] = through(h, a, b)
     return sample_square(image, px, WIDE, SAMPLES)
 
 

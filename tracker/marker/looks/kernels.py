@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.marker.sampling.kernels import even_light, sample_quads, square_to_quad
+from tracker.marker.sampling.kernels import even_light, sample_quads, square_to_quad, through
 
 BLOCK = 64
 # The unknowns of a step: the picture's gain and offset, and two for each corner.
@@ -160,6 +160,8 @@ def _factor(basis, cover, damping, stiffness, matrix):
     """Cholesky factor, the lower half, of the damped normal matrix of the cells that a cover leaves.
 
     What makes a parallelogram another shape is damped more, by the stiffness: perspective does little of it.
+    Not `solve_positive`: one factor serves all steps to the same picture and cover, damping makes it
+    positive, and it needs no scaling, as all but two of the unknowns are sides.
     """
     matrix[:] = 0.0
     for i in range(len(basis)):
@@ -222,8 +224,7 @@ def _move_back(quad, off):
     for k in range(4):
         a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MOST_STEP_SIDES), MOST_STEP_SIDES)
         b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MOST_STEP_SIDES), MOST_STEP_SIDES)
-        w = h[6] * a + h[7] * b + 1.0
-        moved[k, 0], moved[k, 1] = (h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w
+        moved[k, 0], moved[k, 1] = through(h, a, b)
     quad[:] = moved
 
 

@@ -1,1 +1,1 @@
-"""What an image shows inside an outline, cell by cell. Only compiled loops: by which homography, in what light."""
+"""What an image shows inside an outline, cell by cell, and the same in even light. Only compiled loops."""

@@ -20,6 +20,13 @@ def square_to_quad(quad, h):
 
 
 @compiled
+def through(h, a, b):
+    """Where a homography (8,) takes a point (a, b)."""
+    w = h[6] * a + h[7] * b + 1.0
+    return (h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w
+
+
+@compiled
 def sample_quads(image, quads, cells, ring):
     """Grey (q, n * n) at n = cells + 2 ring points a side of each outline, `ring` of them beyond."""
     height, width = image.shape
@@ -30,10 +37,8 @@ def sample_quads(image, quads, cells, ring):
         square_to_quad(quads[q], h)
         for r in range(n):
             for c in range(n):
-                a, b = (c - ring + 0.5) / cells, (r - ring + 0.5) / cells
-                w = h[6] * a + h[7] * b + 1.0
-                u = min(max((h[0] * a + h[1] * b + h[2]) / w, 0.0), width - 1.001)
-                v = min(max((h[3] * a + h[4] * b + h[5]) / w, 0.0), height - 1.001)
+                u, v = through(h, (c - ring + 0.5) / cells, (r - ring + 0.5) / cells)
+                u, v = min(max(u, 0.0), width - 1.001), min(max(v, 0.0), height - 1.001)
                 iu, iv = int(u), int(v)
                 fu, fv = np.float32(u - iu), np.float32(v - iv)
                 upper = image[iv, iu] + fu * (np.float32(image[iv, iu + 1]) - image[iv, iu])
@@ -52,10 +57,8 @@ def sample_square(image, corners, fields, samples):
     n = fields * samples
     for r in range(n):
         for c in range(n):
-            a, b = (c + 0.5) / n, (r + 0.5) / n
-            w = h[6] * a + h[7] * b + 1.0
-            u = min(max((h[0] * a + h[1] * b + h[2]) / w, 0.0), width - 1.001)
-            v = min(max((h[3] * a + h[4] * b + h[5]) / w, 0.0), height - 1.001)
+            u, v = through(h, (c + 0.5) / n, (r + 0.5) / n)
+            u, v = min(max(u, 0.0), width - 1.001), min(max(v, 0.0), height - 1.001)
             iu, iv = int(u), int(v)
             fu, fv = u - iu, v - iv
             upper = (1 - fu) * image[iv, iu] + fu * image[iv, iu + 1]
