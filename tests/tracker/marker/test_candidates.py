@@ -22,6 +22,7 @@ from tracker.geometry import Array
 from tracker.marker import Candidate, MarkerModel, candidate_rounds, templates_of
 from tracker.marker import kernels as marker_loops
 from tracker.marker.looks import kernels as looks_loops
+from tracker.marker.sampling import kernels as sampling_loops
 from tracker.outlines import kernels as outlines_loops
 from tracker.regions import kernels as regions_loops
 from tracker.regions.borders import kernels as borders_loops
@@ -182,7 +183,10 @@ def test_after_the_warm_up_a_search_compiles_nothing() -> None:
     def versions() -> dict[str, int]:
         return {
             f"{room.__name__}.{name}": len(loop.signatures)
-            for room in (borders_loops, edges_loops, looks_loops, marker_loops, outlines_loops, regions_loops)
+            for room in (
+                *(borders_loops, edges_loops, looks_loops, marker_loops),
+                *(outlines_loops, regions_loops, sampling_loops),
+            )
             for name, loop in vars(room).items()
             if hasattr(loop, "signatures")
         }
