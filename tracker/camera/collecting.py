@@ -123,6 +123,10 @@ class BoardCollector:
         self._taken.append(view)
         return Judgement.TAKEN
 
+    def keep(self, object_points_mm: Array, image_points_px: Array) -> None:
+        """Count a view that was chosen by somebody, as it is: points (n, 3) of the board and (n, 2) px."""
+        self._taken.append(self._view(object_points_mm, image_points_px))
+
     def lose(self) -> None:
         """The board was not seen: whether it holds still has to be seen anew."""
         self._before = None
