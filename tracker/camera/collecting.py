@@ -16,7 +16,7 @@ NOMINAL_FOCAL_BY_WIDTH = 1.2
 # How far apart two views are that count as different: in the image, in tilt, in size.
 APART_BY_WIDTH, APART_TILT_DEG, APART_LOG_SIZE = 0.15, 8.0, 0.2
 # Beyond this the board was seen too long ago to say whether it holds still.
-STILL_WITHIN_S = 1.0
+STILL_WITHIN_S = 2.5
 LEAST_POINTS = 6
 
 
