@@ -36,12 +36,14 @@ class CollectingSettings:
 
     Attributes:
         most_speed_px_s: how fast the board's points may move in an image of 1280 px; wider images allow more.
+        most_moved_px: how far, at most, between two looks.
         least_views: how many there must be.
         least_coverage_ratio: how much of the image the board must have been in.
         least_tilt_deg: how far it must have been tilted to every side.
     """
 
     most_speed_px_s: float = 25.0
+    most_moved_px: float = 4.0
     least_views: int = 12
     least_coverage_ratio: float = 0.75
     least_tilt_deg: float = 20.0
@@ -112,10 +114,13 @@ class BoardCollector:
         """
         if len(ids) < LEAST_POINTS:
             return Judgement.TOO_FEW_POINTS
-        speed_px_s = self._speed_px_s(ids, image_points_px, captured_at_s)
-        if speed_px_s is None:
+        moved = self._moved(ids, image_points_px, captured_at_s)
+        if moved is None:
             return Judgement.FIRST_SIGHT
-        if speed_px_s > self.settings.most_speed_px_s * max(1.0, self.size_wh_px[0] / 1280.0):
+        moved_px, since_s = moved
+        wider = max(1.0, self.size_wh_px[0] / 1280.0)
+        # Two looks far apart say little of the speed in between: then it must be where it was.
+        if moved_px > wider * min(self.settings.most_speed_px_s * since_s, self.settings.most_moved_px):
             return Judgement.MOVING
         view = self._view(object_points_mm, image_points_px)
         if not self._new(view):
@@ -145,18 +150,18 @@ class BoardCollector:
             missing=tuple(self._missing(covered, least, most)),
         )
 
-    def _speed_px_s(
+    def _moved(
         self, ids: npt.NDArray[np.int64], image_points_px: Array, captured_at_s: float
-    ) -> float | None:
-        """How fast the points move since the image before; None when there is none to compare with."""
+    ) -> tuple[float, float] | None:
+        """How far the points moved since the image before, px and s; None where there is none to compare."""
         now = {int(point): px for point, px in zip(ids, image_points_px, strict=True)}
         before, self._before = self._before, (captured_at_s, now)
         if before is None or not 0.0 < captured_at_s - before[0] <= STILL_WITHIN_S:
             return None
-        moved = [hypot(*(px - before[1][point])) for point, px in now.items() if point in before[1]]
-        if len(moved) < LEAST_POINTS:
+        moved_px = [hypot(*(px - before[1][point])) for point, px in now.items() if point in before[1]]
+        if len(moved_px) < LEAST_POINTS:
             return None
-        return float(np.median(moved)) / (captured_at_s - before[0])
+        return float(np.median(moved_px)), captured_at_s - before[0]
 
     def _view(self, object_points_mm: Array, image_points_px: Array) -> _View:
         width, height = self.size_wh_px

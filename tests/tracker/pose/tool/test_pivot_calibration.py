@@ -133,7 +133,9 @@ def refused(poses: Poses) -> CalibrationError:
     ("hand", "code"),
     [
         pytest.param(Hand(tilts_deg=(40.0, 0.0), spin_deg=0.0), "PIVOT_TILT_TOO_SMALL", id="one-plane"),
-        pytest.param(Hand(tilts_deg=(40.0, 3.0), spin_deg=3.0), "PIVOT_TILT_TOO_SMALL", id="nearly-one-plane"),
+        pytest.param(
+            Hand(tilts_deg=(40.0, 3.0), spin_deg=3.0), "PIVOT_TILT_TOO_SMALL", id="nearly-one-plane"
+        ),
         pytest.param(Hand(tilts_deg=(0.0, 0.0), spin_deg=180.0), "PIVOT_TILT_TOO_SMALL", id="spun-only"),
         pytest.param(Hand(tilts_deg=(5.0, 5.0), spin_deg=5.0), "PIVOT_TILT_TOO_SMALL", id="hardly-moved"),
         pytest.param(
@@ -176,7 +178,9 @@ def test_one_lone_tilted_pose_among_many_in_one_plane_does_not_pass() -> None:
     rotation = rotation_from_vector([0.0, 0.5, 0.3]) @ made.poses.rotations[0]
     lone = Poses(
         rotations=np.concatenate([made.poses.rotations, rotation[None]]),
-        translations_mm=np.concatenate([made.poses.translations_mm, [made.pivot_mm - rotation @ made.tip_mm]]),
+        translations_mm=np.concatenate(
+            [made.poses.translations_mm, [made.pivot_mm - rotation @ made.tip_mm]]
+        ),
     )
     assert refused(lone).code == "PIVOT_TILT_TOO_SMALL"
 
