@@ -161,7 +161,8 @@ class BoardCollector:
         moved_px = [hypot(*(px - before[1][point])) for point, px in now.items() if point in before[1]]
         if len(moved_px) < LEAST_POINTS:
             return None
-        return float(np.median(moved_px)), captured_at_s - before[0]
+        # Nearly the farthest: a board that is tilted in place moves at its rim alone.
+        return float(np.quantile(moved_px, 0.9)), captured_at_s - before[0]
 
     def _view(self, object_points_mm: Array, image_points_px: Array) -> _View:
         width, height = self.size_wh_px
