@@ -35,7 +35,7 @@ def browser() -> Iterator[Browser]:
 
 
 def pytest_configure() -> None:
-    """Cases of tests never come among those of people: a test that starts a server names a folder of its own."""
+    """Cases of tests never come among those of people: who starts a server names a folder of its own."""
     os.environ["COAXIAL_HOME"] = os.devnull
 
 
