@@ -44,16 +44,16 @@ def job_message(job: Job) -> JobMessage:
 
 
 def jobs_router(jobs: Jobs) -> APIRouter:
-    """Everything under `/api/jobs`."""
+    """Everything under `/api/jobs`. Plain functions: they may wait for a process that is being started."""
     router = APIRouter(prefix="/api/jobs", tags=["jobs"])
 
     @router.get("")
-    async def all_jobs() -> JobsMessage:
+    def all_jobs() -> JobsMessage:
         """All jobs that are remembered, the newest first."""
         return JobsMessage(jobs=[job_message(job) for job in jobs.list()])
 
     @router.get("/{job_id}", responses=refusals(404))
-    async def job(job_id: str) -> JobMessage:
+    def job(job_id: str) -> JobMessage:
         """How far a job is, and what came out of it."""
         return job_message(jobs.get(job_id))
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from anyio import to_thread
 from fastapi import Request
+from starlette.requests import ClientDisconnect
 
 from server.store import Home, told
 from tracker.errors import InvalidInput
@@ -19,7 +20,7 @@ async def received(request: Request, home: Home, *, most_bytes: int) -> AsyncIte
     """The body of a request as a file, which is gone at the end of the block.
 
     Raises:
-        InvalidInput: UPLOAD_TOO_LARGE (HTTP 413), UPLOAD_EMPTY.
+        InvalidInput: UPLOAD_TOO_LARGE (HTTP 413), UPLOAD_EMPTY, UPLOAD_CUT.
         StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
     """
     _refuse_above(_announced_bytes(request), most_bytes)
@@ -44,6 +45,13 @@ async def _write(request: Request, path: Path, home: Home, *, most_bytes: int) -
                     await to_thread.run_sync(stream.write, waiting)
                     waiting = bytearray()
             await to_thread.run_sync(stream.write, waiting)
+        except ClientDisconnect:
+            raise InvalidInput(
+                "UPLOAD_CUT",
+                f"the connection ended after {taken_bytes / 2**20:.1f} MB",
+                "Send it again; nothing of it was kept.",
+                {"taken_bytes": taken_bytes},
+            ) from None
         finally:
             await to_thread.run_sync(stream.close)
     if not taken_bytes:

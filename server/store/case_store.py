@@ -235,7 +235,7 @@ class CaseStore:
         return files.new_file(self._ledger, case_id, suffix)
 
     def file(self, case_id: str, file_id: str) -> StoredFile:
-        """One file."""
+        """One file; StoreError FILE_DAMAGED if it is missing on the disk."""
         with self._ledger.reading() as session:
             return files.find_file(self._ledger, session, case_id, file_id)
 

@@ -140,12 +140,26 @@ def find_file(ledger: Ledger, session: Session, case_id: str, file_id: str) -> S
 
     Raises:
         NotStored: CASE_UNKNOWN, FILE_UNKNOWN.
+        StoreError: FILE_DAMAGED, it is missing on the disk.
     """
     case_row(session, case_id)
     row = session.get(FileRow, (case_id, file_id))
     if row is None or row.state != WHOLE:
         raise file_unknown(case_id, file_id)
-    return file_of(ledger, row)
+    file = file_of(ledger, row)
+    if not file.path.exists():
+        raise file_damaged(file, "it is missing")
+    return file
+
+
+def file_damaged(file: StoredFile, why: str) -> StoreError:
+    """The error for a file that is not as it was stored."""
+    return StoreError(
+        "FILE_DAMAGED",
+        f"the file {file.id} of the case {file.case_id} is not as it was stored: {why}",
+        "Put the file back from a copy; until then nothing that needs it can be done.",
+        {"case_id": file.case_id, "file_id": file.id},
+    )
 
 
 def all_files(ledger: Ledger, session: Session, case_id: str) -> tuple[StoredFile, ...]:

@@ -1,7 +1,7 @@
 """Whether a document still holds: nothing that it stands on was replaced or withdrawn."""
 
-from collections import deque
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
@@ -11,39 +11,48 @@ from server.store.records import Current, DocumentKind, Heading, OutOfDate, Stan
 from server.store.tables import BasisRow, DocumentRow
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Fault:
+    """Why a document does not hold: the nearest document on its way that was replaced or withdrawn."""
+
+    steps: int
+    title: str
+    what: str
+
+
 class Lineage:
-    """Documents of one case with everything that they stand on."""
+    """Documents of one case with everything that they stand on, each after those that it stands on."""
 
     def __init__(self, headings: Sequence[Heading], newest: Mapping[tuple[DocumentKind, str], int]) -> None:
         self.headings = {heading.id: heading for heading in headings}
         self._newest = newest
+        self._faults: dict[str, _Fault] = {}
+        for heading in headings:
+            fault = self._own_fault(heading) or self._inherited_fault(heading)
+            if fault is not None:
+                self._faults[heading.id] = fault
 
     def standing(self, document_id: str) -> Standing:
-        """Whether a document holds; the reason is the one nearest to it."""
-        reached = {document_id}
-        waiting: deque[tuple[str, tuple[str, ...]]] = deque([(document_id, ())])
-        while waiting:
-            current, path = waiting.popleft()
-            heading = self.headings[current]
-            fault = self._fault(heading)
-            if fault:
-                return OutOfDate(reason=_sentence(heading, path, fault))
-            for basis in heading.stands_on:
-                if basis not in reached:
-                    reached.add(basis)
-                    waiting.append((basis, (*path, current)))
-        return Current()
+        """Whether a document holds."""
+        fault = self._faults.get(document_id)
+        if fault is None:
+            return Current()
+        way = "" if fault.steps == 0 else "it stands on "
+        return OutOfDate(reason=f"{way}{fault.title}{', which' if way else ''} {fault.what}")
 
-    def _fault(self, heading: Heading) -> str:
-        """What is wrong with this very document, empty if nothing."""
+    def _own_fault(self, heading: Heading) -> _Fault | None:
         if heading.withdrawn is not None:
-            return f"was withdrawn by {heading.withdrawn.by}: {heading.withdrawn.reason}"
+            what = f"was withdrawn by {heading.withdrawn.by}: {heading.withdrawn.reason}"
+            return _Fault(steps=0, title=heading.title, what=what)
         newest = self._newest[heading.kind, heading.name]
-        return f"was replaced by version {newest}" if newest > heading.version else ""
+        if newest > heading.version:
+            return _Fault(steps=0, title=heading.title, what=f"was replaced by version {newest}")
+        return None
 
-
-def _sentence(heading: Heading, path: tuple[str, ...], fault: str) -> str:
-    return f"{heading.title} {fault}" if not path else f"it stands on {heading.title}, which {fault}"
+    def _inherited_fault(self, heading: Heading) -> _Fault | None:
+        faults = [self._faults[basis] for basis in heading.stands_on if basis in self._faults]
+        nearest = min(faults, key=lambda fault: fault.steps, default=None)
+        return None if nearest is None else replace(nearest, steps=nearest.steps + 1)
 
 
 def lineage_of(session: Session, case_id: str, document_id: str | None = None) -> Lineage:

@@ -24,8 +24,8 @@ from server.store.archive.form import (
 )
 from server.store.cases import case_of, case_row
 from server.store.documents import every_document
-from server.store.errors import StoreError, told
-from server.store.files import CHUNK_BYTES, all_files
+from server.store.errors import told
+from server.store.files import CHUNK_BYTES, all_files, file_damaged
 from server.store.ledger import Ledger
 from server.store.records import Case, Document, DocumentKind, StoredFile
 
@@ -102,21 +102,12 @@ def _write_all(
         writer.write(DOCUMENTS, lines)
     for file in files:
         if not file.path.exists():
-            raise _damaged(file, "it is missing")
+            raise file_damaged(file, "it is missing")
         part = writer.write(f"{FILES}{file.id}", _pieces(file.path), expected_bytes=file.size_bytes)
         if part.sha256 != file.sha256:
-            raise _damaged(file, "its SHA-256 differs")
+            raise file_damaged(file, "its SHA-256 differs")
     manifest = ManifestForm(format=FORMAT, version=VERSION, made_at=ledger.now, parts=writer.parts)
     archive.writestr(MANIFEST, manifest.model_dump_json(indent=1))
-
-
-def _damaged(file: StoredFile, why: str) -> StoreError:
-    return StoreError(
-        "FILE_DAMAGED",
-        f"the file {file.id} of the case {file.case_id} is not as it was stored: {why}",
-        "Put the file back from a copy; until then the case cannot be copied out.",
-        {"case_id": file.case_id, "file_id": file.id},
-    )
 
 
 def _case_text(case: Case, files: tuple[StoredFile, ...], *, with_identity: bool) -> bytes:

@@ -150,7 +150,9 @@ def test_damage_is_found_and_told(door: TestClient, store: CaseStore) -> None:
     store.file(case_id, file_id).path.unlink()
     (damage,) = door.post(f"{path}/verification").json()["damages"]
     assert (damage["problem"], damage["documents"]) == ("missing", ["ct 'main' version 1"])
-    assert door.get(f"{path}/archive").json()["code"] == "FILE_DAMAGED"
+    for asked in ("archive", f"files/{file_id}"):
+        answer = door.get(f"{path}/{asked}")
+        assert (answer.status_code, answer.json()["code"]) == (503, "FILE_DAMAGED")
 
 
 @pytest.mark.parametrize(
