@@ -4,7 +4,7 @@ What a file says of the patient (name, date of birth, number) is compared and th
 message, warning or log line here holds it, nor any name of a file or folder.
 """
 
-from server.imaging.ct import Ct, LeftOut, Progress, SeriesDescription
+from server.imaging.ct import Ct, FirstSlice, LeftOut, Progress, SeriesDescription
 from server.imaging.read import list_series, read_ct
 
-__all__ = ["Ct", "LeftOut", "Progress", "SeriesDescription", "list_series", "read_ct"]
+__all__ = ["Ct", "FirstSlice", "LeftOut", "Progress", "SeriesDescription", "list_series", "read_ct"]

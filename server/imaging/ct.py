@@ -4,14 +4,33 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
 from tracker.plan import Volume
+from tracker.plan.slices import Slice
 
 # Called with how much is done and of how much, as often as something was done.
 Progress: TypeAlias = Callable[[int, int], None]
 
 
+# Called once with a slice from the middle of the CT, as soon as it is read and long before the others are.
+FirstSlice: TypeAlias = Callable[[Slice], None]
+
+
 def unheard(_done: int, _of: int) -> None:
     """The progress that nobody asked for."""
+
+
+def unseen(_slice: Slice) -> None:
+    """The first slice that nobody asked for."""
+
+
+def scanned_slice(hu: npt.NDArray[np.int16], lps_from_ijk: Array, k: int) -> Slice:
+    """A slice as it was scanned, hu (rows, columns), before the volume is complete."""
+    affine = np.column_stack([lps_from_ijk[:3, 0], lps_from_ijk[:3, 1], (lps_from_ijk @ [0, 0, k, 1])[:3]])
+    return Slice(hu=hu.copy(), lps_from_px=affine)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

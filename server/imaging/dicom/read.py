@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from server.imaging.container import Container
-from server.imaging.ct import Ct, Progress, SeriesDescription
+from server.imaging.ct import Ct, FirstSlice, Progress, SeriesDescription, scanned_slice
 from server.imaging.dicom.agreement import check_agreement, said_of
 from server.imaging.dicom.frame import Frame
 from server.imaging.dicom.hounsfield import hounsfield
@@ -24,7 +24,9 @@ def list_dicom(container: Container, progress: Progress) -> tuple[SeriesDescript
     return describe(frames_by_series(container, progress))
 
 
-def read_dicom(container: Container, *, series: str | None, progress: Progress, into: Path | None) -> Ct:
+def read_dicom(
+    container: Container, *, series: str | None, progress: Progress, first: FirstSlice, into: Path | None
+) -> Ct:
     """The series that was asked for, or the only CT, as Hounsfield units in LPS mm."""
     found = frames_by_series(container, lambda _done, _of: None)
     every = [frame for frames in found.values() for frame in frames]
@@ -40,7 +42,7 @@ def read_dicom(container: Container, *, series: str | None, progress: Progress, 
         size_wh_px=(columns, rows),
     )
     with voxels_to_fill((len(stack.slices), rows, columns), into) as voxels:
-        beyond = _fill(voxels, frames, stack, progress)
+        beyond = _fill(voxels, frames, stack, progress, first)
     description = next(one for one in describe(found) if one.series == frames[0].shared.series)
     warnings = [*said_of(frames, stack, beyond), *said_of_values(voxels.hu)]
     if len(found) > 1:
@@ -54,13 +56,16 @@ def read_dicom(container: Container, *, series: str | None, progress: Progress, 
     )
 
 
-def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress) -> int:
+def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress, first: FirstSlice) -> int:
     """Reads every slice to its place; gives how many values were beyond what is kept."""
     place = {index: k for k, members in enumerate(stack.slices) for index in members}
+    middle = len(stack.slices) // 2
+    order = sorted(place, key=lambda index: (place[index] != middle, place[index]))
     written: set[int] = set()
     differing: Counter[int] = Counter()
     beyond = 0
-    for done, (index, image) in enumerate(stored_images(frames), start=1):
+    for done, (at, image) in enumerate(stored_images([frames[index] for index in order]), start=1):
+        index = order[at]
         hu, lost = hounsfield(image, frames[index])
         k = place[index]
         if k in written:
@@ -68,6 +73,8 @@ def _fill(voxels: Voxels, frames: list[Frame], stack: Stack, progress: Progress)
         else:
             voxels.hu[k] = hu
             beyond += lost
+        if done == 1:
+            first(scanned_slice(voxels.hu[k], stack.lps_from_ijk, k))
         written.add(k)
         progress(done, len(frames))
     places = sum(count > 0 for count in differing.values())

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from nibabel.arrayproxy import ArrayProxy
 
 from server.imaging.container import Entry
-from server.imaging.ct import Ct, Progress, SeriesDescription
+from server.imaging.ct import Ct, FirstSlice, Progress, SeriesDescription, scanned_slice
 from server.imaging.nifti.header import (
     BAD_NIFTI,
     CONVERT_AGAIN,
@@ -51,7 +51,7 @@ def _described(header: NiftiHeader, entry: Entry) -> SeriesDescription:
     )
 
 
-def read_nifti(entry: Entry, *, progress: Progress, into: Path | None) -> Ct:
+def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Path | None) -> Ct:
     """A NIfTI file as Hounsfield units in LPS mm; its axes stay, and the affine tells their directions.
 
     Raises:
@@ -62,7 +62,7 @@ def read_nifti(entry: Entry, *, progress: Progress, into: Path | None) -> Ct:
     with voxels_to_fill((slices, rows, columns), into) as voxels:
         try:
             with unpacked(entry) as file:
-                missing, beyond = _fill(voxels, header, file, progress)
+                missing, beyond = _fill(voxels, header, file, progress, first)
                 file.read(1)  # The end of a packed file holds a checksum of all of it.
         except BAD_NIFTI:
             raise damaged(entry, f"it does not hold its {columns} x {rows} x {slices} voxels") from None
@@ -83,18 +83,22 @@ def read_nifti(entry: Entry, *, progress: Progress, into: Path | None) -> Ct:
     )
 
 
-def _fill(voxels: Voxels, header: NiftiHeader, file: IO[bytes], progress: Progress) -> tuple[int, int]:
+def _fill(
+    voxels: Voxels, header: NiftiHeader, file: IO[bytes], progress: Progress, first: FirstSlice
+) -> tuple[int, int]:
     """Reads all slices in order; gives how many voxels were no numbers, and how many beyond what is kept."""
     slices = header.shape_ijk[2]
     stored = ArrayProxy(file, (header.shape_ijk, header.stored, header.offset, 1.0, 0.0), mmap=False)
     missing = beyond = 0
-    for first in range(0, slices, AT_ONCE):
-        some = np.asarray(stored[:, :, first : first + AT_ONCE]).transpose(2, 1, 0)
+    for start in range(0, slices, AT_ONCE):
+        some = np.asarray(stored[:, :, start : start + AT_ONCE]).transpose(2, 1, 0)
         hu, lacking, lost = _hounsfield(some, header)
-        voxels.hu[first : first + AT_ONCE] = hu
+        voxels.hu[start : start + AT_ONCE] = hu
+        if start <= slices // 2 < start + AT_ONCE:
+            first(scanned_slice(voxels.hu[slices // 2], header.place.lps_from_ijk, slices // 2))
         missing += lacking
         beyond += lost
-        progress(min(first + AT_ONCE, slices), slices)
+        progress(min(start + AT_ONCE, slices), slices)
     return missing, beyond
 
 

@@ -1,5 +1,6 @@
 """Builders of CT files whose every voxel and place is known."""
 
+import copy
 import io
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -86,8 +87,7 @@ def made_ct(
 
 def file_of(slice_: Dataset, syntax: str = ExplicitVRLittleEndian) -> bytes:
     """The bytes of the file that holds this slice."""
-    one = Dataset()
-    one.update(slice_)
+    one = copy.deepcopy(slice_)
     one.file_meta = FileMetaDataset()
     one.file_meta.MediaStorageSOPClassUID = one.get("SOPClassUID", CTImageStorage)
     one.file_meta.MediaStorageSOPInstanceUID = one.get("SOPInstanceUID", generate_uid())
@@ -105,8 +105,7 @@ def file_of(slice_: Dataset, syntax: str = ExplicitVRLittleEndian) -> bytes:
 def compressed(slice_: Dataset, syntax: str) -> bytes:
     """The pixels of a slice as one compressed image."""
     if syntax == RLELossless:
-        one = Dataset()
-        one.update(slice_)
+        one = copy.deepcopy(slice_)
         one.file_meta = FileMetaDataset()
         one.file_meta.TransferSyntaxUID = ExplicitVRLittleEndian
         one.compress(RLELossless, encoding_plugin="pydicom")
@@ -141,8 +140,7 @@ def compressed(slice_: Dataset, syntax: str) -> bytes:
 
 def enhanced_of(made: Made) -> Dataset:
     """The same slices as one enhanced file of many frames, last frame first."""
-    one = Dataset()
-    one.update(made.slices[0])
+    one = copy.deepcopy(made.slices[0])
     for keyword in (
         "ImagePositionPatient",
         "ImageOrientationPatient",

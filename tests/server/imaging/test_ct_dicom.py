@@ -9,6 +9,7 @@ from pydicom import uid
 
 from server.imaging import list_series, read_ct
 from tests.server.imaging.made_ct import Made, enhanced_of, file_of, made_ct
+from tracker.plan.slices import Slice
 
 LOSSLESS = [
     uid.ImplicitVRLittleEndian,
@@ -194,6 +195,21 @@ def test_progress_ends_with_all_slices(tmp_path: Path) -> None:
     heard: list[tuple[int, int]] = []
     read_ct(made_ct().write(tmp_path), progress=lambda done, of: heard.append((done, of)))
     assert heard == [(done, 5) for done in range(1, 6)]
+
+
+@pytest.mark.parametrize("syntax", [uid.ExplicitVRLittleEndian, uid.JPEGLSLossless], ids=lambda one: one.name)
+def test_a_slice_of_the_middle_is_seen_before_the_others_are_read(tmp_path: Path, syntax: uid.UID) -> None:
+    made, seen, heard = made_ct(), list[Slice](), list[int]()
+
+    def first(one: Slice) -> None:
+        seen.append(one)
+        heard.append(0)
+
+    folder = made.write(tmp_path, syntax=syntax)
+    read_ct(folder, first=first, progress=lambda done, _of: heard.append(done))
+    assert heard == [0, 1, 2, 3, 4, 5]
+    assert np.array_equal(seen[0].hu, made.hu[2])
+    assert seen[0].lps_from_pixel([7, 5]) == pytest.approx([-10 + 7 * 0.75, 20 + 5 * 0.5, 304])
 
 
 def test_a_series_named_after_the_patient_loses_its_words(tmp_path: Path) -> None:
