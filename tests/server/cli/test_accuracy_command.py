@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from server.cli import app
-from tests.tracker.camera.test_accuracy import CAMERA, GRID, rows, seen_at
+from tests.tracker.camera.seen_grids import CAMERA, GRID, rows, seen_at
 from tracker.errors import NavigationError
 
 HEADER = "x1_mm,y1_mm,x2_mm,y2_mm,u1_px,v1_px,u2_px,v2_px"
