@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from server.cli.accuracy_commands import accuracy, ruler
+from server.cli.board_commands import board_app
 from server.cli.marker_commands import marker_app
 
 BAD_INPUT = 2
@@ -22,6 +24,9 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(marker_app, name="marker")
+app.add_typer(board_app, name="board")
+app.command()(accuracy)
+app.command()(ruler)
 
 
 class Rate(StrEnum):

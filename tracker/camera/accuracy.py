@@ -193,7 +193,8 @@ def _report(
 def _checked_fit(
     camera: CameraModel, points_mm: npt.ArrayLike, points_px: npt.ArrayLike
 ) -> tuple[Array, Array]:
-    on_plane, seen = np.asarray(points_mm, np.float64), np.asarray(points_px, np.float64)
+    # OpenCV refuses columns of a larger array.
+    on_plane, seen = (np.ascontiguousarray(points, np.float64) for points in (points_mm, points_px))
     if on_plane.ndim != 2 or on_plane.shape[1] != 2 or on_plane.shape != seen.shape:
         raise InvalidInput(
             "ACCURACY_INVALID",

@@ -30,7 +30,7 @@ class Displacements:
 
     def __post_init__(self) -> None:
         for name in ("first_mm", "second_mm", "first_px", "second_px"):
-            points = np.array(getattr(self, name), dtype=np.float64)
+            points = np.array(getattr(self, name), dtype=np.float64, order="C")
             points.setflags(write=False)
             object.__setattr__(self, name, points)
         problem = self._problem()

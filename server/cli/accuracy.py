@@ -1,0 +1,175 @@
+"""`coaxial accuracy` and `coaxial ruler`: known displacements against measured ones, as in Table 2."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from server.camera_file import load_camera_file
+from server.cli.point_rows import read_columns
+from tracker.camera.accuracy import AccuracyReport, accuracy_left_out, accuracy_of_ruler, accuracy_on_plane
+from tracker.camera.displacements import Displacements
+from tracker.camera.ruler import Ruler, angle_deg, axial_distance_mm, distances, pixels_per_mm
+from tracker.errors import InvalidInput
+
+ROW_COLUMNS = ("x1_mm", "y1_mm", "x2_mm", "y2_mm", "u1_px", "v1_px", "u2_px", "v2_px")
+PLANE_COLUMNS = ("x_mm", "y_mm", "u_px", "v_px")
+HEADINGS = (
+    *("X1 mm", "Y1 mm", "X2 mm", "Y2 mm", "Rd mm", "X1 px", "Y1 px", "X2 px", "Y2 px"),
+    *("Pd px", "Pd/Rd", "measured", "error mm"),
+)
+FAILED = 1
+
+
+def check_accuracy(rows: Path, *, camera: Path, plane: Path | None, limit_mm: float, as_json: bool) -> int:
+    """Tell the errors of a calibrated camera, and give the exit status: 0, or 1 above the limit.
+
+    Raises:
+        NavigationError: a file cannot be used, or the plane's place cannot be told.
+    """
+    model = load_camera_file(camera)
+    displacements = _displacements(rows)
+    if plane is None:
+        report = accuracy_left_out(model, displacements)
+        how = "each displacement was left out of the fit that it is measured with"
+    else:
+        points = read_columns(plane, PLANE_COLUMNS)
+        report = accuracy_on_plane(model, displacements, fit_mm=points[:, :2], fit_px=points[:, 2:])
+        how = f"the plane was fitted to the {report.fit_points} points of {plane}"
+    if as_json:
+        typer.echo(
+            json.dumps(_document(report, limit_mm) | {"held_out_by": "rows" if plane is None else "plane"})
+        )
+    else:
+        typer.echo(_table(report))
+        typer.echo(
+            f"The plane is {report.plane_distance_mm:.1f} mm away: compare it with a tape measure. "
+            f"Its fit has {report.fit_rms_px:.2f} px RMS; {how}."
+        )
+        typer.echo(_verdict(report, limit_mm))
+    return 0 if report.maximum_error_mm <= limit_mm else FAILED
+
+
+def measure_with_ruler(
+    rows: Path | None,
+    *,
+    vertical_mm: float,
+    horizontal_mm: float,
+    focal_length_px: float | None,
+    limit_mm: float,
+    as_json: bool,
+) -> int:
+    """Tell what the paper's ruler gives, and the exit status: 0, or 1 above the limit.
+
+    Raises:
+        NavigationError: V, H or f cannot be, or the file cannot be used.
+    """
+    geometry: dict[str, Any] = {
+        "axial_distance_mm": axial_distance_mm(vertical_mm, horizontal_mm),
+        "angle_deg": angle_deg(vertical_mm, horizontal_mm),
+    }
+    sentence = f"D = {geometry['axial_distance_mm']:.1f} mm, theta = {geometry['angle_deg']:.1f} deg"
+    displacements = None if rows is None else _displacements(rows)
+    if focal_length_px is None and displacements is not None:
+        displacements, ruler = _from_first(displacements, vertical_mm, horizontal_mm)
+        sentence += f", f = {ruler.focal_length_px:.1f} px from the first row, which is not checked"
+    elif focal_length_px is not None:
+        ruler = Ruler(vertical_mm=vertical_mm, horizontal_mm=horizontal_mm, focal_length_px=focal_length_px)
+        sentence += f", f = {focal_length_px:.1f} px, Pd/Rd = {ruler.pixels_per_mm:.3f} px/mm"
+    else:
+        typer.echo(json.dumps(geometry) if as_json else f"{sentence}.")
+        return 0
+    geometry |= {"focal_length_px": ruler.focal_length_px, "pixels_per_mm": ruler.pixels_per_mm}
+    if displacements is None:
+        typer.echo(json.dumps(geometry) if as_json else f"{sentence}.")
+        return 0
+    report = accuracy_of_ruler(ruler, displacements)
+    if as_json:
+        typer.echo(json.dumps(geometry | _document(report, limit_mm)))
+    else:
+        typer.echo(f"{_table(report)}\n{sentence}.\n{_verdict(report, limit_mm)}")
+    return 0 if report.maximum_error_mm <= limit_mm else FAILED
+
+
+def _from_first(
+    displacements: Displacements, vertical_mm: float, horizontal_mm: float
+) -> tuple[Displacements, Ruler]:
+    """The ruler that the first row gives, and the rows that it is checked with."""
+    known = distances(displacements.first_mm, displacements.second_mm)
+    seen = distances(displacements.first_px, displacements.second_px)
+    if known.size < 2:
+        raise InvalidInput(
+            "RULER_UNCHECKED",
+            "one row gives the focal length, and there is no other to check it with",
+            "Give two rows or more, or the focal length with --focal-length-px.",
+            {"rows": int(known.size)},
+        )
+    ratio = pixels_per_mm(float(seen[0]), float(known[0]))
+    ruler = Ruler.from_displacement(vertical_mm=vertical_mm, horizontal_mm=horizontal_mm, pixels_per_mm=ratio)
+    rest = Displacements(
+        first_mm=displacements.first_mm[1:],
+        second_mm=displacements.second_mm[1:],
+        first_px=displacements.first_px[1:],
+        second_px=displacements.second_px[1:],
+    )
+    return rest, ruler
+
+
+def _displacements(path: Path) -> Displacements:
+    values = read_columns(path, ROW_COLUMNS)
+    return Displacements(
+        first_mm=values[:, 0:2], second_mm=values[:, 2:4], first_px=values[:, 4:6], second_px=values[:, 6:8]
+    )
+
+
+def _rows(report: AccuracyReport) -> list[list[float]]:
+    of = report.displacements
+    return [
+        [*first_mm, *second_mm, known, *first_px, *second_px, seen, ratio, measured, error]
+        for first_mm, second_mm, known, first_px, second_px, seen, ratio, measured, error in zip(
+            of.first_mm.tolist(),
+            of.second_mm.tolist(),
+            report.known_mm.tolist(),
+            of.first_px.tolist(),
+            of.second_px.tolist(),
+            report.pixel_distances_px.tolist(),
+            report.pixels_per_mm.tolist(),
+            report.measured_mm.tolist(),
+            report.errors_mm.tolist(),
+            strict=True,
+        )
+    ]
+
+
+def _table(report: AccuracyReport) -> str:
+    digits = (1, 1, 1, 1, 2, 1, 1, 1, 1, 1, 3, 2, 2)
+    lines = ["  ".join(f"{heading:>8}" for heading in HEADINGS)]
+    lines += [
+        "  ".join(f"{value:8.{places}f}" for value, places in zip(row, digits, strict=True))
+        for row in _rows(report)
+    ]
+    return "\n".join(lines)
+
+
+def _verdict(report: AccuracyReport, limit_mm: float) -> str:
+    words = "passes" if report.maximum_error_mm <= limit_mm else "does not pass"
+    return (
+        f"Largest error {report.maximum_error_mm:.2f} mm, RMS {report.rms_error_mm:.2f} mm over "
+        f"{report.errors_mm.size} displacements: {words} the limit of {limit_mm:g} mm."
+    )
+
+
+def _document(report: AccuracyReport, limit_mm: float) -> dict[str, Any]:
+    seen = ("pixel_distance_px", "pixels_per_mm", "measured_mm", "error_mm")
+    names = (*ROW_COLUMNS[:4], "known_mm", *ROW_COLUMNS[4:], *seen)
+    return {
+        "passed": report.maximum_error_mm <= limit_mm,
+        "limit_mm": limit_mm,
+        "maximum_error_mm": report.maximum_error_mm,
+        "rms_error_mm": report.rms_error_mm,
+        "plane_distance_mm": report.plane_distance_mm,
+        "fit_points": report.fit_points,
+        "fit_rms_px": report.fit_rms_px,
+        "rows": [dict(zip(names, row, strict=True)) for row in _rows(report)],
+    }

@@ -1,0 +1,133 @@
+"""What can be typed after `coaxial board`: a calibration board to print."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+board_app = typer.Typer(
+    help="Make a calibration board to print at true size, as PDF or SVG.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+class Paper(StrEnum):
+    """Sizes of paper."""
+
+    A4 = "A4"
+    A3 = "A3"
+    LETTER = "letter"
+
+
+class DotLayoutName(StrEnum):
+    """How dots stand to each other."""
+
+    SYMMETRIC = "symmetric"
+    ASYMMETRIC = "asymmetric"
+
+
+class CharucoLayoutName(StrEnum):
+    """Which corner is black."""
+
+    NEWER = "newer"
+    OLDER = "older"
+
+
+OutputOption = Annotated[
+    Path, typer.Option("--output", "-o", help="File to write; .pdf or .svg.", metavar="FILE")
+]
+PaperOption = Annotated[Paper, typer.Option(help="Size of the paper; it lies as the board needs it.")]
+
+
+@board_app.command()
+def dots(
+    output: OutputOption,
+    size: Annotated[str, typer.Option(help="Columns x rows of dots.", metavar="CxR")] = "16x14",
+    pitch_mm: Annotated[
+        float,
+        typer.Option(
+            "--pitch-mm",
+            help="From a dot to the next one; if asymmetric, from row to row.",
+            metavar="MM",
+        ),
+    ] = 10.0,
+    layout: Annotated[
+        DotLayoutName, typer.Option(help="Asymmetric: each second row is shifted.")
+    ] = DotLayoutName.SYMMETRIC,
+    larger: Annotated[
+        str,
+        typer.Option(
+            help="Dots that are larger, to tell the way up: indexes row by row from 0, with commas between.",
+            metavar="INDEXES",
+        ),
+    ] = "",
+    dot_mm: Annotated[
+        float | None,
+        typer.Option(
+            "--dot-mm", help="Width of a dot; half of the way to the next if left out.", metavar="MM"
+        ),
+    ] = None,
+    paper: PaperOption = Paper.A4,
+) -> None:
+    """A grid of dots."""
+    from server.cli.board import indexes_of, size_of, write_board  # noqa: PLC0415  loaded when needed
+    from tracker.camera.boards import DotBoard, DotLayout  # noqa: PLC0415
+
+    columns, rows = size_of(size)
+    board = DotBoard(
+        columns=columns,
+        rows=rows,
+        pitch_mm=pitch_mm,
+        layout=DotLayout(layout.value),
+        fiducials=indexes_of(larger),
+    )
+    write_board(board, output, paper=paper.value, dot_mm=dot_mm)
+
+
+@board_app.command()
+def checkerboard(
+    output: OutputOption,
+    size: Annotated[str, typer.Option(help="Columns x rows of inner corners.", metavar="CxR")] = "9x6",
+    square_mm: Annotated[float, typer.Option("--square-mm", help="Side of a square.", metavar="MM")] = 25.0,
+    paper: PaperOption = Paper.A4,
+) -> None:
+    """A checkerboard, counted by its inner corners."""
+    from server.cli.board import size_of, write_board  # noqa: PLC0415  loaded when needed
+    from tracker.camera.boards import CheckerBoard  # noqa: PLC0415
+
+    columns, rows = size_of(size)
+    write_board(CheckerBoard(columns=columns, rows=rows, square_mm=square_mm), output, paper=paper.value)
+
+
+@board_app.command()
+def charuco(
+    output: OutputOption,
+    size: Annotated[str, typer.Option(help="Columns x rows of squares.", metavar="CxR")] = "8x5",
+    square_mm: Annotated[float, typer.Option("--square-mm", help="Side of a square.", metavar="MM")] = 30.0,
+    marker_mm: Annotated[
+        float, typer.Option("--marker-mm", help="Side of a marker, black rim included.", metavar="MM")
+    ] = 22.0,
+    dictionary: Annotated[
+        str, typer.Option(help="OpenCV's name of the markers.", metavar="NAME")
+    ] = "DICT_6X6_250",
+    layout: Annotated[
+        CharucoLayoutName, typer.Option(help="Older: as OpenCV before 4.6 drew boards with even rows.")
+    ] = CharucoLayoutName.NEWER,
+    paper: PaperOption = Paper.A4,
+) -> None:
+    """A checkerboard with an ArUco marker in each white square."""
+    from server.cli.board import size_of, write_board  # noqa: PLC0415  loaded when needed
+    from tracker.camera.boards import CharucoBoard, CharucoLayout  # noqa: PLC0415
+
+    columns, rows = size_of(size)
+    board = CharucoBoard(
+        columns=columns,
+        rows=rows,
+        square_mm=square_mm,
+        marker_mm=marker_mm,
+        dictionary=dictionary,
+        layout=CharucoLayout(layout.value),
+    )
+    write_board(board, output, paper=paper.value)
