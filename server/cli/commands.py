@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from server.cli.marker_commands import marker_app
+from server.cli.tool_commands import pivot, spin, tip_check
 
 BAD_INPUT = 2
 UNKNOWN_VERSION = "0.1.0"
@@ -22,6 +23,9 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(marker_app, name="marker")
+app.command()(pivot)
+app.command()(spin)
+app.command(name="tip-check")(tip_check)
 
 
 class Rate(StrEnum):

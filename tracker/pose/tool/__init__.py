@@ -13,6 +13,7 @@ from tracker.pose.tool.poses import Poses
 from tracker.pose.tool.spin import SpinCalibration, spin_calibration
 from tracker.pose.tool.tip_check import TipCheck, check_tip
 from tracker.pose.tool.turning import Turning
+from tracker.pose.tool.written import rigid_from_quaternion, rigid_from_written
 
 __all__ = [
     "PivotCalibration",
@@ -26,6 +27,8 @@ __all__ = [
     "Turning",
     "check_tip",
     "pivot_calibration",
+    "rigid_from_quaternion",
+    "rigid_from_written",
     "rms_3d_mm",
     "spin_calibration",
 ]

@@ -106,6 +106,4 @@ def spun(
     rotations = rotations @ turns(np.radians(turn_sd_deg) * random.normal(size=(count, 3)))
     for index in range(outliers):
         rotations[index] = rotation_from_vector(random.normal(size=3) * 0.4) @ rotations[index]
-    return Poses(
-        rotations=rotations, translations_mm=np.array(PIVOT_MM) - rotations @ (TIP_MM[1] * -AXIS)
-    )
+    return Poses(rotations=rotations, translations_mm=np.array(PIVOT_MM) - rotations @ (TIP_MM[1] * -AXIS))
