@@ -1,5 +1,14 @@
 """The instrument behind its marker: its tip by pivoting, its axis by spinning, and the check of both."""
 
+from tracker.pose.tool.collector import (
+    CollectorSettings,
+    Missing,
+    Need,
+    PoseCollector,
+    Progress,
+    Purpose,
+    Taking,
+)
 from tracker.pose.tool.gate import ToolGate
 from tracker.pose.tool.model import ToolModel
 from tracker.pose.tool.pivot import (
@@ -16,11 +25,18 @@ from tracker.pose.tool.turning import Turning
 from tracker.pose.tool.written import rigid_from_quaternion, rigid_from_written
 
 __all__ = [
+    "CollectorSettings",
+    "Missing",
+    "Need",
     "PivotCalibration",
+    "PoseCollector",
     "Poses",
+    "Progress",
+    "Purpose",
     "RejectedPose",
     "RejectedReason",
     "SpinCalibration",
+    "Taking",
     "TipCheck",
     "ToolGate",
     "ToolModel",
