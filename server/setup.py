@@ -9,8 +9,9 @@ import numpy as np
 
 from server.camera_file import load_camera_file
 from server.capture.address import SourceKind, source_from_text
-from server.config import Config, ToolConfig
+from server.config import Config
 from server.marker_file import load_marker_image
+from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
 from tracker.geometry import Camera, Rigid, Vertebra
@@ -152,11 +153,15 @@ def build_setup(config: Config) -> Preparation:
     )
     scores = ScoreSettings(**config.tracker.model_dump())
     smoothing = SteadySettings(**config.smoothing.model_dump())
+    tools = {
+        name: tool_from_config(name, tool, config.markers.get(tool.marker))
+        for name, tool in config.tools.items()
+    }
     calibration = config.camera.calibration
     bare = Preparation(
         camera=None if calibration is None else load_camera_file(calibration),
         models=models,
-        tools={name: _tool(name, tool) for name, tool in config.tools.items()},
+        tools=tools,
         channel=Absent(reason=AbsentReason.NO_PLAN),
         camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
         registered_by="",
@@ -191,17 +196,6 @@ def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
         matrix=np.array([[focal, 0.0, (width - 1) / 2], [0.0, focal, (height - 1) / 2], [0.0, 0.0, 1.0]]),
         distortion=np.zeros(5),
         size_wh_px=(width, height),
-    )
-
-
-def _tool(name: str, tool: ToolConfig) -> ToolModel:
-    return ToolModel.from_tip_and_axis(
-        name=name,
-        marker=tool.marker,
-        tip_in_marker_mm=tool.tip_in_marker_mm,
-        axis_in_marker=tool.axis_in_marker,
-        radius_mm=tool.radius_mm,
-        length_mm=tool.length_mm,
     )
 
 

@@ -165,6 +165,11 @@ def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibr
     )
 
 
+def provisional_tip_mm(poses: Poses) -> Array:
+    """A tip (3,) that may be far off, of poses that are too few or too alike for a calibration."""
+    return _equations(poses).solved()[:3]
+
+
 def refuse_too_few(different: Poses, count: int, gate: ToolGate) -> None:
     """Raises TOOL_TOO_FEW_POSES where fewer different poses are left than a calibration needs."""
     if len(different) < gate.least_poses:

