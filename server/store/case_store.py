@@ -9,7 +9,7 @@ from server.store import cases, documents, files
 from server.store.archive import Archive, pack, unpack
 from server.store.checks import checked_name
 from server.store.documents import NewDocument
-from server.store.errors import OutOfDateError
+from server.store.errors import FULL, OutOfDateError, StoreError
 from server.store.home import Home
 from server.store.ledger import Clock, Ledger, utc_now
 from server.store.records import (
@@ -24,7 +24,7 @@ from server.store.records import (
     StoredFile,
 )
 from server.store.standing import lineage_of
-from server.store.sweep import remove_folder, sweep
+from server.store.sweep import remove_case, sweep
 
 
 class CaseStore:
@@ -93,12 +93,21 @@ class CaseStore:
             InvalidInput: CONFIRMATION_WRONG.
             StoreConflict: CASE_OPEN, CASE_IN_USE.
         """
+        try:
+            self._mark_leaving(case_id, confirm)
+        except StoreError as error:
+            if error.code != FULL:
+                raise
+            self.home.spend_reserve()
+            self._mark_leaving(case_id, confirm)
+        remove_case(self._ledger, case_id)
+        self.home.keep_reserve()
+
+    def _mark_leaving(self, case_id: str, confirm: str) -> None:
         with self._ledger.writing() as session:
             cases.refuse_removal(session, case_id, confirm)
             self._ledger.refuse_held(case_id)
             cases.mark_leaving(session, case_id)
-        remove_folder(self._ledger, case_id)
-        self._ledger.empty_journal()
 
     # ------------------------------------------------------------ documents
 

@@ -4,6 +4,7 @@ import os
 import secrets
 import shutil
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 
@@ -15,6 +16,7 @@ from server.store.errors import StoreError, told
 FOLDER_VARIABLE = "COAXIAL_HOME"
 # Patients' pictures are for the one who runs the server.
 PRIVATE = 0o700
+RESERVE_BYTES = 2**20
 
 
 def home_folder(environment: Mapping[str, str] = os.environ) -> Path:
@@ -32,6 +34,7 @@ class Home:
         backups: copies of the database, made before its form was changed.
         cases: a folder for each case, with its files.
         temporary: work that is not done; emptied at each start.
+        reserve: room on the disk that is given up when a case is to be deleted because the disk is full.
 
     Raises:
         StoreError: HOME_IN_USE, STORE_READ_ONLY, STORE_FULL or STORE_FAILED.
@@ -43,6 +46,7 @@ class Home:
         self.backups = folder / "backups"
         self.cases = folder / "cases"
         self.temporary = folder / "temporary"
+        self.reserve = folder / "reserve"
         self._lock = filelock.FileLock(folder / "coaxial.lock", thread_local=False)
         with told(folder):
             folder.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
@@ -54,6 +58,7 @@ class Home:
                 shutil.rmtree(self.temporary, ignore_errors=True)
                 for room in (self.backups, self.cases, self.temporary):
                     room.mkdir(mode=PRIVATE, exist_ok=True)
+                self.keep_reserve()
                 sync_folder(folder)
             except OSError:
                 self._lock.release()
@@ -62,6 +67,17 @@ class Home:
     def new_temporary(self, suffix: str = "") -> Path:
         """A name for work that is not done; what is written there is gone at the next start."""
         return self.temporary / f"{secrets.token_hex(8)}{suffix}"
+
+    def keep_reserve(self) -> None:
+        """Hold some room on the disk, as far as there is any."""
+        with suppress(OSError):
+            if not self.reserve.exists() or self.reserve.stat().st_size < RESERVE_BYTES:
+                # Noise, because some disks need no room for zeros.
+                self.reserve.write_bytes(secrets.token_bytes(RESERVE_BYTES))
+
+    def spend_reserve(self) -> None:
+        """Give the room up."""
+        self.reserve.unlink(missing_ok=True)
 
     def close(self) -> None:
         """Let another server have the folder."""

@@ -5,7 +5,7 @@ import shutil
 import structlog
 from sqlalchemy import select
 
-from server.store.errors import told
+from server.store.errors import StoreError, told
 from server.store.files import UNFINISHED, discard
 from server.store.ledger import Ledger
 from server.store.tables import COMING, HERE, CaseRow, FileRow
@@ -21,7 +21,7 @@ def sweep(ledger: Ledger) -> None:
             (row.case_id, row.id) for row in session.scalars(select(FileRow).where(FileRow.state == COMING))
         ]
     for case_id in gone:
-        remove_folder(ledger, case_id)
+        remove_case(ledger, case_id)
     for case_id, file_id in unfinished:
         if case_id not in gone:
             discard(ledger, case_id, file_id)
@@ -30,25 +30,26 @@ def sweep(ledger: Ledger) -> None:
     _tell_strays(ledger)
 
 
-def remove_folder(ledger: Ledger, case_id: str) -> None:
-    """Take a case's folder away, then its row; what stays is tried again at the next start."""
+def remove_case(ledger: Ledger, case_id: str) -> None:
+    """Take away a case that is leaving or never arrived; what cannot be removed now is at the next start."""
     folder = ledger.home.cases / case_id
     try:
-        if folder.exists():
-            shutil.rmtree(folder)
-    except OSError as error:
+        with told(ledger.home.folder):
+            if folder.exists():
+                shutil.rmtree(folder)
+        with ledger.writing() as session:
+            row = session.get(CaseRow, case_id)
+            if row is not None:
+                session.delete(row)
+        ledger.empty_journal()
+    except StoreError as error:
         log.warning(
-            "a deleted case's files could not be removed yet",
-            code="CASE_FILES_LEFT",
+            "a deleted case could not be removed from the disk yet",
+            code="CASE_LEFT",
             case_id=case_id,
-            why=error.strerror,
-            remedy="They are removed at the next start; look at the rights of its folder.",
+            why=error.message,
+            remedy="It is removed at the next start; look at the disk and at the rights of its folder.",
         )
-        return
-    with ledger.writing() as session:
-        row = session.get(CaseRow, case_id)
-        if row is not None:
-            session.delete(row)
 
 
 def _tell_strays(ledger: Ledger) -> None:

@@ -16,7 +16,7 @@ from server.store.files import READ_ONLY, UNFINISHED, make_folder
 from server.store.home import sync_folder
 from server.store.ledger import Ledger
 from server.store.records import Case, DocumentKind
-from server.store.sweep import remove_folder
+from server.store.sweep import remove_case
 from server.store.tables import (
     ARRIVING,
     HERE,
@@ -49,7 +49,7 @@ def unpack(ledger: Ledger, archive: Path) -> Case:
             with ledger.writing() as session:
                 return _arrive(session, arriving.id, case, documents, parts)
         except BaseException:
-            remove_folder(ledger, arriving.id)
+            remove_case(ledger, arriving.id)
             raise
 
 

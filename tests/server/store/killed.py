@@ -7,16 +7,17 @@ A fault is put in on purpose with --fault, to see that it is found.
 """
 
 import argparse
+import contextlib
 import hashlib
 import json
 import os
 import random
-import select
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+import traceback
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -93,26 +94,61 @@ def broken_promises(folder: Path, promised: Promised) -> Iterator[str]:
         yield from (f"{path.name} was left behind" for path in home.temporary.iterdir())
 
 
-def kill_once(folder: Path, promised: Promised, *, after_s: float, seed: int, fault: str = "none") -> None:
-    """Let a child write for so long after its first word, kill it, and note all that it had said."""
-    with subprocess.Popen(
-        [
-            *(sys.executable, "-m", "tests.server.store.killed", "--child", str(folder)),
-            *("--seed", str(seed), "--fault", fault),
-        ],
-        env={**os.environ, "PYTHONPATH": str(REPOSITORY)},
-        stdout=subprocess.PIPE,
-    ) as child:
-        assert child.stdout is not None
-        select.select([child.stdout], [], [], 60.0)
+class Writers:
+    """Children that write, forked from one process that has loaded everything; each is killed."""
+
+    def __init__(self, fault: str = "none") -> None:
+        self._forker = subprocess.Popen(
+            [sys.executable, "-m", "tests.server.store.killed", "--forker", "--fault", fault],
+            env={**os.environ, "PYTHONPATH": str(REPOSITORY)},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
+
+    def kill_once(self, folder: Path, promised: Promised, *, after_s: float, seed: int) -> None:
+        """Let a child write for so long, kill it, and note all that it had said."""
+        asked, said = self._forker.stdin, self._forker.stdout
+        assert asked is not None
+        assert said is not None
+        asked.write(f"{json.dumps([str(folder), seed])}\n".encode())
+        asked.flush()
+        pid = int(said.readline())
         # Not a wait for something to be done: the very moment of the kill is what is varied.
         time.sleep(after_s)
-        child.kill()
-        rest = child.stdout.read()
-    assert child.returncode == -signal.SIGKILL, "the child ended by itself, with an error"
-    # A line that was cut was not said.
-    for line in rest.decode().split("\n")[:-1]:
-        promised.note(line)
+        os.kill(pid, signal.SIGKILL)
+        lines = []
+        while not (line := said.readline().decode()).startswith("end"):
+            lines.append(line)
+        assert line == f"end {signal.SIGKILL}\n", "the child ended by itself, with an error"
+        for line in lines:
+            # A line that was cut was not said.
+            with contextlib.suppress(json.JSONDecodeError):
+                promised.note(line)
+
+    def __enter__(self) -> "Writers":
+        return self
+
+    def __exit__(self, *ending: object) -> None:
+        self._forker.kill()
+        self._forker.communicate()
+
+
+def fork_for_ever(*, fault: str) -> None:
+    """Fork a child for each line that is read, and tell how it ended."""
+    for line in sys.stdin:
+        folder, seed = json.loads(line)
+        sys.stdout.flush()
+        pid = os.fork()
+        if pid == 0:
+            _say_line(str(os.getpid()))
+            try:
+                write_for_ever(Path(folder), seed=seed, fault=fault)
+            except Exception:  # noqa: BLE001  a child of a fork must not go on as its parent
+                traceback.print_exc()
+            os._exit(1)
+        _, status = os.waitpid(pid, 0)
+        # A line of its own, also where the child was cut in the middle of one.
+        _say_line(f"\nend {os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0}")
 
 
 def write_for_ever(folder: Path, *, seed: int, fault: str) -> None:
@@ -197,7 +233,11 @@ def _record_before_naming() -> None:
 
 
 def _say(what: str, case_id: str, **more: object) -> None:
-    sys.stdout.write(json.dumps({"what": what, "case": case_id, **more}) + "\n")
+    _say_line(json.dumps({"what": what, "case": case_id, **more}))
+
+
+def _say_line(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
     sys.stdout.flush()
 
 
@@ -208,21 +248,20 @@ def main() -> None:
     parser.add_argument("--longest-s", type=float, default=0.5)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--fault", choices=FAULTS, default="none")
-    parser.add_argument("--child", type=Path)
+    parser.add_argument("--forker", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
-    if given.child is not None:
-        write_for_ever(given.child, seed=given.seed, fault=given.fault)
+    if given.forker:
+        fork_for_ever(fault=given.fault)
+        return
     chance, found, confirmed = random.Random(given.seed), [], 0
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, Writers(given.fault) as writers:
         promised = Promised()
         for number in range(given.times):
             if number % 20 == 0:
                 confirmed += promised.count
                 promised, home = Promised(), Path(folder) / f"{number}"
             seed = given.seed * 1_000_000 + number
-            kill_once(
-                home, promised, after_s=chance.uniform(0, given.longest_s), seed=seed, fault=given.fault
-            )
+            writers.kill_once(home, promised, after_s=chance.uniform(0, given.longest_s), seed=seed)
             found += [f"kill {number}: {one}" for one in broken_promises(home, promised)]
         confirmed += promised.count
     sys.stdout.write("".join(f"{one}\n" for one in found))

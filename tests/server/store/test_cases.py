@@ -1,10 +1,14 @@
 """Cases: made, found, opened, renamed, deleted."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from sqlalchemy.orm import Session
 
-from server.store import CaseStore, DocumentKind, Home, NotStored, StoreConflict
+from server.store import CaseStore, DocumentKind, Home, NotStored, StoreConflict, StoreError
+from server.store.ledger import Ledger
 from tracker.errors import InvalidInput
 
 
@@ -76,6 +80,27 @@ def test_an_open_case_and_one_that_is_written_are_not_deleted(store: CaseStore) 
     assert refused.value.code == "CASE_IN_USE"
     store.delete(case.id, confirm="one")
     assert store.list() == ()
+
+
+def test_on_a_full_disk_a_case_can_still_be_deleted(
+    store: CaseStore, home: Home, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = store.create("one")
+    real, room = Ledger.writing, []
+
+    @contextmanager
+    def writing(ledger: Ledger) -> Iterator[Session]:
+        room.append(not home.reserve.exists())
+        if not room[-1]:
+            raise StoreError("STORE_FULL", "full", "Make room.")
+        with real(ledger) as session:
+            yield session
+
+    monkeypatch.setattr(Ledger, "writing", writing)
+    store.delete(case.id, confirm="one")
+    assert room[:2] == [False, True]
+    assert store.list() == ()
+    assert home.reserve.stat().st_size == 2**20
 
 
 def test_nothing_of_a_deleted_case_is_left_on_the_disk(store: CaseStore, home: Home) -> None:

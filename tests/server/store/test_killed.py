@@ -3,14 +3,15 @@
 import random
 from pathlib import Path
 
-from tests.server.store.killed import Promised, broken_promises, kill_once
+from tests.server.store.killed import Promised, Writers, broken_promises
 
-KILLS = 8
+KILLS = 12
 
 
 def test_killed_at_any_moment_nothing_that_was_confirmed_is_lost(tmp_path: Path) -> None:
     promised, chance = Promised(), random.Random(7)
-    for number in range(KILLS):
-        kill_once(tmp_path, promised, after_s=chance.uniform(0.0, 0.25), seed=number)
-        assert list(broken_promises(tmp_path, promised)) == [], number
+    with Writers() as writers:
+        for number in range(KILLS):
+            writers.kill_once(tmp_path, promised, after_s=chance.uniform(0.05, 0.25), seed=number)
+            assert list(broken_promises(tmp_path, promised)) == [], number
     assert promised.count > KILLS
