@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from server.cli.calibration.commands import add_calibration
 from server.cli.marker_commands import marker_app
 
 BAD_INPUT = 2
@@ -22,6 +23,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(marker_app, name="marker")
+add_calibration(app)
 
 
 class Rate(StrEnum):
