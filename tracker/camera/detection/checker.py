@@ -17,7 +17,7 @@ QUAD_FLAGS = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.C
 LEAST_CORNERS = 12
 LEAST_SIDE = 3
 MOST_GRIDS = 4
-LEAST_REGULAR_RATIO, LEAST_CONTRAST_RATIO = 0.75, 0.25
+LEAST_REGULAR_RATIO, LEAST_CONTRAST_RATIO = 0.75, 0.6
 # Corners of a part of a board at which the colours may be told wrongly, as by glare.
 MOST_ODD_RATIO = 0.05
 
@@ -60,7 +60,7 @@ def _part_viewed(
     grey: GreyImage, board: CheckerBoard, points: Array, cells: Cells
 ) -> BoardView | BoardNotFound:
     """Without corners at which dark and light do not take turns, and without stray lines at the rim."""
-    # What looks like a corner in a flat part of the image is noise.
+    # The board's own rim has corners of half the contrast, and a flat part of the image those of noise.
     contrast = np.abs(_quarters(grey, points, cells))
     clear = contrast > LEAST_CONTRAST_RATIO * np.percentile(contrast, 90)
     points, cells = points[clear], cells[clear]
