@@ -130,6 +130,13 @@ class SmoothingConfig(Section):
     """What near is: the gap between the drill at its tip and the channel's surface."""
 
 
+class CalibrationConfig(Section):
+    """When a calibration is good enough."""
+
+    most_rms_px: Annotated[float, Field(gt=0.0, le=100.0)] = 1.0
+    """Root mean square distance between seen and expected points of the board."""
+
+
 class LimitsConfig(Section):
     """From which age on something is old, and how unsure a tip may be; past them there are no numbers."""
 
@@ -156,5 +163,6 @@ class Config(Section):
     tool_calibration: ToolCalibrationConfig = ToolCalibrationConfig()
     tracker: TrackerConfig = TrackerConfig()
     smoothing: SmoothingConfig = SmoothingConfig()
+    calibration: CalibrationConfig = CalibrationConfig()
     limits: LimitsConfig = LimitsConfig()
     video: VideoConfig = VideoConfig()

@@ -10,6 +10,8 @@ import typer
 
 from server.cli.accuracy_commands import accuracy, ruler
 from server.cli.board_commands import board_app
+
+from server.cli.calibration.commands import add_calibration
 from server.cli.marker_commands import marker_app
 from server.cli.tool_commands import pivot, spin, tip_check
 
@@ -32,6 +34,8 @@ app.command()(ruler)
 app.command()(pivot)
 app.command()(spin)
 app.command(name="tip-check")(tip_check)
+
+add_calibration(app)
 
 
 class Rate(StrEnum):
