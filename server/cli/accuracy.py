@@ -4,11 +4,22 @@ import json
 from pathlib import Path
 from typing import Any
 
+import cv2
+import numpy as np
+import numpy.typing as npt
 import typer
 
 from server.camera_file import load_camera_file
 from server.cli.point_rows import read_columns
-from tracker.camera.accuracy import AccuracyReport, accuracy_left_out, accuracy_of_ruler, accuracy_on_plane
+from tracker.camera.accuracy import (
+    AccuracyReport,
+    accuracy_left_out,
+    accuracy_of_grid,
+    accuracy_of_ruler,
+    accuracy_on_plane,
+)
+from tracker.camera.boards import Board
+from tracker.camera.detection import BoardNotFound, board_as_seen, find_board
 from tracker.camera.displacements import Displacements
 from tracker.camera.ruler import Ruler, angle_deg, axial_distance_mm, distances, pixels_per_mm
 from tracker.errors import InvalidInput
@@ -22,12 +33,18 @@ HEADINGS = (
 FAILED = 1
 
 
-def check_accuracy(rows: Path, *, camera: Path, plane: Path | None, limit_mm: float, as_json: bool) -> int:
+def check_rows(rows: Path | None, *, camera: Path, plane: Path | None, limit_mm: float, as_json: bool) -> int:
     """Tell the errors of a calibrated camera, and give the exit status: 0, or 1 above the limit.
 
     Raises:
         NavigationError: a file cannot be used, or the plane's place cannot be told.
     """
+    if rows is None:
+        raise InvalidInput(
+            "ACCURACY_WITHOUT_POINTS",
+            "there is nothing to check the camera with",
+            "Give a CSV of displacements, or an image of a board with --image and --pattern.",
+        )
     model = load_camera_file(camera)
     displacements = _displacements(rows)
     if plane is None:
@@ -37,10 +54,56 @@ def check_accuracy(rows: Path, *, camera: Path, plane: Path | None, limit_mm: fl
         points = read_columns(plane, PLANE_COLUMNS)
         report = accuracy_on_plane(model, displacements, fit_mm=points[:, :2], fit_px=points[:, 2:])
         how = f"the plane was fitted to the {report.fit_points} points of {plane}"
-    if as_json:
-        typer.echo(
-            json.dumps(_document(report, limit_mm) | {"held_out_by": "rows" if plane is None else "plane"})
+    return _told(report, limit_mm, how, held_out_by="rows" if plane is None else "plane", as_json=as_json)
+
+
+def check_on_board(image: Path, board: Board, *, camera: Path, limit_mm: float, as_json: bool) -> int:
+    """The same on a calibration board in an image.
+
+    Raises:
+        NavigationError: a file cannot be used, or the board is not seen.
+    """
+    model = load_camera_file(camera)
+    picture = _picture(image, model.size_wh_px)
+    seen = find_board(picture, board_as_seen([picture], board))
+    if isinstance(seen, BoardNotFound):
+        raise InvalidInput(
+            "BOARD_NOT_SEEN",
+            f"the board is not found in {image}: {seen.sentence}",
+            "Count the board again, and take an image in which it is sharp and whole.",
+            {"file": str(image), "reason": seen.reason.value, "seen_points": seen.seen_points},
         )
+    report = accuracy_of_grid(model, seen.object_points_mm[:, :2], seen.image_points_px)
+    how = f"it was fitted to {report.fit_points} of {seen.ids.size} points, and others were measured"
+    return _told(report, limit_mm, how, held_out_by="every other point", as_json=as_json)
+
+
+def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
+    try:
+        decoded = cv2.imdecode(np.frombuffer(path.read_bytes(), np.uint8), cv2.IMREAD_GRAYSCALE)
+    except (OSError, cv2.error):
+        decoded = None
+    if decoded is None:
+        raise InvalidInput(
+            "IMAGE_UNREADABLE",
+            f"{path} is no image that can be read",
+            "Give a PNG, JPEG or BMP file.",
+            {"file": str(path)},
+        )
+    height, width = decoded.shape
+    if (width, height) != size_wh_px:
+        raise InvalidInput(
+            "IMAGE_SIZE_DIFFERS",
+            f"{path} is {width}x{height} px, the camera was calibrated at {size_wh_px[0]}x{size_wh_px[1]}",
+            "Use images of the size that the camera was calibrated with.",
+            {"size_wh_px": [width, height], "camera_size_wh_px": list(size_wh_px)},
+        )
+    return np.asarray(decoded, dtype=np.uint8)
+
+
+def _told(report: AccuracyReport, limit_mm: float, how: str, *, held_out_by: str, as_json: bool) -> int:
+    if as_json:
+        typer.echo(json.dumps(_document(report, limit_mm) | {"held_out_by": held_out_by}))
     else:
         typer.echo(_table(report))
         typer.echo(

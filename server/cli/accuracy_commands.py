@@ -5,6 +5,16 @@ from typing import Annotated
 
 import typer
 
+from server.cli.board_words import (
+    DictionaryOption,
+    LargerOption,
+    MarkerOption,
+    PatternOption,
+    PitchOption,
+    SizeOption,
+    SquareOption,
+)
+
 LimitOption = Annotated[
     float, typer.Option("--limit-mm", help="The largest error that passes.", metavar="MM", min=0.0)
 ]
@@ -12,17 +22,17 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Write the figures as J
 
 
 def accuracy(
+    camera: Annotated[
+        Path, typer.Option("--camera", help="Camera file (matrix, distortion, size_wh_px).", metavar="FILE")
+    ],
     rows: Annotated[
-        Path,
+        Path | None,
         typer.Argument(
             help="CSV of displacements: x1_mm,y1_mm,x2_mm,y2_mm on a plane, and where they were seen: "
             "u1_px,v1_px,u2_px,v2_px.",
             metavar="ROWS",
         ),
-    ],
-    camera: Annotated[
-        Path, typer.Option("--camera", help="Camera file (matrix, distortion, size_wh_px).", metavar="FILE")
-    ],
+    ] = None,
     plane: Annotated[
         Path | None,
         typer.Option(
@@ -31,6 +41,20 @@ def accuracy(
             metavar="CSV",
         ),
     ] = None,
+    image: Annotated[
+        Path | None,
+        typer.Option(
+            help="In place of ROWS: an image of a calibration board; every other point fits the plane.",
+            metavar="IMAGE",
+        ),
+    ] = None,
+    pattern: PatternOption = None,
+    size: SizeOption = None,
+    pitch_mm: PitchOption = None,
+    square_mm: SquareOption = None,
+    marker_mm: MarkerOption = None,
+    dictionary: DictionaryOption = "DICT_6X6_250",
+    larger: LargerOption = "",
     limit_mm: LimitOption = 0.5,
     json: JsonOption = False,
 ) -> None:
@@ -38,9 +62,22 @@ def accuracy(
 
     Points must come from an image that the camera was not calibrated with. Exit status 1 above the limit.
     """
-    from server.cli.accuracy import check_accuracy  # noqa: PLC0415  loaded when needed
+    from server.cli.accuracy import check_on_board, check_rows  # noqa: PLC0415  loaded when needed
+    from server.cli.board_options import board_from_options  # noqa: PLC0415
 
-    raise typer.Exit(check_accuracy(rows, camera=camera, plane=plane, limit_mm=limit_mm, as_json=json))
+    if image is None:
+        status = check_rows(rows, camera=camera, plane=plane, limit_mm=limit_mm, as_json=json)
+        raise typer.Exit(status)
+    board = board_from_options(
+        pattern,
+        size=size,
+        pitch_mm=pitch_mm,
+        square_mm=square_mm,
+        marker_mm=marker_mm,
+        dictionary=dictionary,
+        larger=larger,
+    )
+    raise typer.Exit(check_on_board(image, board, camera=camera, limit_mm=limit_mm, as_json=json))
 
 
 def ruler(

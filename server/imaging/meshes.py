@@ -18,8 +18,9 @@ from tracker.plan.mesh import MeshSurface, surface_from_mesh
 from tracker.plan.mesh.intake import Space
 
 FORMATS = ("stl", "obj", "ply")
-MOST_BYTES = 256 * 2**20
-MOST_FACES = 4_000_000
+# A parser of text takes up to twenty times the length of its file.
+MOST_BYTES = 100 * 2**20
+MOST_FACES = 2_000_000
 AS_TRIANGLES = "Export the bone's surface again as triangles in STL, OBJ or PLY."
 # 3D Slicer writes this into the first lines of what it exports.
 SPACE = re.compile(rb"SPACE\s*=\s*(LPS|RAS)", re.IGNORECASE)

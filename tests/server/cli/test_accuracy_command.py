@@ -4,12 +4,14 @@ import json
 import re
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from server.cli import app
-from tests.tracker.camera.seen_grids import CAMERA, GRID, rows, seen_at
+from tests.tracker.camera.seen_grids import CAMERA, GRID, MOVE, TURN, rows, seen_at
+from tracker.camera.boards import DotBoard
 from tracker.errors import NavigationError
 
 HEADER = "x1_mm,y1_mm,x2_mm,y2_mm,u1_px,v1_px,u2_px,v2_px"
@@ -141,3 +143,72 @@ def test_missing_files_are_told(tmp_path: Path) -> None:
     assert typed("ruler", tmp_path / "b.csv", *V_AND_H)[1].startswith("POINTS_UNREADABLE")
     told = typed("accuracy", table(tmp_path / "r.csv"), "--camera", tmp_path / "none.yaml")
     assert told[1].startswith("CAMERA_FILE_UNREADABLE")
+
+
+BOARD = ("--pattern", "dots", "--size", "16x14", "--pitch-mm", "8")
+
+
+def image_of_board(path: Path) -> Path:
+    """The dots of a board on the tilted plane, drawn with 16 samples a pixel's side, through the lens."""
+    board = DotBoard(columns=16, rows=14, pitch_mm=8.0)
+    around = np.stack([np.cos(np.arange(40) * np.pi / 20.0), np.sin(np.arange(40) * np.pi / 20.0)], axis=1)
+    picture = np.full((720, 1280), 220, np.uint8)
+    for centre in board.object_points_mm[:, :2] - 10.0:
+        px = seen_at(centre + 2.0 * around)
+        cv2.fillPoly(picture, [np.rint(px * 256.0).astype(np.int32)], 20, cv2.LINE_AA, 8)
+    cv2.imwrite(str(path), cv2.GaussianBlur(picture, (0, 0), 0.8))
+    return path
+
+
+def test_a_board_in_an_image_is_measured_at_its_points(tmp_path: Path, camera: Path) -> None:
+    image = image_of_board(tmp_path / "board.png")
+    status, text = typed("accuracy", "--image", image, *BOARD, "--camera", camera, "--json")
+    document = json.loads(text)
+    assert status == 0
+    assert document["fit_points"] == 112
+    assert len(document["rows"]) == 56
+    assert 0.0 < document["rms_error_mm"] < 0.03
+    middle = TURN @ [50.0, 42.0, 0.0] + MOVE
+    assert document["plane_distance_mm"] == pytest.approx(float(np.linalg.norm(middle)), abs=1.0)
+    # The unit of the board goes into all lengths alike: only a tape measure shows that it is wrong.
+    doubled = (*BOARD[:-1], "16")
+    assert json.loads(typed("accuracy", "--image", image, *doubled, "--camera", camera, "--json")[1])[
+        "plane_distance_mm"
+    ] == pytest.approx(2.0 * document["plane_distance_mm"], rel=0.01)
+
+
+def test_an_image_that_cannot_be_measured_is_refused(tmp_path: Path, camera: Path) -> None:
+    empty, small, text = tmp_path / "empty.png", tmp_path / "small.png", tmp_path / "text.png"
+    cv2.imwrite(str(empty), np.full((720, 1280), 200, np.uint8))
+    cv2.imwrite(str(small), np.full((480, 640), 200, np.uint8))
+    text.write_text("no image")
+    for image, code in (
+        (empty, "BOARD_NOT_SEEN"),
+        (small, "IMAGE_SIZE_DIFFERS: .*640x480 px.*1280x720"),
+        (text, "IMAGE_UNREADABLE"),
+        (tmp_path / "none.png", "IMAGE_UNREADABLE"),
+    ):
+        status, told = typed("accuracy", "--image", image, *BOARD, "--camera", camera)
+        assert status == 2
+        assert re.match(code, told)
+
+
+@pytest.mark.parametrize(
+    ("words", "missing"),
+    [
+        ((), "--pattern"),
+        (("--pattern", "dots"), "--size"),
+        (("--pattern", "dots", "--size", "9x6"), "--pitch-mm"),
+        (("--pattern", "checkerboard", "--size", "9x6"), "--square-mm"),
+        (("--pattern", "charuco", "--size", "9x6", "--square-mm", "9"), "--marker-mm"),
+    ],
+)
+def test_a_board_half_described_is_asked_for(words: tuple[str, ...], missing: str, camera: Path) -> None:
+    status, told = typed("accuracy", "--image", "x.png", *words, "--camera", camera)
+    assert status == 2
+    assert told.startswith("BOARD_INCOMPLETE")
+    assert missing in told
+
+
+def test_nothing_to_check_with_is_told(camera: Path) -> None:
+    assert typed("accuracy", "--camera", camera)[1].startswith("ACCURACY_WITHOUT_POINTS")

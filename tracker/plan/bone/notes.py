@@ -38,9 +38,9 @@ def notes_of(
         remarks.append(
             Remark(
                 code="BONE_AVERAGED",
-                message="there are too many voxels without a region, so "
+                message="there are too many voxels to take each of them, so "
                 f"{' x '.join(map(str, averaged_ijk))} of them were averaged to one of {size} mm",
-                remedy="Give a region around one vertebra, which keeps every voxel.",
+                remedy="Give a region around one vertebra: its voxels are few enough.",
                 context={"averaged_ijk": list(averaged_ijk), "voxel_mm": np.asarray(voxel_mm).tolist()},
             )
         )

@@ -13,7 +13,7 @@ from tracker.plan.mesh.units import MM_FROM_UNIT, FittingUnit, Kind, fitting_uni
 from tracker.plan.remark import Remark
 from tracker.plan.surface import Surface
 from tracker.plan.triangles import links_of, referenced, wound_outwards
-from tracker.plan.triangles.links import Faces, areas_of, parts_of
+from tracker.plan.triangles.links import Faces, areas_of, equal_rows, parts_of
 
 
 class Space(StrEnum):
@@ -130,10 +130,10 @@ def _cleaned(points: Array, corners: Faces) -> tuple[Array, Faces, int]:
     """Equal vertices joined, triangles without area or that are there twice left out, and how many were."""
     before = int(corners.shape[0])
     points, corners = referenced(points, corners)
-    unique, renamed = np.unique(points, axis=0, return_inverse=True)
-    corners = np.asarray(renamed.reshape(-1)[corners], dtype=np.int64)
+    first, renamed = equal_rows(points)
+    unique, corners = points[first], renamed[corners]
     corners = corners[areas_of(unique, corners) > 1e-12 * float(np.ptp(unique, axis=0).max()) ** 2]
-    _, first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)
+    first, _ = equal_rows(np.sort(corners, axis=1))
     corners = corners[np.sort(first)]
     if corners.shape[0] < 4:
         raise PlanError(

@@ -1,6 +1,7 @@
 """Which triangles hang together, and where a mesh is open."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -82,3 +83,17 @@ def referenced(vertices_mm: Array, faces: Faces) -> tuple[Array, Faces]:
     """The mesh without the vertices that no triangle names."""
     used, renamed = np.unique(faces, return_inverse=True)
     return vertices_mm[used], np.asarray(renamed, dtype=np.int64).reshape(-1, 3)
+
+
+def equal_rows(rows: npt.NDArray[Any]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Of rows (n, 3), the first one of each that are equal, in order, and to which of them each belongs (n,).
+
+    numpy.unique along an axis says the same in ten times the time.
+    """
+    order = np.lexsort(rows.T[::-1])
+    ordered = rows[order]
+    starts = np.ones(rows.shape[0], dtype=bool)
+    starts[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    group = np.empty(rows.shape[0], dtype=np.int64)
+    group[order] = np.cumsum(starts) - 1
+    return np.asarray(order[starts], dtype=np.int64), group

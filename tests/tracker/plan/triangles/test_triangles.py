@@ -5,6 +5,7 @@ import numpy.typing as npt
 import pytest
 
 from tracker.plan.triangles import decimated, largest_part, links_of, referenced, smoothed
+from tracker.plan.triangles.links import equal_rows
 
 TETRAHEDRON = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 10.0]])
 OUTWARDS = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
@@ -74,3 +75,11 @@ def test_joining_triangles_keeps_a_sheet_flat_and_its_outline() -> None:
 
 def test_few_enough_triangles_are_left_alone() -> None:
     assert decimated(TETRAHEDRON, OUTWARDS, most_faces=100)[1] is OUTWARDS
+
+
+def test_equal_rows_are_found_as_numpy_does() -> None:
+    rows = np.random.default_rng(1).integers(-2, 2, (200, 3)).astype(np.float64)
+    first, group = equal_rows(rows)
+    unique, inverse = np.unique(rows, axis=0, return_inverse=True)
+    assert rows[first].tolist() == unique.tolist()
+    assert group.tolist() == inverse.reshape(-1).tolist()
