@@ -48,6 +48,12 @@ def poses_from_text(text: str, *, name: str, unit: Unit) -> list[PoseRecord]:
             raise unreadable(f"{name}, line {number}", f"'{line[:40]}' is no row of numbers")
         rows.append((number, numbers))
     widths = {len(numbers) for _, numbers in rows}
+    if len(widths) > 1 and "[" in text:
+        # A printed array breaks its rows where the line is full.
+        flat = [number for _, numbers in rows for number in numbers]
+        if len(flat) % 16 == 0:
+            blocks = [flat[at : at + 16] for at in range(0, len(flat), 16)]
+            rows, widths = list(enumerate(blocks, start=1)), {16}
     if len(widths) != 1:
         shown = ", ".join(str(width) for width in sorted(widths))
         raise unreadable(name, f"its rows have different lengths ({shown or 'no rows'})")
