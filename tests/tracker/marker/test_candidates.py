@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 
 from tests.tracker.scenes import (
+    OTHER,
     Image8,
     Print,
     camera_of,
-    cluttered,
     code_image,
     code_model,
     corners_px_of,
     facing_at_px,
+    in_clutter,
     rendered,
 )
 from tracker.edges import kernels as edges_loops
@@ -29,7 +30,6 @@ from tracker.regions.borders import kernels as borders_loops
 from tracker.warm_up import warm_up
 
 CAMERA = camera_of((480, 360), focal_px=500.0)
-OTHER = ((1, 0, 1), (1, 0, 0), (0, 1, 0))
 MODEL = code_model()
 
 
@@ -41,14 +41,7 @@ def _scene(
     side_px: float, *, tilt_deg: float = 0.0, roll_deg: float = 0.0, blur_px: float = 0.6, seed: int = 0
 ) -> tuple[Image8, Array]:
     pose = facing_at_px(CAMERA, (230.0, 175.0), side_px, tilt_deg=tilt_deg, about_deg=20, roll_deg=roll_deg)
-    image = rendered(
-        CAMERA,
-        [Print(picture=code_image(), pose=pose)],
-        background=cluttered(CAMERA, seed),
-        blur_px=blur_px,
-        seed=seed,
-    )
-    return image, corners_px_of(CAMERA, pose)
+    return in_clutter(CAMERA, pose, clutter=seed, blur_px=blur_px, seed=seed)
 
 
 def _off_px(candidate: Candidate, corners: Array) -> float:

@@ -6,8 +6,17 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.tracker.pipeline.stepped import CAMERA, MODEL, OTHER, off_px, pose_of
-from tests.tracker.scenes import Image8, Print, code_image, code_model, corners_px_of, rendered, seen
+from tests.tracker.pipeline.stepped import CAMERA, MODEL, off_px, pose_of
+from tests.tracker.scenes import (
+    OTHER,
+    Image8,
+    Print,
+    code_image,
+    code_model,
+    corners_px_of,
+    rendered,
+    seen,
+)
 from tracker import MarkerModel, Seen, Tracker, Unseen
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import Candidate, candidate_rounds
