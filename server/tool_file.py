@@ -1,8 +1,8 @@
 """Tool files: where pivot and spin found the tip and the axis of a tool, and behind which marker."""
 
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import yaml
 from pydantic import Field, ValidationError
@@ -10,6 +10,7 @@ from pydantic import Field, ValidationError
 from server.config import MarkerConfig, Name, Point, Section, ToolConfig
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
+from tracker.pose.tool import PivotCalibration, SpinCalibration
 
 # A side is measured with a rule or calipers; a tip that belongs to another side is off by as many per cent.
 SIDE_TOLERANCE_RATIO = 1e-3
@@ -164,3 +165,37 @@ def _one_axis(name: str, tool: ToolConfig, file: ToolFile) -> list[float]:
         f"Spin the tool and add its axis with 'coaxial spin', or give it as tools.{name}.axis_in_marker.",
         {"tool": name},
     )
+
+
+def pivot_part(found: PivotCalibration) -> PivotPart:
+    """What a tool file keeps of a pivot calibration."""
+    return PivotPart(
+        tip_in_marker_mm=_rounded(found.tip_in_marker_mm),
+        covariance_mm2=[_rounded(row) for row in found.tip_covariance_mm2],
+        rms_3d_mm=round(found.rms_3d_mm, 4),
+        used=int(found.used.sum()),
+        rejected=len(found.rejected),
+        tilt_range_deg=round(found.turning.tilt_range_deg, 2),
+        made_at=_now(),
+    )
+
+
+def spin_part(found: SpinCalibration) -> SpinPart:
+    """What a tool file keeps of a spin calibration."""
+    return SpinPart(
+        axis_in_marker=_rounded(found.axis_in_marker),
+        axis_sd_deg=round(found.axis_sd_deg, 4),
+        spin_range_deg=round(found.spin_range_deg, 2),
+        wobble_deg=round(found.wobble_deg, 3),
+        used=int(found.used.sum()),
+        rejected=len(found.rejected),
+        made_at=_now(),
+    )
+
+
+def _rounded(numbers: Any) -> list[float]:  # noqa: ANN401  an array of any length
+    return [float(f"{number:.8g}") for number in numbers]
+
+
+def _now() -> datetime:
+    return datetime.now(UTC).replace(microsecond=0)

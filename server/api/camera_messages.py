@@ -21,7 +21,7 @@ class DotsMessage(Message):
     pitch_mm: Millimetres
     """From a dot to the next; of an asymmetric board half the distance between two dots of a row."""
     layout: DotLayout = DotLayout.SYMMETRIC
-    fiducials: Annotated[list[int], Field(max_length=1000)] = []
+    fiducials: Annotated[tuple[int, ...], Field(max_length=1000)] = ()
     """Indexes of the larger dots, row by row from 0; found by themselves where none are given."""
 
 
@@ -78,7 +78,7 @@ class CollectionMessage(Message):
     covered: list[list[bool]]
     """The same part by part, rows from the top."""
     tilt_deg: list[float]
-    """Least and most lean (upper edge away is above 0), then least and most turn (left edge away is above 0)."""
+    """Least and most lean (upper edge away is above 0), least and most turn (left edge away is above 0)."""
     missing: list[str]
     """What to do next, in sentences; empty when there is enough."""
     image_number: int
@@ -109,7 +109,7 @@ def board_of(message: BoardMessage) -> Board:
                 rows=message.rows,
                 pitch_mm=message.pitch_mm,
                 layout=message.layout,
-                fiducials=tuple(message.fiducials),
+                fiducials=message.fiducials,
             )
         case CheckerboardMessage():
             return CheckerBoard(columns=message.columns, rows=message.rows, square_mm=message.square_mm)
@@ -134,7 +134,7 @@ def board_message(board: Board) -> BoardMessage:
                 rows=board.rows,
                 pitch_mm=board.pitch_mm,
                 layout=board.layout,
-                fiducials=list(board.fiducials),
+                fiducials=board.fiducials,
             )
         case CheckerBoard():
             return CheckerboardMessage(

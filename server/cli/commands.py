@@ -10,7 +10,6 @@ import typer
 
 from server.cli.accuracy_commands import accuracy, ruler
 from server.cli.board_commands import board_app
-
 from server.cli.calibration.commands import add_calibration
 from server.cli.marker_commands import marker_app
 from server.cli.tool_commands import pivot, spin, tip_check

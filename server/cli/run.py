@@ -57,13 +57,23 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
         from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
+        from server.procedure import Steps  # noqa: PLC0415
 
+        steps = Steps.of(
+            hub=tracked.hub,
+            store=kept.store,
+            jobs=kept.jobs,
+            config=config,
+            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            adopt=tracked.adopt,
+        )
         app = create_app(
             AppParts(
                 hub=tracked.hub,
                 config=config,
                 store=kept.store,
                 jobs=kept.jobs,
+                steps=steps,
                 setup=preparation.setup,
                 surface=preparation.surface,
             )

@@ -1,9 +1,7 @@
 """`coaxial pivot`, `coaxial spin`, `coaxial tip-check`: from files of poses to a tool's tip and axis."""
 
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
@@ -13,12 +11,10 @@ from server.cli.tool_report import Report, check_report, pivot_report, spin_repo
 from server.config import Config
 from server.config_file import load_config
 from server.pose_file import PoseFiles, Unit, read_poses
-from server.tool_file import PivotPart, SpinPart, ToolFile, ToolMarker, load_tool_file, text_of_tool_file
+from server.tool_file import ToolFile, ToolMarker, load_tool_file, pivot_part, spin_part, text_of_tool_file
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.pose.tool import (
-    PivotCalibration,
-    SpinCalibration,
     ToolGate,
     check_tip,
     pivot_calibration,
@@ -68,7 +64,7 @@ def calibrate_tip(order: PivotOrder, *, as_json: bool) -> int:
     failures = found.failures(gate)
     written = None
     if order.output is not None and marker is not None and not failures:
-        tool = ToolFile(**marker.model_dump(), pivot=_pivot_part(found))
+        tool = ToolFile(**marker.model_dump(), pivot=pivot_part(found))
         write_whole(order.output, text_of_tool_file(tool).encode())
         written = order.output
     return _answered(pivot_report(found, failures, files, written, gate), as_json=as_json)
@@ -94,7 +90,7 @@ def calibrate_axis(order: TipOrder, *, as_json: bool) -> int:
     failures = found.failures(gate)
     written = None
     if order.output is not None and tool is not None and not failures:
-        whole = tool.model_copy(update={"spin": _spin_part(found)})
+        whole = tool.model_copy(update={"spin": spin_part(found)})
         write_whole(order.output, text_of_tool_file(whole).encode())
         written = order.output
     return _answered(spin_report(found, failures, files, written, gate), as_json=as_json)
@@ -178,35 +174,3 @@ def _tip(order: TipOrder, tool: ToolFile | None) -> Array | None:
             "Give one of them; --tip-mm takes three numbers in mm, as 0,-120,0.",
         )
     return tip
-
-
-def _pivot_part(found: PivotCalibration) -> PivotPart:
-    return PivotPart(
-        tip_in_marker_mm=_rounded(found.tip_in_marker_mm),
-        covariance_mm2=[_rounded(row) for row in found.tip_covariance_mm2],
-        rms_3d_mm=round(found.rms_3d_mm, 4),
-        used=int(found.used.sum()),
-        rejected=len(found.rejected),
-        tilt_range_deg=round(found.turning.tilt_range_deg, 2),
-        made_at=_now(),
-    )
-
-
-def _spin_part(found: SpinCalibration) -> SpinPart:
-    return SpinPart(
-        axis_in_marker=_rounded(found.axis_in_marker),
-        axis_sd_deg=round(found.axis_sd_deg, 4),
-        spin_range_deg=round(found.spin_range_deg, 2),
-        wobble_deg=round(found.wobble_deg, 3),
-        used=int(found.used.sum()),
-        rejected=len(found.rejected),
-        made_at=_now(),
-    )
-
-
-def _rounded(numbers: Any) -> list[float]:  # noqa: ANN401  an array of any length
-    return [float(f"{number:.8g}") for number in numbers]
-
-
-def _now() -> datetime:
-    return datetime.now(UTC).replace(microsecond=0)

@@ -39,6 +39,7 @@ class CollectionStatus:
 
     Attributes:
         board: that is looked for.
+        running: whether more is taken by itself.
         size_wh_px: of the images; zeros before the first.
         progress: what is taken and what is missing; None before the first image.
         image_number: of the newest image that was looked at; -1 before the first.
@@ -48,6 +49,7 @@ class CollectionStatus:
     """
 
     board: Board
+    running: bool
     size_wh_px: tuple[int, int]
     progress: CollectingProgress | None
     image_number: int
@@ -85,6 +87,7 @@ class BoardCollection:
             collector = self._collector
             return CollectionStatus(
                 board=self._board,
+                running=self._follower.running,
                 size_wh_px=(0, 0) if collector is None else collector.size_wh_px,
                 progress=None if collector is None else collector.progress,
                 image_number=self._image_number,

@@ -46,6 +46,11 @@ class Follower:
         """Why it ended by itself; None while it follows, and when it was stopped."""
         return self._trouble
 
+    @property
+    def running(self) -> bool:
+        """Whether it still looks."""
+        return self._trouble is None and not self._stop.is_set()
+
     def stop(self) -> None:
         """Look no more; returns when the last look is over."""
         self._stop.set()

@@ -1,6 +1,6 @@
 """Everything that is kept, behind one object."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from types import TracebackType
@@ -277,6 +277,10 @@ class CaseStore:
         return unpack(self._ledger, archive)
 
     # ------------------------------------------------------------ end
+
+    def call_after_writing(self, listener: Callable[[], None]) -> None:
+        """Have this called after each change, by the thread that made it; it may read the store."""
+        self._ledger.call_after_writing(listener)
 
     def shut(self) -> None:
         """Close the database. The home is closed by who opened it."""

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 
+import structlog
 from sqlalchemy.orm import Session
 
 from server.store.database import empty_journal, for_writing, open_database
@@ -12,6 +13,7 @@ from server.store.errors import StoreConflict, told
 from server.store.home import Home
 
 Clock = Callable[[], datetime]
+log = structlog.get_logger(__name__)
 
 
 def utc_now() -> datetime:
@@ -29,6 +31,7 @@ class Ledger:
         self._writing = for_writing(self._engine)
         self._turn = threading.RLock()
         self._held: dict[str, int] = {}
+        self._listeners: list[Callable[[], None]] = []
 
     @property
     def now(self) -> str:
@@ -51,6 +54,16 @@ class Ledger:
             session.begin(),
         ):
             yield session
+        for listener in self._listeners:
+            try:
+                listener()
+            except Exception:
+                # What was written is written: whoever only listens cannot undo that.
+                log.exception("a change of the store could not be followed")
+
+    def call_after_writing(self, listener: Callable[[], None]) -> None:
+        """Have this called whenever something was changed, by the thread that changed it."""
+        self._listeners.append(listener)
 
     @contextmanager
     def holding(self, case_id: str) -> Iterator[None]:

@@ -10,6 +10,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from server.calibration_report import report_values
 from tracker.camera.calibration import CalibrationReport, ViewReport
 from tracker.camera.detection import BoardNotFound, BoardView
 
@@ -70,40 +71,9 @@ def json_of(
 ) -> str:
     """The report as one JSON object; what is not known is null."""
     whole = {
-        "rms_px": report.rms_px,
-        "matrix": report.camera.matrix.tolist(),
-        "distortion": report.camera.distortion.tolist(),
-        "size_wh_px": list(report.camera.size_wh_px),
+        **report_values(report),
         "views": [_entry(entry) for entry in entries],
         "views_used": sum(entry.used for entry in entries),
-        "noise_px": report.noise_px,
-        "noise_is_alike": report.is_noise_alike,
-        "pixel_aspect_ratio": report.pixel_aspect_ratio,
-        "parameters": [
-            {
-                "name": one.name,
-                "value": one.value,
-                "sd": one.sd,
-                "low_95": one.low_95,
-                "high_95": one.high_95,
-                "degrees_of_freedom": one.degrees_of_freedom,
-            }
-            for one in report.parameters
-        ],
-        "covariance": report.covariance.tolist(),
-        "coverage": {
-            "cells_ratio": report.coverage.cells_ratio,
-            "hull_ratio": report.coverage.hull_ratio,
-            "corner_reach_ratios": list(report.coverage.corner_reach_ratios),
-        },
-        "model": {
-            "coefficients": report.choice.coefficients,
-            "held_out_rms_px": {str(model): rms for model, rms in report.choice.held_out_rms_px},
-            "reason": report.choice.reason,
-        },
-        "warnings": [
-            {"code": one.code, "message": one.message, "remedy": one.remedy} for one in report.warnings
-        ],
         "boards": list(boards),
         **more,
     }
