@@ -1,0 +1,126 @@
+"""A server with a store, jobs and the steps of the set-up, and a rehearsal whose images a test shows to it."""
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from fastapi.testclient import TestClient
+
+from server.app import AppParts, create_app
+from server.config import Config
+from server.jobs import Jobs
+from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.logs import LogSettings
+from server.procedure import Steps
+from server.setup import CaseSetup, Preparation, build_setup
+from server.store import CaseStore, Home
+from tracker.geometry import Rigid, rotation_from_vector
+from tracker.navigation import navigate
+from tracker.pose import Seen, Unseen, UnseenReason
+from tracker.rehearsal import Theatre
+
+DEADLINE_S = 120.0
+
+
+@dataclass(slots=True, kw_only=True)
+class Server:
+    """The server's inside, and its door."""
+
+    door: TestClient
+    hub: LiveHub
+    store: CaseStore
+    jobs: Jobs
+    preparation: Preparation
+    adopted: list[CaseSetup]
+    number: int = field(default=0)
+
+    def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
+        """The answer of the door, which must have this status."""
+        answer = self.door.request(method, path, **sent)
+        assert answer.status_code == status, answer.text
+        return answer.json() if answer.content else None
+
+    def done(self, job: dict[str, Any]) -> dict[str, Any]:
+        """The job when it is over."""
+        self.jobs.wait_for(job["id"], timeout_s=DEADLINE_S)
+        over: dict[str, Any] = self.ask("GET", f"/api/jobs/{job['id']}", 200)
+        return over
+
+    def show(self, *, at_s: float, image: np.ndarray | None = None, seen: Seen | None = None) -> None:
+        """Publish an image, or a marker seen in it, as the tracking process would."""
+        self.number += 1
+        preparation = self.preparation.with_case(self.adopted[-1]) if self.adopted else self.preparation
+        setup = preparation.setup or preparation.uncalibrated_setup_for((1280, 720))
+        unseen = Unseen(reason=UnseenReason.NO_CANDIDATE)
+        snapshot = navigate(
+            setup=setup,
+            sightings={"drill": seen or unseen},
+            image_number=self.number,
+            captured_at_s=at_s,
+            size_wh_px=setup.camera.size_wh_px,
+            stage_ms={},
+            skipped_images=0,
+        )
+        self.hub.publish(
+            Instant(
+                sequence=self.number,
+                source=SourceStatus(name="rehearsal", state=SourceState.RUNNING),
+                process=ProcessStatus(state=ProcessState.RUNNING),
+                snapshot=snapshot,
+                image=image,
+            )
+        )
+
+    def until(self, true: Callable[[], bool]) -> None:
+        """Returns when this is true."""
+        deadline_s = time.monotonic() + DEADLINE_S
+        while not true():
+            assert time.monotonic() < deadline_s, "it did not become true"
+            time.sleep(0.002)
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> Iterator[Server]:
+    config = Config.model_validate({"rehearsal": {"brings_setup": False}})
+    hub, adopted = LiveHub(), list[CaseSetup]()
+    jobs = Jobs(log=LogSettings(as_json=True))
+    preparation = build_setup(config)
+    with Home(tmp_path / "home") as home, CaseStore(home) as store:
+        steps = Steps.of(
+            hub=hub,
+            store=store,
+            jobs=jobs,
+            config=config,
+            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            adopt=adopted.append,
+        )
+        app = create_app(AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps))
+        with TestClient(app, base_url="http://127.0.0.1:8000", raise_server_exceptions=False) as door:
+            yield Server(door=door, hub=hub, store=store, jobs=jobs, preparation=preparation, adopted=adopted)
+        jobs.close()
+
+
+def sighting(theatre: Theatre, at_s: float, random: np.random.Generator) -> Seen:
+    """What a good tracker sees of the drill's marker: the truth with a hundredth of noise."""
+    truth = theatre.truth_at(at_s)
+    sd = np.array([0.02, 0.02, 0.1, 0.001, 0.001, 0.0004])
+    noise = random.normal(0.0, sd)
+    pose = truth.camera_from_marker
+    return Seen(
+        camera_from_marker=Rigid(
+            rotation=rotation_from_vector(noise[3:]) @ pose.rotation,
+            translation_mm=pose.translation_mm + noise[:3],
+        ),
+        pose_covariance=np.diag(sd**2),
+        corners_px=truth.corners_px,
+        score_ratio=0.95,
+        target_score_ratio=0.9,
+        model_coverage_ratio=0.95,
+        target_coverage_ratio=0.9,
+        fit_error_px2=0.1,
+        found_by="track",
+    )

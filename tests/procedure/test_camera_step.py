@@ -1,0 +1,156 @@
+"""A camera is calibrated through the door, from images of a board in a rehearsal whose camera is known."""
+
+from functools import lru_cache
+
+import cv2
+import numpy as np
+import pytest
+
+from tests.procedure.conftest import Server
+from tracker.camera import CameraModel
+from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings
+from tracker.rehearsal.boards import HOLD_S, MOVE_S, PLACES
+
+SIZE = (960, 540)
+DOTS = {
+    "pattern": "dots",
+    "columns": 14,
+    "rows": 10,
+    "pitch_mm": 12.0,
+    "fiducials": [31, 38, 60, 101, 108],
+}
+
+
+@lru_cache(maxsize=1)
+def shown() -> tuple[CameraModel, tuple[np.ndarray, ...]]:
+    """The true camera, and an image of the board in each of its places."""
+    theatre = Theatre(TheatreSettings(seed=6, size_wh_px=SIZE, scene=Scene.BOARD, board=BoardKind.DOTS))
+    renderer = theatre.renderer()
+    times_s = [place * (HOLD_S + MOVE_S) + HOLD_S / 2.0 for place in range(len(PLACES))]
+    return theatre.camera, tuple(renderer.image_at(at_s) for at_s in times_s)
+
+
+def png(image: np.ndarray) -> bytes:
+    return cv2.imencode(".png", image)[1].tobytes()
+
+
+def camera_in_use(server: Server) -> CameraModel | None:
+    return server.adopted[-1].camera
+
+
+def open_a_case(server: Server) -> str:
+    case = server.ask("POST", "/api/cases", 201, json={"name": "rehearsal"})
+    server.ask("POST", f"/api/cases/{case['id']}/open", 200)
+    return str(case["id"])
+
+
+def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: Server) -> None:
+    truth, images = shown()
+    case_id = open_a_case(server)
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    for index, image in enumerate(images):
+        told = server.ask("POST", f"/api/camera/collection/images?name=view-{index}", 201, content=png(image))
+    assert len(told["views"]) == len(images)
+    assert told["missing"] == []
+    job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
+    assert job["state"] == "done", job["trouble"]
+    report = job["result"]
+    assert report["rms_px"] < 0.1
+    assert sum(view["used"] for view in report["views"]) == len(images)
+    fx = next(one for one in report["parameters"] if one["name"] == "fx")
+    assert abs(fx["value"] - truth.matrix[0, 0]) < 4.0 * fx["sd"]
+    assert fx["sd"] < 2.0
+    used = server.adopted[-1].camera
+    assert used is not None
+    np.testing.assert_allclose(used.matrix, report["matrix"])
+    corner = np.array([[8.0, 8.0], [950.0, 530.0]])
+    assert np.abs(used.normalised_from_px(corner) - truth.normalised_from_px(corner)).max() < 1.5e-3
+    documents = server.ask("GET", f"/api/cases/{case_id}/documents", 200)["documents"]
+    assert [(one["kind"], one["name"], one["made_by"], one["current"]) for one in documents] == [
+        ("camera", "main", "ito", True)
+    ]
+
+
+def test_a_withdrawn_camera_is_used_no_more(server: Server) -> None:
+    case_id = open_a_case(server)
+    _, images = shown()
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    for image in images[:8]:
+        server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
+    job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
+    assert camera_in_use(server) is not None
+    path = f"/api/cases/{case_id}/documents/{job['result']['document_id']}/withdrawal"
+    server.ask("POST", path, 200, json={"by": "ito", "reason": "the lens was turned"})
+    assert camera_in_use(server) is None
+    server.ask("POST", f"/api/cases/{case_id}/close", 200)
+
+
+def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> None:
+    _, images = shown()
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    for index, image in enumerate(images[:3]):
+        for late_s in (0.0, 0.3):
+            server.show(at_s=index * 2.0 + late_s, image=image)
+            server.until(
+                lambda: server.ask("GET", "/api/camera/collection", 200)["image_number"] == server.number
+            )
+    told = server.ask("GET", "/api/camera/collection", 200)
+    assert told["running"]
+    assert told["views"] == ["image 2", "image 4", "image 6"]
+    assert (told["width_px"], told["height_px"]) == SIZE
+    assert len(told["points_px"]) == 140
+    server.ask("DELETE", "/api/camera/collection", 204)
+    assert server.ask("GET", "/api/camera/collection", 409)["code"] == "COLLECTION_MISSING"
+
+
+@pytest.mark.parametrize(
+    ("views", "code"),
+    [
+        pytest.param(slice(0, 0), "COLLECTION_EMPTY", id="no-view"),
+        pytest.param(slice(0, 1), "TOO_FEW_VIEWS", id="one-view"),
+        pytest.param([0] * 5, "CALIBRATION_VIEWS_ALIKE", id="all-from-one-place"),
+    ],
+)
+def test_views_that_say_too_little_are_refused_and_nothing_is_kept(
+    server: Server, views: slice | list[int], code: str
+) -> None:
+    case_id = open_a_case(server)
+    _, images = shown()
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    some = images[views] if isinstance(views, slice) else [images[index] for index in views]
+    for image in some:
+        server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
+    answer = server.door.post("/api/camera/calibration", json={"made_by": "ito"})
+    asked_for = answer.status_code == 202
+    trouble = server.done(answer.json())["trouble"] if asked_for else answer.json()
+    assert trouble["code"] == code, trouble
+    assert trouble["remedy"]
+    assert server.ask("GET", f"/api/cases/{case_id}/documents", 200)["documents"] == []
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        pytest.param(b"", "UPLOAD_EMPTY", id="nothing"),
+        pytest.param(b"this is text", "IMAGE_UNREADABLE", id="text"),
+        pytest.param(png(np.full((200, 300), 128, np.uint8)), "BOARD_NOT_FOUND", id="no-board-in-it"),
+    ],
+)
+def test_an_image_that_cannot_be_used_is_refused(server: Server, content: bytes, code: str) -> None:
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    answer = server.ask("POST", "/api/camera/collection/images", 422, content=content)
+    assert answer["code"] == code
+
+
+def test_without_an_open_case_nothing_is_computed(server: Server) -> None:
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    refused = server.ask("POST", "/api/camera/calibration", 409, json={"made_by": "ito"})
+    assert refused["code"] == "NO_CASE_OPEN"
+    assert server.ask("GET", "/api/jobs", 200) == {"jobs": []}
+
+
+def test_a_board_that_cannot_be_is_refused_with_what_is_allowed(server: Server) -> None:
+    board = {**DOTS, "fiducials": [900]}
+    refused = server.ask("POST", "/api/camera/collection", 422, json={"board": board})
+    assert refused["code"] == "BOARD_INVALID"
+    assert "0 to 139" in refused["message"]

@@ -1,0 +1,138 @@
+"""A tool is calibrated through the door, from what a tracker sees of a rehearsed pivot and spin."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from server.store import DocumentKind
+from tests.procedure.conftest import Server, sighting
+from tests.procedure.test_camera_step import open_a_case
+from tracker.rehearsal import Scene, Theatre, TheatreSettings
+
+SHAPE = {"radius_mm": 2.0, "length_mm": 118.0}
+
+
+def calibrated(server: Server) -> str:
+    """An open case that has the rehearsal's true camera."""
+    case_id = open_a_case(server)
+    camera = Theatre(TheatreSettings()).camera
+    values = {
+        "matrix": camera.matrix.tolist(),
+        "distortion": camera.distortion.tolist(),
+        "size_wh_px": list(camera.size_wh_px),
+        "source": "rehearsal",
+    }
+    server.store.put(case_id, DocumentKind.CAMERA, "main", {"camera": values}, made_by="test")
+    return case_id
+
+
+def gather(server: Server, scene: Scene, purpose: str, *, images: int = 400, seed: int = 1) -> dict[str, Any]:
+    """Show a rehearsed motion until nothing is missing; the state of the gathering."""
+    theatre = Theatre(TheatreSettings(seed=seed, scene=scene))
+    random = np.random.default_rng(5)
+    server.ask("POST", "/api/tools/collection", 201, json={"tool": "drill", "purpose": purpose})
+    told: dict[str, Any] = {}
+    for index in range(images):
+        at_s = index / 10.0
+        server.show(at_s=at_s, seen=sighting(theatre, at_s, random))
+
+        def looked_at(wanted: int = index + 1) -> bool:
+            nonlocal told
+            told = server.ask("GET", "/api/tools/collection", 200)
+            return bool(told["taken"] + sum(told["passed_over"].values()) >= wanted or not told["running"])
+
+        server.until(looked_at)
+        if not told["missing"] or not told["running"]:
+            break
+    return told
+
+
+def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> None:
+    case_id = calibrated(server)
+    truth = Theatre(TheatreSettings()).tool.marker_from_tool
+    told = gather(server, Scene.PIVOT, "PIVOT")
+    assert told["missing"] == []
+    assert told["tilt_range_deg"] > 30.0
+    assert told["tilt_range_across_deg"] > 30.0
+    kept = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE})
+    tip = kept["content"]["pivot"]["tip_in_marker_mm"]
+    assert np.linalg.norm(np.array(tip) - truth.translation_mm) < 0.5
+    # Nobody knows yet which way it points.
+    assert server.adopted[-1].tools == {}
+
+    told = gather(server, Scene.SPIN, "SPIN")
+    assert told["missing"] == []
+    kept = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito"})
+    assert kept["heading"]["version"] == 2
+    tool = server.adopted[-1].tools["drill"]
+    off_deg = np.degrees(
+        np.arccos(np.clip(tool.marker_from_tool.rotation[:, 2] @ truth.rotation[:, 2], -1, 1))
+    )
+    assert off_deg < 0.2
+    np.testing.assert_allclose(tool.marker_from_tool.translation_mm, tip)
+
+    gather(server, Scene.PIVOT, "TIP_CHECK", seed=2)
+    check = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito"})
+    assert check["heading"]["kind"] == "check"
+    assert check["content"]["rms_3d_mm"] < 0.5
+    assert check["heading"]["stands_on"] == [kept["heading"]["id"]]
+    documents = server.ask("GET", f"/api/cases/{case_id}/documents", 200)["documents"]
+    assert all(one["current"] for one in documents if one["version"] == 2 or one["kind"] != "tool")
+
+
+def test_a_new_camera_puts_the_tool_out_of_date(server: Server) -> None:
+    case_id = calibrated(server)
+    gather(server, Scene.PIVOT, "PIVOT")
+    axis = {"axis_in_marker": [0.0, -1.0, 0.0]}
+    server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE, **axis})
+    assert list(server.adopted[-1].tools) == ["drill"]
+    camera = server.store.latest(case_id, DocumentKind.CAMERA, "main")
+    assert camera is not None
+    server.store.put(case_id, DocumentKind.CAMERA, "main", camera.content, made_by="test")
+    assert server.adopted[-1].tools == {}
+    assert server.adopted[-1].camera is not None
+
+
+def test_a_tool_that_was_hardly_tilted_is_refused_with_its_numbers(server: Server) -> None:
+    calibrated(server)
+    told = gather(server, Scene.OPERATION, "PIVOT", images=60)
+    assert told["missing"]
+    refused = server.ask("POST", "/api/tools/collection/conclusion", 409, json={"made_by": "ito", **SHAPE})
+    assert refused["remedy"]
+    assert server.adopted[-1].tools == {}
+
+
+def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
+    open_a_case(server)
+    told = gather(server, Scene.PIVOT, "PIVOT", images=3)
+    assert not told["running"]
+    assert told["trouble"]["code"] == "CAMERA_NOT_CALIBRATED"
+
+
+@pytest.mark.parametrize(
+    ("asked", "status", "code"),
+    [
+        pytest.param({"tool": "drill", "purpose": "SPIN"}, 409, "TOOL_TIP_MISSING", id="spin-before-pivot"),
+        pytest.param({"tool": "drill", "purpose": "TIP_CHECK"}, 409, "TOOL_TIP_MISSING", id="check-first"),
+        pytest.param(
+            {"tool": "awl", "purpose": "PIVOT", "marker": "nobody"},
+            422,
+            "MARKER_UNKNOWN",
+            id="no-such-marker",
+        ),
+        pytest.param({"tool": "../x", "purpose": "PIVOT"}, 422, "REQUEST_INVALID", id="no-such-name"),
+    ],
+)
+def test_what_cannot_be_begun_is_refused(
+    server: Server, asked: dict[str, str], status: int, code: str
+) -> None:
+    calibrated(server)
+    assert server.ask("POST", "/api/tools/collection", status, json=asked)["code"] == code
+
+
+def test_shape_is_asked_for_where_nobody_knows_it(server: Server) -> None:
+    calibrated(server)
+    gather(server, Scene.PIVOT, "PIVOT")
+    refused = server.ask("POST", "/api/tools/collection/conclusion", 422, json={"made_by": "ito"})
+    assert refused["code"] == "TOOL_SHAPE_UNKNOWN"
