@@ -95,8 +95,8 @@ class Home:
         if needed_bytes + SPARE_BYTES > free_bytes:
             raise StoreError(
                 FULL,
-                f"{needed_bytes / 2**20:.1f} MB are needed and {SPARE_BYTES / 2**20:g} MB are to stay free, but "
-                f"under {self.folder} only {free_bytes / 2**20:.1f} MB are free",
+                f"{needed_bytes / 2**20:.1f} MB are needed and {SPARE_BYTES / 2**20:g} MB are to stay free, "
+                f"but under {self.folder} only {free_bytes / 2**20:.1f} MB are free",
                 REMEDY[FULL],
                 {"needed_bytes": needed_bytes, "free_bytes": free_bytes},
             )
