@@ -8,7 +8,7 @@ from typing import Any
 import structlog
 
 # Per-request and per-frame lines of these would bury what matters.
-QUIET_LOGGERS = ("uvicorn.access", "websockets", "asyncio", "numba", "multipart", "PIL")
+QUIET_LOGGERS = ("alembic", "uvicorn.access", "websockets", "asyncio", "numba", "multipart", "PIL")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -17,13 +17,15 @@ PIECE_BYTES = 2**20
 
 @asynccontextmanager
 async def received(request: Request, home: Home, *, most_bytes: int) -> AsyncIterator[Path]:
-    """The body of a request as a file, which is gone at the end of the block.
+    """The body of a request as a file, which is gone at the end of the block, unless it was moved away.
 
     Raises:
         InvalidInput: UPLOAD_TOO_LARGE (HTTP 413), UPLOAD_EMPTY, UPLOAD_CUT.
         StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
     """
-    _refuse_above(_announced_bytes(request), most_bytes)
+    announced_bytes = _announced_bytes(request)
+    _refuse_above(announced_bytes, most_bytes)
+    home.refuse_without_room(announced_bytes)
     path = home.new_temporary()
     try:
         await _write(request, path, home, most_bytes=most_bytes)

@@ -24,6 +24,8 @@ BUSY_TIMEOUT_MS = 10_000
 PRAGMAS = (
     "PRAGMA journal_mode = WAL",
     "PRAGMA synchronous = FULL",
+    "PRAGMA fullfsync = ON",
+    "PRAGMA checkpoint_fullfsync = ON",
     "PRAGMA foreign_keys = ON",
     "PRAGMA secure_delete = ON",
     f"PRAGMA busy_timeout = {BUSY_TIMEOUT_MS}",
@@ -43,6 +45,7 @@ def open_database(home: Home, *, now: Callable[[], datetime], migrations: Path =
         try:
             _check(engine, home)
             _migrate(engine, home, now=now, migrations=migrations)
+            sync_folder(home.folder)
         except BaseException:
             engine.dispose()
             raise

@@ -18,7 +18,7 @@ from server.store.cases import case_row, new_id
 from server.store.checks import checked_suffix
 from server.store.documents import file_unknown
 from server.store.errors import StoreError, told
-from server.store.home import PRIVATE, sync_folder
+from server.store.home import PRIVATE, sync_file, sync_folder
 from server.store.ledger import Ledger
 from server.store.records import Damage, StoredFile
 from server.store.standing import lineage_of
@@ -86,7 +86,7 @@ def make_folder(folder: Path) -> None:
 def settle(part: Path, whole: Path) -> tuple[int, str]:
     """Give a file that is written its name, once all of it is on the disk; gives its size and SHA-256."""
     with part.open("rb") as stream:
-        os.fsync(stream.fileno())
+        sync_file(stream.fileno())
         size_bytes, sha256 = measured(stream.fileno())
     part.chmod(READ_ONLY)
     part.replace(whole)

@@ -1,5 +1,6 @@
 """The folder in which everything is kept, used by one server at a time."""
 
+import fcntl
 import os
 import secrets
 import shutil
@@ -11,12 +12,16 @@ from types import TracebackType
 import filelock
 import platformdirs
 
-from server.store.errors import StoreError, told
+from server.store.errors import FULL, REMEDY, StoreError, told
 
 FOLDER_VARIABLE = "COAXIAL_HOME"
 # Patients' pictures are for the one who runs the server.
 PRIVATE = 0o700
 RESERVE_BYTES = 2**20
+# What is left free by everything that takes much room.
+SPARE_BYTES = 64 * 2**20
+# On macOS a plain sync leaves things in the disk's own memory.
+FULL_SYNC: int | None = getattr(fcntl, "F_FULLFSYNC", None)
 
 
 def home_folder(environment: Mapping[str, str] = os.environ) -> Path:
@@ -79,6 +84,23 @@ class Home:
         """Give the room up."""
         self.reserve.unlink(missing_ok=True)
 
+    def refuse_without_room(self, needed_bytes: int) -> None:
+        """To be asked before much is written, so that the disk is not filled for everybody first.
+
+        Raises:
+            StoreError: STORE_FULL.
+        """
+        with told(self.folder):
+            free_bytes = shutil.disk_usage(self.folder).free
+        if needed_bytes + SPARE_BYTES > free_bytes:
+            raise StoreError(
+                FULL,
+                f"{needed_bytes / 2**20:.1f} MB are needed and {SPARE_BYTES / 2**20:g} MB are to stay free, "
+                f"but under {self.folder} only {free_bytes / 2**20:.1f} MB are free",
+                REMEDY[FULL],
+                {"needed_bytes": needed_bytes, "free_bytes": free_bytes},
+            )
+
     def close(self) -> None:
         """Let another server have the folder."""
         self._lock.release()
@@ -96,9 +118,17 @@ def sync_folder(folder: Path) -> None:
     """Have names that were made, changed or taken away in a folder outlast a power cut."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
-        os.fsync(descriptor)
+        sync_file(descriptor)
     finally:
         os.close(descriptor)
+
+
+def sync_file(descriptor: int) -> None:
+    """Have what was written into a file outlast a power cut."""
+    os.fsync(descriptor)
+    if FULL_SYNC is not None:
+        with suppress(OSError):
+            fcntl.fcntl(descriptor, FULL_SYNC)
 
 
 def _in_use(folder: Path) -> StoreError:

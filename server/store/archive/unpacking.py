@@ -1,7 +1,5 @@
 """A case taken in from an archive."""
 
-import os
-import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -11,9 +9,9 @@ from server.store.archive.form import CASE, DOCUMENTS, FILES, CaseForm, Document
 from server.store.archive.reading import Parts, opened, shaped
 from server.store.cases import add_case, case_of
 from server.store.checks import checked_name, text_of
-from server.store.errors import FULL, REMEDY, StoreError, told
+from server.store.errors import told
 from server.store.files import READ_ONLY, UNFINISHED, make_folder
-from server.store.home import sync_folder
+from server.store.home import sync_file, sync_folder
 from server.store.ledger import Ledger
 from server.store.records import Case, DocumentKind
 from server.store.sweep import remove_case
@@ -29,8 +27,6 @@ from server.store.tables import (
 )
 from tracker.errors import InvalidInput
 
-SPARE_BYTES = 64 * 2**20
-
 
 def unpack(ledger: Ledger, archive: Path) -> Case:
     """Take a case in; it is there whole when this returns, and otherwise nothing of it is.
@@ -41,7 +37,7 @@ def unpack(ledger: Ledger, archive: Path) -> Case:
     """
     with told(ledger.home.folder), opened(archive) as parts:
         case, documents = _judged(parts)
-        _refuse_without_room(ledger, parts)
+        ledger.home.refuse_without_room(parts.total_bytes)
         with ledger.writing() as session:
             arriving = add_case(session, name=case.name, now=ledger.now, state=ARRIVING, copied_from=case.id)
         try:
@@ -101,18 +97,6 @@ def _refuse_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
         newest[document.kind, document.name] = document.version
 
 
-def _refuse_without_room(ledger: Ledger, parts: Parts) -> None:
-    free_bytes = shutil.disk_usage(ledger.home.folder).free
-    if parts.total_bytes + SPARE_BYTES > free_bytes:
-        raise StoreError(
-            FULL,
-            f"the case needs {parts.total_bytes / 2**30:.2f} GB, and under {ledger.home.folder} are "
-            f"{free_bytes / 2**30:.2f} GB free",
-            REMEDY[FULL],
-            {"needed_bytes": parts.total_bytes, "free_bytes": free_bytes},
-        )
-
-
 def _write_files(folder: Path, case: CaseForm, parts: Parts) -> None:
     make_folder(folder)
     for file in case.files:
@@ -121,7 +105,7 @@ def _write_files(folder: Path, case: CaseForm, parts: Parts) -> None:
             for piece in parts.pieces(f"{FILES}{file.id}"):
                 stream.write(piece)
             stream.flush()
-            os.fsync(stream.fileno())
+            sync_file(stream.fileno())
         part.chmod(READ_ONLY)
         part.replace(folder / file.id)
     sync_folder(folder)

@@ -218,7 +218,7 @@ def test_a_case_without_room_is_refused_before_it_is_unpacked(
     store: CaseStore, case: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     archive = store.copy_out(case.id)
-    monkeypatch.setattr("server.store.archive.unpacking.SPARE_BYTES", 2**60)
+    monkeypatch.setattr("server.store.home.SPARE_BYTES", 2**60)
     with pytest.raises(StoreError) as full:
         store.copy_in(archive.path)
     assert full.value.code == "STORE_FULL"
