@@ -37,25 +37,33 @@ Shots = Sequence[Mapping[str, BoardView]]
 
 
 def adjusted(start: Bundle, shots: Shots) -> Bundle:
-    """The bundle that fits best (Gauss-Newton, a step is halved until it helps)."""
-    bundle, error = start, squares_px2(start, shots)
+    """The bundle that fits best (Levenberg-Marquardt; each board's pose follows the shared numbers)."""
+    bundle, error, damping = start, squares_px2(start, shots), 1e-3
     for _ in range(STEPS):
         parts = [_linear(bundle, shot, index) for index, shot in enumerate(shots)]
         blocks = [reduced(*part) for part in parts]
-        step = inverse(total_information(blocks)) @ np.sum([block.gradient for block in blocks], axis=0)
-        own = [np.linalg.lstsq(o, r - s @ step, rcond=None)[0] for s, o, r in parts]
-        for halving in range(8):
-            trial = _moved(bundle, step / 2.0**halving, [one / 2.0**halving for one in own])
+        information = total_information(blocks)
+        gradient = np.sum([block.gradient for block in blocks], axis=0)
+        for _ in range(10):
+            step = inverse(information + damping * np.diag(np.diag(information))) @ gradient
+            own = [np.linalg.solve(_damped(o, damping), o.T @ (r - s @ step)) for s, o, r in parts]
+            trial = _moved(bundle, step, own)
             now = squares_px2(trial, shots)
             if now < error:
                 break
+            damping *= 8.0
         else:
             return bundle
         done = error - now < SMALL_RATIO * error
-        bundle, error = trial, now
+        bundle, error, damping = trial, now, damping / 20.0
         if done:
             return bundle
     return bundle
+
+
+def _damped(own: Array, damping: float) -> Array:
+    information = own.T @ own
+    return np.asarray(information + damping * np.diag(np.diag(information)))
 
 
 def rig_blocks(bundle: Bundle, shots: Shots) -> list[Block]:

@@ -1,7 +1,7 @@
 """A rig calibrated, with its report."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,11 +10,12 @@ from tracker.camera.calibration.sureness import noise_is_alike, uncertainty
 from tracker.camera.detection.view import BoardView
 from tracker.camera.model import CameraModel
 from tracker.camera.rig.bundle import Bundle, adjusted, places_of, residuals_px, rig_blocks
-from tracker.camera.rig.consensus import Agreement, agreement
-from tracker.errors import InvalidInput
+from tracker.camera.rig.consensus import LEAST_PAIRS, MOST_OUT_RATIO, Agreement, agreement
+from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array, Camera, Rigid
 
 MOST_POINT_SDS = 5.5
+MOST_SHOT_RATIO, GOOD_SHOT_PX = 3.0, 0.2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,7 +107,8 @@ def calibrate_rig(
     agreed = agreement(shots, {name: report.camera for name, report in reports.items()})
     used = [index for index, shot in enumerate(agreed.shots) if shot]
     views = [{name: one.view for name, one in agreed.shots[index].items()} for index in used]
-    bundle = adjusted(_start(agreed, used, reports), views)
+    bundle, out = _without_odd_shots(_start(agreed, used, reports), views)
+    agreed, used, views = _left(agreed, used, views, out)
     views = _without_odd_points(bundle, views)
     bundle = adjusted(bundle, views)
     return _report(bundle, views, used, agreed, names)
@@ -122,6 +124,55 @@ def _start(agreed: Agreement, used: Sequence[int], reports: Mapping[str, Calibra
         camera_from_first=dict(agreed.camera_from_first),
         first_from_pattern=tuple(boards),
     )
+
+
+def _without_odd_shots(start: Bundle, views: Sequence[dict[str, BoardView]]) -> tuple[Bundle, dict[int, str]]:
+    """Fitted to the instants that fit one rig; the worst is taken out and all is fitted anew."""
+    kept = list(range(len(views)))
+    out: dict[int, str] = {}
+    while True:
+        some = [views[at] for at in kept]
+        first = replace(start, first_from_pattern=tuple(start.first_from_pattern[at] for at in kept))
+        bundle = adjusted(first, some)
+        typical = [
+            float(np.median(np.concatenate([_lengths(bundle, n, *seen) for seen in shot.items()])))
+            for n, shot in enumerate(some)
+        ]
+        worst, usual = int(np.argmax(typical)), float(np.median(typical))
+        shared = sum(len(shot) > 1 for shot in some)
+        if typical[worst] <= max(MOST_SHOT_RATIO * usual, GOOD_SHOT_PX) or shared <= LEAST_PAIRS:
+            return bundle, out
+        out[kept[worst]] = (
+            f"its points lie off by {typical[worst]:.2f} px where other instants have {usual:.2f} px, allowed "
+            f"{max(MOST_SHOT_RATIO * usual, GOOD_SHOT_PX):.2f} px: not of the same instant, or other order"
+        )
+        del kept[worst]
+
+
+def _left(
+    agreed: Agreement, used: Sequence[int], views: Sequence[dict[str, BoardView]], out: dict[int, str]
+) -> tuple[Agreement, list[int], list[dict[str, BoardView]]]:
+    """The same without the instants that are out."""
+    if len(out) > MOST_OUT_RATIO * len(views):
+        raise CalibrationError(
+            "RIG_VIEWS_DISAGREE",
+            f"{len(out)} of {len(views)} instants do not fit to one rig, allowed is a third of them",
+            "Check that images of all cameras are of the same instant, and that no camera was moved.",
+            {"views": len(views), "disagree": len(out)},
+        )
+    reasons, shots = list(agreed.reasons), list(agreed.shots)
+    for at, reason in out.items():
+        reasons[used[at]], shots[used[at]] = reason, {}
+    left = [at for at in range(len(views)) if at not in out]
+    return (
+        replace(agreed, shots=tuple(shots), reasons=tuple(reasons)),
+        [used[at] for at in left],
+        [views[at] for at in left],
+    )
+
+
+def _lengths(bundle: Bundle, index: int, name: str, view: BoardView) -> Array:
+    return np.asarray(np.linalg.norm(residuals_px(bundle, index, name, view), axis=1))
 
 
 def _without_odd_points(bundle: Bundle, views: list[dict[str, BoardView]]) -> list[dict[str, BoardView]]:

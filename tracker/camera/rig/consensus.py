@@ -14,7 +14,7 @@ from tracker.geometry import Array, Camera, Pattern, Rigid
 LEAST_PAIRS = 3
 # A pair is out where it places a camera farther off than this from where most pairs place it; the shift is
 # told as a part of the board's distance.
-MOST_TURN_DEG, MOST_SHIFT_RATIO = 3.0, 0.08
+MOST_TURN_DEG, MOST_SHIFT_RATIO = 3.0, 0.04
 MOST_OUT_RATIO = 0.34
 
 Shot = Mapping[str, BoardView]
@@ -41,6 +41,10 @@ class Agreement:
     camera_from_first: dict[str, Rigid[Camera, Camera]]
     shots: tuple[dict[str, Seen], ...]
     reasons: tuple[str, ...]
+
+
+# Which instant, what the far camera sees, where it then stands, and how far the board is.
+Way = tuple[int, Seen, Rigid[Camera, Camera], float]
 
 
 def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agreement:
@@ -82,7 +86,7 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
             del kept[index][far]
             reasons[index] = (
                 f"{far} does not see the board where {near} does (off the rest by more than "
-                f"{MOST_TURN_DEG:g} deg or {100 * MOST_SHIFT_RATIO:g} %): wrong pair, or another order of points"
+                f"{MOST_TURN_DEG:g} deg or {100 * MOST_SHIFT_RATIO:g} %): wrong pair, or other order"
             )
         places[far] = far_from_near @ places[near]
     return Agreement(camera_from_first=places, shots=tuple(kept), reasons=tuple(reasons))
@@ -92,7 +96,7 @@ def _place(
     kept: list[dict[str, Seen]], near: str, far: str, whole: tuple[Array, int]
 ) -> tuple[Rigid[Camera, Camera], list[int]]:
     """Where most instants place one camera to another, and those that do not; ambiguous ones are turned."""
-    ways: list[tuple[int, Seen, Rigid[Camera, Camera], float]] = []
+    ways: list[Way] = []
     for index, shot in enumerate(kept):
         if near not in shot or far not in shot:
             continue
@@ -102,11 +106,20 @@ def _place(
             ways.append((index, other, relation, _distance_mm(shot[near])))
     agree = [[_is_near(one[2], two[2], one[3]) for two in ways] for one in ways]
     votes = [sum(row) for row in agree]
-    best = int(np.argmax(votes))
+    # Of equally many votes counts the way in the middle of them.
+    middle = [
+        sum(float(np.linalg.norm(one[2].translation_mm - two[2].translation_mm)) for two in _of(ways, row))
+        for one, row in zip(ways, agree, strict=True)
+    ]
+    best = min(range(len(ways)), key=lambda at: (-votes[at], middle[at]))
     fitting = {ways[at][0]: ways[at][1] for at in range(len(ways)) if agree[best][at]}
     for index, other in fitting.items():
         kept[index][far] = other
     return ways[best][2], sorted({way[0] for way in ways} - set(fitting))
+
+
+def _of(ways: list[Way], row: list[bool]) -> list[Way]:
+    return [way for way, agrees in zip(ways, row, strict=True) if agrees]
 
 
 def _is_near(one: Rigid[Camera, Camera], two: Rigid[Camera, Camera], distance_mm: float) -> bool:
@@ -128,9 +141,8 @@ def _whole_board(kept: Sequence[Mapping[str, Seen]]) -> tuple[Array, int]:
     views = [one.view for shot in kept for one in shot.values()]
     if not views:
         return np.zeros(3), 0
-    return np.max([v.object_points_mm.max(axis=0) for v in views], axis=0), max(
-        int(v.ids.max()) for v in views
-    )
+    corner = np.max([view.object_points_mm.max(axis=0) for view in views], axis=0)
+    return np.asarray(corner), max(int(view.ids.max()) for view in views)
 
 
 def _turned(seen: Seen, whole: tuple[Array, int]) -> Seen:
@@ -153,7 +165,7 @@ def _refuse_disagreement(near: str, far: str, odd: int, count: int) -> None:
     raise CalibrationError(
         "RIG_VIEWS_DISAGREE",
         f"{odd} of {count} views place {far} elsewhere to {near} than the rest, allowed is a third of them",
-        "Check that images of both cameras pair up (taken at the same instant), that no camera was moved, and "
+        "Check that images of both cameras are of the same instant, that no camera was moved, and "
         "that the board tells which way up it is.",
         {"views": count, "disagree": odd, "cameras": [near, far]},
     )
