@@ -9,7 +9,7 @@ from tracker.camera.boards import CharucoBoard, CharucoLayout
 from tracker.camera.detection.blobs import GreyImage
 from tracker.camera.detection.lattice import Cells, step_lengths_px
 from tracker.camera.detection.plane import off_plane_px
-from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
+from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, Sureness
 from tracker.geometry import Array
 
 LEAST_CORNERS, LEAST_MARKERS = 6, 4
@@ -20,8 +20,13 @@ OFF_NEIGHBOURS_RATIO = 0.15
 def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
     """The corners of the board in an image, or why not; the layout is found out where it is not told."""
     layout = board.layout
+    sureness = Sureness.CERTAIN
     if layout is None:
-        layout = charuco_layout([layout_misfits(grey, board)])
+        misfits = layout_misfits(grey, board)
+        layout = charuco_layout([misfits])
+        # A patch in the middle of the board looks alike in both, one square farther.
+        if board.rows % 2 == 0 and min(misfits) > 0.5 * max(misfits):
+            sureness = Sureness.PLACE
     ids, corners, most_markers = _detected(grey, board, layout)
     if len(ids) < LEAST_CORNERS:
         return BoardNotFound(
@@ -30,14 +35,15 @@ def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFo
             f"are seen, at least {LEAST_CORNERS} corners are needed",
             seen_points=len(ids),
         )
-    return BoardView(ids=ids, object_points_mm=board.object_points_mm[ids], image_points_px=corners)
+    return BoardView(
+        ids=ids, object_points_mm=board.object_points_mm[ids], image_points_px=corners, sureness=sureness
+    )
 
 
 def charuco_layout(misfits: list[tuple[float, float]]) -> CharucoLayout:
-    """The layout that fits most images better; `misfits` are as `layout_misfits` gives them."""
-    older = sum(as_older < as_newer for as_newer, as_older in misfits)
-    newer = sum(as_newer < as_older for as_newer, as_older in misfits)
-    return CharucoLayout.OLDER if older > newer else CharucoLayout.NEWER
+    """The layout that fits the images better; `misfits` are as `layout_misfits` gives them."""
+    as_newer, as_older = (sum(one[axis] for one in misfits) for axis in (0, 1))
+    return CharucoLayout.OLDER if as_older < as_newer else CharucoLayout.NEWER
 
 
 def layout_misfits(grey: GreyImage, board: CharucoBoard) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from tracker.camera.detection.blobs import GreyImage
 from tracker.camera.detection.corners import SADDLE_SMOOTHING_PX, quarter_signs, refined, saddles
 from tracker.camera.detection.lattice import Cells, lattices, step_lengths_px
 from tracker.camera.detection.placing import placed, within
-from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
+from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, Sureness
 from tracker.geometry import Array
 
 SECTOR_FLAGS = cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_ACCURACY
@@ -121,7 +121,8 @@ def _viewed(
         ids=place.ids,
         object_points_mm=board.object_points_mm[place.ids],
         image_points_px=corners,
-        sureness=place.sureness,
+        # A corner too many or too few at the rim, and the rest is one step off.
+        sureness=place.sureness if is_whole else Sureness.PLACE,
     )
 
 

@@ -1,0 +1,160 @@
+"""All cameras of a rig and all poses of the board, fitted to all points at once."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.camera.calibration.blocks import Block, derivatives, inverse, reduced, total_information
+from tracker.camera.calibration.fit import projected
+from tracker.camera.detection.view import BoardView
+from tracker.camera.model import CameraModel
+from tracker.geometry import Array, Camera, Pattern, Rigid, rotation_from_vector, skew, vector_from_rotation
+
+STEPS, SMALL_RATIO = 40, 1e-10
+POSE = 6
+From = TypeVar("From")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bundle:
+    """A rig's numbers.
+
+    Attributes:
+        models: by camera; the first is the origin.
+        camera_from_first: by camera.
+        first_from_pattern: the board at each instant.
+    """
+
+    models: dict[str, CameraModel]
+    camera_from_first: dict[str, Rigid[Camera, Camera]]
+    first_from_pattern: tuple[Rigid[Camera, Pattern], ...]
+
+
+Shots = Sequence[Mapping[str, BoardView]]
+
+
+def adjusted(start: Bundle, shots: Shots) -> Bundle:
+    """The bundle that fits best (Levenberg-Marquardt; each board's pose follows the shared numbers)."""
+    bundle, error, damping = start, squares_px2(start, shots), 1e-3
+    for _ in range(STEPS):
+        parts = [_linear(bundle, shot, index) for index, shot in enumerate(shots)]
+        blocks = [reduced(*part) for part in parts]
+        information = total_information(blocks)
+        gradient = np.sum([block.gradient for block in blocks], axis=0)
+        for _ in range(10):
+            step = inverse(information + damping * np.diag(np.diag(information))) @ gradient
+            own = [np.linalg.solve(_damped(o, damping), o.T @ (r - s @ step)) for s, o, r in parts]
+            trial = _moved(bundle, step, own)
+            now = squares_px2(trial, shots)
+            if now < error:
+                break
+            damping *= 8.0
+        else:
+            return bundle
+        done = error - now < SMALL_RATIO * error
+        bundle, error, damping = trial, now, damping / 20.0
+        if done:
+            return bundle
+    return bundle
+
+
+def _damped(own: Array, damping: float) -> Array:
+    information = own.T @ own
+    return np.asarray(information + damping * np.diag(np.diag(information)))
+
+
+def rig_blocks(bundle: Bundle, shots: Shots) -> list[Block]:
+    """What each instant says of the shared numbers: lens after lens, then place after place."""
+    return [reduced(*_linear(bundle, shot, index)) for index, shot in enumerate(shots)]
+
+
+def residuals_px(bundle: Bundle, index: int, name: str, view: BoardView) -> Array:
+    """Seen minus expected (n, 2)."""
+    pose = bundle.camera_from_first[name] @ bundle.first_from_pattern[index]
+    model = bundle.models[name]
+    turn = vector_from_rotation(pose.rotation)
+    expected = projected(view.object_points_mm, turn, pose.translation_mm, model.matrix, model.distortion)
+    return view.image_points_px - expected
+
+
+def squares_px2(bundle: Bundle, shots: Shots) -> float:
+    """The sum of all squared residuals."""
+    return sum(
+        float((residuals_px(bundle, index, name, view) ** 2).sum())
+        for index, shot in enumerate(shots)
+        for name, view in shot.items()
+    )
+
+
+def places_of(bundle: Bundle) -> dict[str, slice]:
+    """Where the place of each camera but the first stands among the shared numbers."""
+    at = sum(4 + model.distortion.size for model in bundle.models.values())
+    names = list(bundle.models)[1:]
+    return {name: slice(at + POSE * n, at + POSE * (n + 1)) for n, name in enumerate(names)}
+
+
+def _lenses_of(bundle: Bundle) -> dict[str, slice]:
+    at, slices = 0, {}
+    for name, model in bundle.models.items():
+        slices[name] = slice(at, at + 4 + model.distortion.size)
+        at = slices[name].stop
+    return slices
+
+
+def _linear(bundle: Bundle, shot: Mapping[str, BoardView], index: int) -> tuple[Array, Array, Array]:
+    """Derivatives by what is shared (m, p) and by the board's pose (m, 6), and residuals (m,)."""
+    lenses, places = _lenses_of(bundle), places_of(bundle)
+    count = list(lenses.values())[-1].stop + POSE * len(places)
+    shared, own, residuals = [], [], []
+    board = bundle.first_from_pattern[index]
+    for name, view in shot.items():
+        camera, model = bundle.camera_from_first[name], bundle.models[name]
+        pose = camera @ board
+        turn = vector_from_rotation(pose.rotation)
+        by_pose, by_lens = derivatives(
+            view.object_points_mm, turn, pose.translation_mm, model.matrix, model.distortion
+        )
+        by_point = by_pose[:, 3:].reshape(-1, 2, 3)
+        turned = view.object_points_mm @ board.rotation.T
+        in_first = turned + board.translation_mm
+        here = np.zeros((2 * len(turned), count))
+        here[:, lenses[name]] = by_lens
+        if name in places:
+            here[:, places[name]] = _by_motion(by_point, in_first @ camera.rotation.T)
+        shared.append(here)
+        own.append(_by_motion(by_point @ camera.rotation, turned))
+        residuals.append(residuals_px(bundle, index, name, view).ravel())
+    return np.concatenate(shared), np.concatenate(own), np.concatenate(residuals)
+
+
+def _by_motion(by_point: npt.NDArray[np.float64], turned: Array) -> Array:
+    """By a shift and a small turn (2n, 6), from the derivative by the point (n, 2, 3)."""
+    by_turn = -np.einsum("nij,njk->nik", by_point, np.array([skew(one) for one in turned]))
+    return np.concatenate([by_point, by_turn], axis=2).reshape(-1, POSE)
+
+
+def _moved(bundle: Bundle, shared: Array, own: Sequence[Array]) -> Bundle:
+    lenses, places = _lenses_of(bundle), places_of(bundle)
+    models = {}
+    for name, model in bundle.models.items():
+        step = shared[lenses[name]]
+        matrix = model.matrix + np.array([[step[0], 0, step[2]], [0, step[1], step[3]], [0, 0, 0]])
+        models[name] = CameraModel(
+            matrix=matrix, distortion=model.distortion + step[4:], size_wh_px=model.size_wh_px
+        )
+    cameras = {
+        name: _stepped(place, shared[places[name]]) if name in places else place
+        for name, place in bundle.camera_from_first.items()
+    }
+    boards = tuple(_stepped(pose, step) for pose, step in zip(bundle.first_from_pattern, own, strict=True))
+    return Bundle(models=models, camera_from_first=cameras, first_from_pattern=boards)
+
+
+def _stepped(pose: Rigid[Camera, From], step: Array) -> Rigid[Camera, From]:
+    rotation = rotation_from_vector(step[3:]) @ pose.rotation
+    # Many small turns in a row must stay a rotation.
+    left, _, right = np.linalg.svd(rotation)
+    return Rigid(rotation=left @ right, translation_mm=pose.translation_mm + step[:3])
