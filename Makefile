@@ -1,5 +1,6 @@
 # Coaxial. `make help` lists what there is; `make run` and `make test` do all their own set-up.
 # Everything that is made lies in .venv, web/node_modules and web/dist; `make clean` takes it away again.
+# Cases lie in .coaxial, if COAXIAL_HOME names no other folder; nothing here takes them away.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -45,7 +46,7 @@ help: ## this list
 
 .PHONY: run
 run: ready ## start Coaxial with the rehearsal theatre, and print the address to open (ARGS="..." go to coaxial run)
-	@exec $(PYTHON_IN_VENV) -m server run $(ARGS)
+	@COAXIAL_HOME="$${COAXIAL_HOME:-$(CURDIR)/.coaxial}" exec $(PYTHON_IN_VENV) -m server run $(ARGS)
 
 .PHONY: test
 test: ready $(STAMPS)/dev ## everything: format, lint, types, contracts, Python, web and browser tests
@@ -98,9 +99,10 @@ lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest
 	@UPGRADE="$(UPGRADE)" sh .make/lock
 
 .PHONY: clean
-clean: ## take away everything that was made
+clean: ## take away everything that was made, but no case
 	rm -rf .venv web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
+	@if [ -e .coaxial ]; then echo "Kept: .coaxial, the folder with the cases. Remove it by hand to lose them."; fi
 
 # ---------------------------------------------------------------- what they stand on
 

@@ -7,19 +7,26 @@ from dataclasses import dataclass
 
 from fastapi import FastAPI
 
+from server.api.camera import camera_router
+from server.api.cases import cases_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import documentation_router
 from server.api.errors import install_errors, refusals
 from server.api.health import health_router
+from server.api.jobs import jobs_router
 from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
+from server.api.tools import tools_router
 from server.config import Config
+from server.jobs import Jobs
 from server.live import LiveHub
 from server.overlay.words import RESEARCH_SOFTWARE
+from server.procedure import Steps
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, SecurityHeaders
+from server.store import CaseStore
 from server.stream.mjpeg import Video
 from server.stream.viewers import Viewers
 from tracker.navigation import Setup
@@ -35,12 +42,18 @@ class AppParts:
     Attributes:
         hub: where the newest instant is published.
         config: the settings; its limits are the ones that every door uses.
+        store: where cases are kept; None where nothing is kept, and then nothing is answered about them.
+        jobs: where long work is done; None where there is none.
+        steps: of the set-up; None where nothing is kept.
         setup: what stands before the first image, for the scene; None when it is known only later.
         surface: the bone, for the scene.
     """
 
     hub: LiveHub
     config: Config
+    store: CaseStore | None = None
+    jobs: Jobs | None = None
+    steps: Steps | None = None
     setup: Setup | None = None
     surface: Surface | None = None
 
@@ -60,6 +73,8 @@ def create_app(parts: AppParts) -> FastAPI:
         try:
             yield
         finally:
+            if parts.steps is not None:
+                await asyncio.to_thread(parts.steps.close)
             await app.state.scene.stop()
             counting.cancel()
             await asyncio.wait([counting])
@@ -82,6 +97,13 @@ def create_app(parts: AppParts) -> FastAPI:
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
+    if parts.store is not None:
+        app.include_router(cases_router(parts.store))
+    if parts.jobs is not None:
+        app.include_router(jobs_router(parts.jobs))
+    if parts.steps is not None and parts.store is not None:
+        app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(tools_router(parts.steps.tool))
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
         app,

@@ -1,11 +1,13 @@
-"""Reads a camera file: the camera's matrix and lens as calibration wrote them."""
+"""A camera file: the camera's matrix and lens as calibration wrote them, and whose they are."""
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
 
 from tracker.camera import CameraModel
-from tracker.errors import InvalidInput
+from tracker.errors import CalibrationError, InvalidInput
 
 REMEDY = (
     "A camera file is YAML or JSON with matrix (3 rows of 3), distortion (4, 5, 8, 12 or 14 numbers) "
@@ -13,8 +15,28 @@ REMEDY = (
 )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraFile:
+    """What a camera file says.
+
+    Attributes:
+        model: the camera.
+        camera_name: which camera it is, as `camera.name` in the settings; None where it does not say.
+        camera_source: its source, as `camera.source` in the settings; None where it does not say.
+    """
+
+    model: CameraModel
+    camera_name: str | None = None
+    camera_source: str | None = None
+
+
 def load_camera_file(path: Path) -> CameraModel:
-    """The camera model in a YAML or JSON file.
+    """The camera model in a YAML or JSON file; see `read_camera_file`."""
+    return read_camera_file(path).model
+
+
+def read_camera_file(path: Path) -> CameraFile:
+    """What a YAML or JSON file says of a camera.
 
     Raises:
         InvalidInput: CAMERA_FILE_UNREADABLE, CAMERA_FILE_INCOMPLETE, CAMERA_FILE_INVALID or
@@ -34,8 +56,48 @@ def load_camera_file(path: Path) -> CameraModel:
         message = f"the camera file {path} is a {type(values).__name__}, needed keys with values"
         raise InvalidInput("CAMERA_FILE_INVALID", message, REMEDY, context)
     try:
-        return CameraModel.from_mapping(values)
+        model = CameraModel.from_mapping(values)
     except InvalidInput as error:
         raise InvalidInput(
             error.code, f"{path}: {error.message}", error.remedy, {**error.context, **context}
         ) from error
+    camera = values.get("camera")
+    whose = camera if isinstance(camera, dict) else {}
+    return CameraFile(
+        model=model, camera_name=_text(whose.get("name")), camera_source=_text(whose.get("source"))
+    )
+
+
+def refuse_other_camera(file: CameraFile, *, path: Path, name: str, source: object) -> None:
+    """Refuse a camera file that says it is of another camera; one that does not say is let be.
+
+    Raises:
+        CalibrationError: CAMERA_DIFFERS.
+    """
+    for key, told, here in (("name", file.camera_name, name), ("source", file.camera_source, source)):
+        if told is not None and told != str(here):
+            raise CalibrationError(
+                "CAMERA_DIFFERS",
+                f"{path} was calibrated for the camera whose {key} is '{told}', "
+                f"and here camera.{key} is '{here}'",
+                "Calibrate this camera, or name the file that belongs to it.",
+                {"file": str(path), "calibrated": told, "camera": str(here)},
+            )
+
+
+def camera_file_text(file: CameraFile, facts: Mapping[str, object]) -> str:
+    """The file's text: what is needed first, then `facts` for people."""
+    values: dict[str, object] = {
+        "matrix": file.model.matrix.tolist(),
+        "distortion": file.model.distortion.tolist(),
+        "size_wh_px": list(file.model.size_wh_px),
+    }
+    whose = {"name": file.camera_name, "source": file.camera_source}
+    if any(whose.values()):
+        values["camera"] = {key: value for key, value in whose.items() if value is not None}
+    text: str = yaml.safe_dump({**values, **facts}, sort_keys=False, default_flow_style=None, width=110)
+    return text
+
+
+def _text(value: object) -> str | None:
+    return None if value is None else str(value)

@@ -63,6 +63,12 @@ class RehearsalConfig(Section):
     blur: Strength = 1.0
     clutter: Strength = 1.0
     light: Annotated[float, Field(gt=0.0, le=10.0)] = 1.0
+    scene: Literal["operation", "pivot", "spin", "board"] = "operation"
+    """A drill at work; its tip at rest while it tilts, or turns; a board to calibrate with."""
+    board: Literal["dots", "checkerboard", "charuco"] = "dots"
+    """Which calibration board is shown."""
+    brings_setup: bool = True
+    """false: camera, tool, plan and registration are unknown until they are made."""
 
 
 class MarkerConfig(Section):
@@ -73,13 +79,34 @@ class MarkerConfig(Section):
 
 
 class ToolConfig(Section):
-    """A drill or awl behind its marker."""
+    """A drill or awl behind its marker: from its drawing, or from the file that its calibration wrote."""
 
     marker: Name
-    tip_in_marker_mm: Point
-    axis_in_marker: Point
+    calibration: FilePath | None = None
+    """A tool file of `coaxial pivot` and `coaxial spin`; what it says is not said here again."""
+    tip_in_marker_mm: Point | None = None
+    axis_in_marker: Point | None = None
+    """From the marker towards the tip."""
     radius_mm: Annotated[float, Field(gt=0.0, le=50.0)]
     length_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
+
+
+class ToolCalibrationConfig(Section):
+    """What the calibration of a tool, and the check of its tip, must reach."""
+
+    most_rms_3d_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.8
+    """3-D RMS of the tip about the pivot, of pivot and tip check alike."""
+    most_tip_sd_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.8
+    """Standard deviation of the tip in the direction in which it is known least."""
+    least_tilt_deg: Annotated[float, Field(ge=5.0, le=120.0)] = 15.0
+    """How far the tool must be turned about each of two directions, from end to end."""
+    least_poses: Annotated[int, Field(ge=6, le=10_000)] = 10
+    least_used_ratio: Annotated[float, Field(ge=0.5, le=1.0)] = 0.6
+    """Share of the poses that must agree."""
+    least_spin_deg: Annotated[float, Field(ge=20.0, le=360.0)] = 60.0
+    most_wobble_deg: Annotated[float, Field(gt=0.0, le=45.0)] = 5.0
+    """RMS of what the axis moves while the tool is spun about it."""
+    most_axis_sd_deg: Annotated[float, Field(gt=0.0, le=45.0)] = 0.5
 
 
 class TrackerConfig(Section):
@@ -101,6 +128,13 @@ class SmoothingConfig(Section):
     """Steady near the channel's wall, too."""
     near_wall_mm: Annotated[float, Field(ge=0.0, le=100.0)] = 3.0
     """What near is: the gap between the drill at its tip and the channel's surface."""
+
+
+class CalibrationConfig(Section):
+    """When a calibration is good enough."""
+
+    most_rms_px: Annotated[float, Field(gt=0.0, le=100.0)] = 1.0
+    """Root mean square distance between seen and expected points of the board."""
 
 
 class LimitsConfig(Section):
@@ -126,7 +160,9 @@ class Config(Section):
     rehearsal: RehearsalConfig = RehearsalConfig()
     markers: dict[Name, MarkerConfig] = {}
     tools: dict[Name, ToolConfig] = {}
+    tool_calibration: ToolCalibrationConfig = ToolCalibrationConfig()
     tracker: TrackerConfig = TrackerConfig()
     smoothing: SmoothingConfig = SmoothingConfig()
+    calibration: CalibrationConfig = CalibrationConfig()
     limits: LimitsConfig = LimitsConfig()
     video: VideoConfig = VideoConfig()

@@ -11,11 +11,12 @@ import yaml
 from pydantic import ValidationError
 
 from server.allowed import allowed_keys, allowed_text, key_text
-from server.camera_file import load_camera_file
+from server.camera_file import read_camera_file, refuse_other_camera
 from server.capture.address import SourceKind, source_from_text
 from server.config import Config
 from server.errors import ConfigError
 from server.marker_file import load_marker_image
+from server.tool_file import tool_from_config, tool_mistakes
 from tracker.errors import NavigationError
 
 DEFAULT_FILE = Path("config.yaml")
@@ -210,7 +211,16 @@ def _with_absolute_paths(config: Config, *, folder: Path, origins: Mapping[Key, 
         name: marker.model_copy(update={"image": resolved(marker.image, ("markers", name, "image"))})
         for name, marker in config.markers.items()
     }
-    return config.model_copy(update={"camera": camera.model_copy(update=changes), "markers": markers})
+    tools = {
+        name: tool
+        if tool.calibration is None
+        else tool.model_copy(
+            update={"calibration": resolved(tool.calibration, ("tools", name, "calibration"))}
+        )
+        for name, tool in config.tools.items()
+    }
+    updated = {"camera": camera.model_copy(update=changes), "markers": markers, "tools": tools}
+    return config.model_copy(update=updated)
 
 
 def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
@@ -236,9 +246,8 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
             allowed = ", ".join(sorted(known)) or "none, since there is no marker under 'markers'"
             sentence = f"'{key}' is '{tool.marker}', allowed: {allowed}"
             mistakes.append(Mistake(where=where.of(("tools", name, "marker")), key=key, sentence=sentence))
-        if max(abs(x) for x in tool.axis_in_marker) < 1e-9:
-            key = f"tools.{name}.axis_in_marker"
-            sentence = f"'{key}' is {tool.axis_in_marker}, allowed: a direction, not all three numbers 0"
+        for lone, sentence in tool_mistakes(name, tool):
+            key = f"tools.{name}.{lone}"
             mistakes.append(Mistake(where=where.of(("tools", name)), key=key, sentence=sentence))
     return mistakes
 
@@ -248,7 +257,9 @@ def _mistakes_in_files(config: Config, where: _Where) -> list[Mistake]:
     mistakes = []
     if config.camera.calibration is not None:
         try:
-            load_camera_file(config.camera.calibration)
+            file = read_camera_file(config.camera.calibration)
+            camera = config.camera
+            refuse_other_camera(file, path=config.camera.calibration, name=camera.name, source=camera.source)
         except NavigationError as error:
             mistakes.append(_mistake_in_file(("camera", "calibration"), error, where))
     for name, marker in config.markers.items():
@@ -256,6 +267,13 @@ def _mistakes_in_files(config: Config, where: _Where) -> list[Mistake]:
             load_marker_image(marker.image)
         except NavigationError as error:
             mistakes.append(_mistake_in_file(("markers", name, "image"), error, where))
+    for name, tool in config.tools.items():
+        if tool_mistakes(name, tool):
+            continue
+        try:
+            tool_from_config(name, tool, config.markers.get(tool.marker))
+        except NavigationError as error:
+            mistakes.append(_mistake_in_file(("tools", name, "calibration"), error, where))
     return mistakes
 
 

@@ -1,13 +1,17 @@
 """The newest instant: the one place where tracking hands over to everybody who watches.
 
-A thread publishes, any number of asyncio tasks wait. Newest wins: who is slow skips, and is told how many
-instants it skipped by the sequence number. Nothing is queued, so nobody can delay anybody or fill memory.
+A thread publishes, any number of asyncio tasks and threads wait. Newest wins: who is slow skips, and is told
+how many instants it skipped by the sequence number. Nothing is queued, so nobody can delay anybody or fill
+memory.
 """
 
 import asyncio
 import threading
 from dataclasses import dataclass, field
 from enum import StrEnum
+
+import numpy as np
+import numpy.typing as npt
 
 from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
@@ -95,6 +99,8 @@ class Instant:
         snapshot: what the newest image says; None before the first image, and from the moment on when
             capture or tracking is known to be dead (an old snapshot is not kept as if it were live).
         jpeg: the same image with the overlay burned in; empty when there is no snapshot.
+        image: the same image as the camera gave it, (h, w, 3) uint8 BGR, for set-up; None when there is no
+            snapshot. Never written into.
         server_ms: time of the server's own stages ("overlay", "encode") for this image.
     """
 
@@ -103,6 +109,7 @@ class Instant:
     process: ProcessStatus
     snapshot: NavigationSnapshot | None = None
     jpeg: bytes = b""
+    image: npt.NDArray[np.uint8] | None = None
     server_ms: dict[str, float] = field(default_factory=dict)
 
 
@@ -111,6 +118,7 @@ class LiveHub:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
+        self._published = threading.Condition(self._lock)
         self._newest: Instant | None = None
         self._waiting: set[tuple[asyncio.AbstractEventLoop, asyncio.Event]] = set()
 
@@ -119,6 +127,7 @@ class LiveHub:
         with self._lock:
             self._newest = instant
             waiting, self._waiting = self._waiting, set()
+            self._published.notify_all()
         for loop, event in waiting:
             # A loop that was closed meanwhile has nobody left to wake.
             if not loop.is_closed():
@@ -129,6 +138,15 @@ class LiveHub:
         """The newest instant, None before the first."""
         with self._lock:
             return self._newest
+
+    def wait_after(self, sequence: int, timeout_s: float) -> Instant | None:
+        """As `next_after`, for a thread; None when nothing came within this time."""
+        with self._lock:
+            self._published.wait_for(
+                lambda: self._newest is not None and self._newest.sequence > sequence, timeout_s
+            )
+            newest = self._newest
+        return newest if newest is not None and newest.sequence > sequence else None
 
     async def next_after(self, sequence: int) -> Instant:
         """The newest instant whose sequence is above `sequence` (use -1 to get whatever there is)."""

@@ -2,15 +2,16 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from server.camera_file import load_camera_file
 from server.capture.address import SourceKind, source_from_text
-from server.config import Config, ToolConfig
+from server.config import Config
 from server.marker_file import load_marker_image
+from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
 from tracker.geometry import Camera, Rigid, Vertebra
@@ -26,6 +27,21 @@ if TYPE_CHECKING:
 
 # An ordinary lens: about 45 degrees across. It only helps to find the marker, no millimetre comes from it.
 NOMINAL_FOCAL_BY_WIDTH = 1.2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CaseSetup:
+    """What the open case knows of camera, tools and plan; the rest stays as the settings have it.
+
+    Attributes:
+        camera: calibrated in this case.
+        tools: calibrated in this case, by name.
+        channel: the one that is to be drilled.
+    """
+
+    camera: CameraModel | None = None
+    tools: Mapping[str, ToolModel] = field(default_factory=dict)
+    channel: Channel | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,6 +105,24 @@ class Preparation:
         """A setup that finds and labels markers, and claims no millimetre."""
         return self._setup(nominal_camera(size_wh_px), calibrated=False)
 
+    def with_case(self, case: CaseSetup) -> "Preparation":
+        """The same with what a case knows in the place of what the settings say.
+
+        A channel of the case is not registered by whatever registered the one before: numbers against it wait
+        for a registration of their own. A tool whose marker is not looked for is left out.
+        """
+        markers = {model.name for model in self.models}
+        known = {name: tool for name, tool in case.tools.items() if tool.marker in markers}
+        changed = replace(self, camera=case.camera or self.camera, tools={**self.tools, **known})
+        if case.channel is None:
+            return changed
+        return replace(
+            changed,
+            channel=case.channel,
+            camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
+            registered_by="",
+        )
+
     def tracker_for(self, setup: Setup) -> Tracker:
         """A new tracker of these markers, which knows nothing of images before."""
         return Tracker(
@@ -119,23 +153,12 @@ def build_setup(config: Config) -> Preparation:
     )
     scores = ScoreSettings(**config.tracker.model_dump())
     smoothing = SteadySettings(**config.smoothing.model_dump())
-    tools = {name: _tool(name, tool) for name, tool in config.tools.items()}
-    if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
-        theatre = _theatre(config)
-        return Preparation(
-            camera=theatre.camera,
-            models=(theatre.marker, *models),
-            tools={theatre.tool.name: theatre.tool, **tools},
-            channel=theatre.channels[0],
-            camera_from_vertebra=theatre.camera_from_vertebra,
-            registered_by="rehearsal",
-            score_settings=scores,
-            most_tip_sd_mm=config.limits.most_tip_sd_mm,
-            smoothing=smoothing,
-            theatre=theatre,
-        )
+    tools = {
+        name: tool_from_config(name, tool, config.markers.get(tool.marker))
+        for name, tool in config.tools.items()
+    }
     calibration = config.camera.calibration
-    return Preparation(
+    bare = Preparation(
         camera=None if calibration is None else load_camera_file(calibration),
         models=models,
         tools=tools,
@@ -145,6 +168,23 @@ def build_setup(config: Config) -> Preparation:
         score_settings=scores,
         most_tip_sd_mm=config.limits.most_tip_sd_mm,
         smoothing=smoothing,
+    )
+    if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
+        theatre = _theatre(config)
+        unknowing = replace(bare, models=(theatre.marker, *models), theatre=theatre)
+        return _with_what_it_brings(unknowing, theatre) if config.rehearsal.brings_setup else unknowing
+    return bare
+
+
+def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparation:
+    """All that the rehearsal's theatre knows of itself."""
+    return replace(
+        unknowing,
+        camera=theatre.camera,
+        tools={theatre.tool.name: theatre.tool, **unknowing.tools},
+        channel=theatre.channels[0],
+        camera_from_vertebra=theatre.camera_from_vertebra,
+        registered_by="rehearsal",
     )
 
 
@@ -159,20 +199,9 @@ def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
     )
 
 
-def _tool(name: str, tool: ToolConfig) -> ToolModel:
-    return ToolModel.from_tip_and_axis(
-        name=name,
-        marker=tool.marker,
-        tip_in_marker_mm=tool.tip_in_marker_mm,
-        axis_in_marker=tool.axis_in_marker,
-        radius_mm=tool.radius_mm,
-        length_mm=tool.length_mm,
-    )
-
-
 def _theatre(config: Config) -> "Theatre":
     # Here, because it takes time to load and only the rehearsal needs it.
-    from tracker.rehearsal import Theatre, TheatreSettings  # noqa: PLC0415
+    from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings  # noqa: PLC0415
 
     rehearsal = config.rehearsal
     return Theatre(
@@ -183,5 +212,7 @@ def _theatre(config: Config) -> "Theatre":
             blur=rehearsal.blur,
             clutter=rehearsal.clutter,
             light=rehearsal.light,
+            scene=Scene(rehearsal.scene),
+            board=BoardKind(rehearsal.board),
         )
     )

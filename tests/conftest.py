@@ -34,6 +34,11 @@ def browser() -> Iterator[Browser]:
         chromium.close()
 
 
+def pytest_configure() -> None:
+    """Cases of tests never come among those of people: who starts a server names a folder of its own."""
+    os.environ["COAXIAL_HOME"] = os.devnull
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Browser tests last: Playwright keeps an event loop running in the thread where others start theirs."""
     items.sort(key=lambda item: item.get_closest_marker("browser") is not None)

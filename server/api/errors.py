@@ -10,6 +10,8 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.errors import CaptureError, SetupOrderError
+from server.jobs import JobUnknown
+from server.store import NotStored, OutOfDateError, StoreConflict, StoreError
 from server.stream.errors import CameraUnknown
 from server.stream.messages import TroubleMessage
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
@@ -24,7 +26,14 @@ STATUS_OF: dict[type[NavigationError], int] = {
     CalibrationError: 409,
     PlanError: 409,
     RegistrationError: 409,
+    NotStored: 404,
+    StoreConflict: 409,
+    OutOfDateError: 409,
+    StoreError: 503,
+    JobUnknown: 404,
 }
+# Where HTTP has a word of its own for what the code says.
+STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413}
 
 TOLD = {
     404: ("NOT_FOUND", "there is nothing at {path}", "Look at /api/docs for what can be asked."),
@@ -53,16 +62,21 @@ def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """What OpenAPI says of a route's refusals."""
     words = {
         404: "There is no such thing.",
+        409: "It cannot be done as things stand.",
+        413: "It is larger than is taken.",
         421: "This server does not answer to the name in `Host`.",
         422: "What was asked cannot be used.",
         500: "The server made a mistake.",
         503: "Not now.",
+        507: "The disk is full.",
     }
     return {status: {"model": TroubleMessage, "description": words[status]} for status in statuses}
 
 
 def status_of(error: NavigationError) -> int:
-    """The HTTP status of an error: of its class, or of the nearest class above it."""
+    """The HTTP status of an error: of its code, of its class, or of the nearest class above it."""
+    if error.code in STATUS_OF_CODE:
+        return STATUS_OF_CODE[error.code]
     return next((STATUS_OF[kind] for kind in type(error).__mro__ if kind in STATUS_OF), 500)
 
 

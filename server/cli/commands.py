@@ -10,7 +10,9 @@ import typer
 
 from server.cli.accuracy_commands import accuracy, ruler
 from server.cli.board_commands import board_app
+from server.cli.calibration.commands import add_calibration
 from server.cli.marker_commands import marker_app
+from server.cli.tool_commands import pivot, spin, tip_check
 
 BAD_INPUT = 2
 UNKNOWN_VERSION = "0.1.0"
@@ -27,6 +29,12 @@ app.add_typer(marker_app, name="marker")
 app.add_typer(board_app, name="board")
 app.command()(accuracy)
 app.command()(ruler)
+
+app.command()(pivot)
+app.command()(spin)
+app.command(name="tip-check")(tip_check)
+
+add_calibration(app)
 
 
 class Rate(StrEnum):

@@ -3,6 +3,7 @@
 import errno
 import socket
 import sys
+from contextlib import ExitStack
 from functools import partial
 
 import structlog
@@ -25,7 +26,7 @@ def run_dashboard(given: Given, *, log_json: bool, debug: bool) -> None:
     """Start everything, serve until Ctrl+C or SIGTERM, and stop everything.
 
     Raises:
-        NavigationError: a setting cannot be used, or the port is taken.
+        NavigationError: a setting cannot be used, the port is taken, or cases cannot be kept.
     """
     with Stopping().caught() as stopping:
         config = config_from_options(given)
@@ -36,12 +37,15 @@ def run_dashboard(given: Given, *, log_json: bool, debug: bool) -> None:
 
 def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopping: Stopping) -> None:
     # The tracking process loads while the web server does: its supervisor is started between the imports.
+    from server.cli.kept import Kept  # noqa: PLC0415
     from server.loop.tracked import Tracked  # noqa: PLC0415
     from server.setup import build_setup  # noqa: PLC0415
 
-    tracked = Tracked(config, log=settings)
-    tracked.start()
-    try:
+    with ExitStack() as ending:
+        tracked = Tracked(config, log=settings)
+        tracked.start()
+        ending.callback(tracked.stop)
+        kept = Kept.opened(ending, settings)
         preparation = build_setup(config)
         if not preparation.models:
             log.warning(
@@ -53,16 +57,31 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
         from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
+        from server.procedure import Steps  # noqa: PLC0415
 
+        steps = Steps.of(
+            hub=tracked.hub,
+            store=kept.store,
+            jobs=kept.jobs,
+            config=config,
+            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            adopt=tracked.adopt,
+        )
         app = create_app(
-            AppParts(hub=tracked.hub, config=config, setup=preparation.setup, surface=preparation.surface)
+            AppParts(
+                hub=tracked.hub,
+                config=config,
+                store=kept.store,
+                jobs=kept.jobs,
+                steps=steps,
+                setup=preparation.setup,
+                surface=preparation.surface,
+            )
         )
         tracked.publish(
             Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))
         )
         serve_until(app, listener, stopping, on_ready=lambda: _greet(listener))
-    finally:
-        tracked.stop()
 
 
 def _greet(listener: socket.socket) -> None:

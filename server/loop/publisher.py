@@ -8,7 +8,7 @@ that is known to be dead.
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -37,6 +37,16 @@ class Picture:
 
     draw: Callable[[Image, NavigationSnapshot], Image]
     encode: Callable[[Image], bytes]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shown:
+    """An image with all that belongs to it, or nothing at all."""
+
+    snapshot: NavigationSnapshot | None = None
+    image: Image | None = None
+    jpeg: bytes = b""
+    server_ms: dict[str, float] = field(default_factory=dict)
 
 
 class Publisher:
@@ -89,15 +99,15 @@ class Publisher:
         self._board.note_running(posted.generation)
         self._board.note_source(report.source)
         self._trouble = report.trouble
-        snapshot, jpeg, server_ms = report.snapshot, b"", dict[str, float]()
-        if snapshot is not None and image is not None:
-            snapshot, jpeg, server_ms = self._drawn(snapshot, image)
+        shown = Shown()
+        if report.snapshot is not None and image is not None:
+            shown = self._drawn(report.snapshot, image)
         now = self._board.posted
         if now.generation != posted.generation:
             # It died while its picture was drawn.
             self._publish_without_image(now)
             return
-        self._publish(now.process, report.source, snapshot, jpeg, server_ms)
+        self._publish(now.process, report.source, shown)
 
     def _newest(self, posted: Posted) -> tuple[Report | None, Image | None]:
         if posted.generation != self._generation:
@@ -128,35 +138,27 @@ class Publisher:
         source = self._board.source
         if posted.process.state is not ProcessState.RUNNING:
             source = replace(source, state=SourceState.OPENING, trouble=None, rate_hz=0.0)
-        self._publish(posted.process, source, None, b"", {})
+        self._publish(posted.process, source, Shown())
 
     def _status(self, process: ProcessStatus) -> ProcessStatus:
         trouble = process.trouble or (self._trouble if process.state is ProcessState.RUNNING else None)
         return replace(process, trouble=trouble, dropped_images=self._dropped)
 
-    def _publish(
-        self,
-        process: ProcessStatus,
-        source: SourceStatus,
-        snapshot: NavigationSnapshot | None,
-        jpeg: bytes,
-        server_ms: dict[str, float],
-    ) -> None:
+    def _publish(self, process: ProcessStatus, source: SourceStatus, shown: Shown) -> None:
         instant = Instant(
             sequence=self._sequence,
             source=source,
             process=self._status(process),
-            snapshot=snapshot,
-            jpeg=jpeg,
-            server_ms=server_ms,
+            snapshot=shown.snapshot,
+            jpeg=shown.jpeg,
+            image=shown.image,
+            server_ms=shown.server_ms,
         )
         self._sequence += 1
         self._last, self._last_at_s = instant, time.monotonic()
         self._hub.publish(instant)
 
-    def _drawn(
-        self, snapshot: NavigationSnapshot, image: Image
-    ) -> tuple[NavigationSnapshot | None, bytes, dict[str, float]]:
+    def _drawn(self, snapshot: NavigationSnapshot, image: Image) -> Shown:
         """The picture of a snapshot; nothing at all when it cannot be drawn, and why in the status."""
         started_s = time.monotonic()
         try:
@@ -165,9 +167,10 @@ class Publisher:
             jpeg = self._picture.encode(drawn)
         except Exception as error:  # noqa: BLE001  told once below, and shown on the page
             self._tell_drawing_failed(error)
-            return None, b"", {}
+            return Shown()
         done_s = time.monotonic()
-        return snapshot, jpeg, {"overlay": (drawn_s - started_s) * 1e3, "encode": (done_s - drawn_s) * 1e3}
+        server_ms = {"overlay": (drawn_s - started_s) * 1e3, "encode": (done_s - drawn_s) * 1e3}
+        return Shown(snapshot=snapshot, image=image, jpeg=jpeg, server_ms=server_ms)
 
     def _tell_drawing_failed(self, error: Exception) -> None:
         sentence = f"{type(error).__name__}: {error}"

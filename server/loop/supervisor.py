@@ -4,6 +4,7 @@ At most 5 restarts in 60 s; then it says so and waits until the first of them is
 untouched screen in theatre has to come back by itself.
 """
 
+import contextlib
 import multiprocessing
 import signal
 import threading
@@ -11,8 +12,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from multiprocessing import forkserver
-from multiprocessing.connection import wait
+from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerProcess
 from typing import TypeAlias
 
@@ -20,10 +20,11 @@ import structlog
 
 from server.live import ProcessState, ProcessStatus, Trouble
 from server.loop.board import Board
+from server.loop.forks import ending_words, forking_context
 from server.loop.ring import ImageRing
 from server.loop.worker import WorkerLink, WorkerOrder, run_worker
+from server.setup import CaseSetup
 
-PRELOAD = ["server.loop.preload"]
 STOP_TIMEOUT_S = 1.0
 
 Target: TypeAlias = Callable[[WorkerOrder, WorkerLink], None]
@@ -72,6 +73,8 @@ class Supervisor:
         self._restarted_at_s: deque[float] = deque()
         self._restarts = 0
         self._pid: int | None = None
+        self._orders_lock = threading.Lock()
+        self._orders: Connection | None = None
         self._thread = threading.Thread(target=self._run, name="supervisor", daemon=True)
 
     @property
@@ -81,15 +84,17 @@ class Supervisor:
 
     def start(self) -> None:
         """Begin; call it from the main thread, whose end shall end the process that forks."""
-        self._context.set_forkserver_preload(PRELOAD)
-        # Blocked in everything started here: Ctrl+C in a terminal reaches the whole process group, and only
-        # the server may act on it.
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-        try:
-            forkserver.ensure_running()
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        forking_context()
         self._thread.start()
+
+    def adopt(self, case: CaseSetup) -> None:
+        """Have the tracking process, and every later one, work with what this case knows. From any thread."""
+        with self._orders_lock:
+            self._order = replace(self._order, case=case)
+            if self._orders is not None:
+                # A process that is just ending is followed by one that has it in its order.
+                with contextlib.suppress(OSError):
+                    self._orders.send(case)
 
     def stop(self) -> None:
         """End the tracking process, and wait for it."""
@@ -113,19 +118,19 @@ class Supervisor:
     def _run_once(self) -> Trouble:
         """Start a process, watch it to its end, and say how it ended."""
         ring = ImageRing()
-        told, stop = self._context.Pipe(duplex=False)
-        link = WorkerLink(ring=ring, notice=self._board.notice, stop=told)
-        process = self._context.Process(
-            target=self._target, args=(self._next_order(), link), name="tracking", daemon=True
-        )
+        heard, orders = self._context.Pipe(duplex=False)
+        link = WorkerLink(ring=ring, notice=self._board.notice, orders=heard)
+        with self._orders_lock:
+            order, self._orders = self._next_order(), orders
+        process = self._context.Process(target=self._target, args=(order, link), name="tracking", daemon=True)
         started_s = time.monotonic()
         try:
             process.start()
         except (OSError, EOFError) as error:
-            stop.close()
+            self._let_go(orders)
             return _trouble(f"could not be started: {error}")
         finally:
-            told.close()
+            heard.close()
         self._pid = process.pid
         state = self._board.posted.process.state
         restarting = state if state is ProcessState.STARTING else ProcessState.RESTARTING
@@ -135,7 +140,7 @@ class Supervisor:
         # From here on nothing it left behind is live; everybody is told before it is cleaned up.
         if not self._stop.is_set():
             self._post(ProcessState.RESTARTING, ending)
-        stop.close()
+        self._let_go(orders)
         self._end(process)
         self._pid = None
         ring.close()
@@ -148,7 +153,7 @@ class Supervisor:
             ready = wait([process.sentinel, self._asleep], timeout=self._watch.look_every_s)
             if process.sentinel in ready:
                 process.join(STOP_TIMEOUT_S)
-                return _trouble(f"(pid {process.pid}) ended {_how(process.exitcode)}")
+                return _trouble(f"(pid {process.pid}) ended {ending_words(process.exitcode)}")
             if self._asleep in ready:
                 return _trouble("was stopped")
             limit_s = self._watch.silent_after_s if ring.images else self._watch.first_image_after_s
@@ -164,6 +169,12 @@ class Supervisor:
             process.join(STOP_TIMEOUT_S)
         if process.exitcode is not None:
             process.close()
+
+    def _let_go(self, orders: Connection) -> None:
+        """The process that listens at the other end shall end."""
+        with self._orders_lock:
+            self._orders = None
+        orders.close()
 
     def _next_order(self) -> WorkerOrder:
         source = self._board.source
@@ -205,14 +216,3 @@ def _given_up(watch: Watch, last: Trouble) -> Trouble:
         "to try at once, stop the program and start it again.",
         context={"restarts": watch.restarts, "window_s": watch.window_s},
     )
-
-
-def _how(exitcode: int | None) -> str:
-    if exitcode is None:
-        return "in an unknown way"
-    if exitcode < 0:
-        try:
-            return f"by signal {-exitcode} ({signal.Signals(-exitcode).name})"
-        except ValueError:
-            return f"by signal {-exitcode}"
-    return f"with status {exitcode}"

@@ -8,6 +8,7 @@ from server.loop.board import Board
 from server.loop.publisher import Picture, Publisher
 from server.loop.supervisor import Supervisor, Watch
 from server.loop.worker import WorkerOrder
+from server.setup import CaseSetup
 
 
 class Tracked:
@@ -34,6 +35,10 @@ class Tracked:
         """Begin to publish, with pictures made in this way."""
         self._publisher = Publisher(board=self._board, hub=self.hub, picture=picture)
         self._publisher.start()
+
+    def adopt(self, case: CaseSetup) -> None:
+        """Work with what this case knows, from the next image on and over restarts. From any thread."""
+        self._supervisor.adopt(case)
 
     def stop(self) -> None:
         """End the process and the threads; harmless when they were not started."""

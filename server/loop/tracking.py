@@ -8,7 +8,7 @@ import structlog
 
 from server.capture.shot import Shot
 from server.live import Trouble
-from server.setup import Preparation
+from server.setup import CaseSetup, Preparation
 from tracker.errors import CalibrationError
 from tracker.navigation import NavigationSnapshot, Setup, Steadying, navigate
 from tracker.pipeline import Tracker
@@ -20,11 +20,17 @@ class Tracking:
     """The tracker for the size of image that comes, made anew when the size changes."""
 
     def __init__(self, preparation: Preparation) -> None:
+        self._settled = preparation
         self._preparation = preparation
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
         self._steadying = Steadying(preparation.smoothing)
         self.trouble: Trouble | None = None
+
+    def adopt(self, case: CaseSetup) -> None:
+        """From the next image on work with what this case knows; nothing of the one before is kept."""
+        self._preparation = self._settled.with_case(case)
+        self._setup = None
 
     def conclude(
         self, shot: Shot, *, skipped_images: int, clock: Callable[[], float] = time.monotonic

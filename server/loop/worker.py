@@ -1,7 +1,7 @@
 """The tracking process itself: newest image in, report and image out.
 
-Two threads do the work: one captures, the main one tracks. A third only waits for the server to let go of
-its end of the stop pipe, which happens when it wants to stop and when it dies.
+Two threads do the work: one captures, the main one tracks. A third only listens to the server: for what the
+open case knows, and for the end, which is when the server lets go of its end of the pipe (also by dying).
 """
 
 import contextlib
@@ -11,7 +11,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Connection
 
 import cv2
 import structlog
@@ -26,7 +26,7 @@ from server.loop.parent import die_with_parent
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
 from server.loop.tracking import Tracking
-from server.setup import build_setup
+from server.setup import CaseSetup, build_setup
 from tracker.errors import NavigationError
 
 # A sign of life when no image comes.
@@ -43,12 +43,14 @@ class WorkerOrder:
     Attributes:
         config: the settings.
         log: how to log.
+        case: what the open case knows; later changes come through `WorkerLink.orders`.
         first_number: the number of its first image, above all that were reported before.
         skipped_before: images that were skipped before.
     """
 
     config: Config
     log: LogSettings
+    case: CaseSetup = field(default_factory=CaseSetup)
     first_number: int = 0
     skipped_before: int = 0
 
@@ -60,12 +62,12 @@ class WorkerLink:
     Attributes:
         ring: where reports and images go.
         notice: one byte in here says that something was written; never blocks.
-        stop: closed by the server when the process shall end.
+        orders: a `CaseSetup` from the server when the open case changes; closed when the process shall end.
     """
 
     ring: ImageRing
     notice: Connection
-    stop: Connection
+    orders: Connection
     _packer: ReportPacker = field(default_factory=ReportPacker)
 
     def send(self, report: Report, shot: Shot | None = None) -> None:
@@ -74,6 +76,25 @@ class WorkerLink:
         # A full pipe has woken it already.
         with contextlib.suppress(BlockingIOError):
             os.write(self.notice.fileno(), b".")
+
+
+class NewestCase:
+    """What the open case knows, handed from the thread that listens to the one that tracks; newest wins."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._case: CaseSetup | None = None
+
+    def put(self, case: CaseSetup) -> None:
+        """Replace what has not been taken yet."""
+        with self._lock:
+            self._case = case
+
+    def take(self) -> CaseSetup | None:
+        """What changed since it was last taken; None if nothing did."""
+        with self._lock:
+            case, self._case = self._case, None
+        return case
 
 
 def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
@@ -85,7 +106,8 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
     # Two: one core is left to the server, and the tracker's images are small.
     cv2.setNumThreads(2)
     stop = threading.Event()
-    threading.Thread(target=_end_when_told, args=(link.stop, stop), name="stop", daemon=True).start()
+    newest = NewestCase()
+    threading.Thread(target=_listen, args=(link.orders, newest, stop), name="orders", daemon=True).start()
     try:
         preparation = build_setup(order.config)
         theatre = preparation.theatre
@@ -95,7 +117,9 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
             renderer=None if theatre is None else theatre.renderer(),
             first_number=order.first_number,
         )
-        work(order, link, stop, source, Tracking(preparation))
+        tracking = Tracking(preparation)
+        tracking.adopt(order.case)
+        work(order, link, stop, source, tracking, newest=newest)
     except BrokenPipeError:
         # The server is gone.
         os._exit(0)
@@ -111,6 +135,7 @@ def work(
     source: Source,
     tracking: Tracking,
     *,
+    newest: NewestCase,
     clock: Callable[[], float] = time.monotonic,
 ) -> None:
     """Track the newest image of the source until `stop` is set."""
@@ -121,6 +146,9 @@ def work(
     trouble: Trouble | None = None
     while not stop.is_set():
         shot = capture.take(HEARTBEAT_S)
+        case = newest.take()
+        if case is not None:
+            tracking.adopt(case)
         status = capture.status()
         if shot is None:
             link.send(Report(source=status, trouble=trouble, tracked_images=tracked))
@@ -139,9 +167,11 @@ def work(
     capture.close(STOP_GRACE_S)
 
 
-def _end_when_told(told: Connection, stop: threading.Event) -> None:
-    """Ends this process when the other end of the pipe is let go of."""
-    wait([told])
+def _listen(orders: Connection, newest: NewestCase, stop: threading.Event) -> None:
+    """Hands on what the server says, and ends this process when it lets go of its end of the pipe."""
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            newest.put(orders.recv())
     stop.set()
     time.sleep(STOP_GRACE_S)
     # Whatever still hangs (a driver, a stream that does not answer) is not worth waiting for.

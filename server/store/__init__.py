@@ -1,1 +1,53 @@
-"""What is kept: cases and all that set-up made for them. What was acknowledged is on disk."""
+"""What is kept: cases and all that set-up made for them. What was acknowledged is on disk.
+
+with Home(home_folder()) as home, CaseStore(home) as store:
+    case = store.create("L3, rehearsal")
+    with store.new_file(case.id, ".npy") as new:
+        numpy.save(new.path, volume)
+    ct = store.put(case.id, DocumentKind.CT, "main", {...}, made_by="M. Ito", files=[new.stored.id])
+    plan = store.put(case.id, DocumentKind.PLAN, "L3", {...}, made_by="M. Ito", stands_on=[ct.id])
+    store.standing(plan)        # Current(), until the CT is replaced or withdrawn
+"""
+
+from server.store.archive import Archive
+from server.store.case_store import CaseStore
+from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError, told
+from server.store.files import NewFile
+from server.store.home import Home, home_folder
+from server.store.records import (
+    Case,
+    Current,
+    Damage,
+    Document,
+    DocumentKind,
+    Entry,
+    Heading,
+    OutOfDate,
+    Standing,
+    StoredFile,
+    Withdrawal,
+)
+
+__all__ = [
+    "Archive",
+    "Case",
+    "CaseStore",
+    "Current",
+    "Damage",
+    "Document",
+    "DocumentKind",
+    "Entry",
+    "Heading",
+    "Home",
+    "NewFile",
+    "NotStored",
+    "OutOfDate",
+    "OutOfDateError",
+    "Standing",
+    "StoreConflict",
+    "StoreError",
+    "StoredFile",
+    "Withdrawal",
+    "home_folder",
+    "told",
+]

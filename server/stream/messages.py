@@ -181,7 +181,7 @@ def source_message(source: SourceStatus) -> SourceMessage:
     return SourceMessage(
         name=source.name,
         state=source.state,
-        trouble=_trouble(source.trouble),
+        trouble=trouble_message(source.trouble),
         images=source.images,
         skipped_images=source.skipped_images,
         rate_hz=source.rate_hz,
@@ -190,10 +190,13 @@ def source_message(source: SourceStatus) -> SourceMessage:
 
 def process_message(process: ProcessStatus) -> ProcessMessage:
     """The message of the tracking process."""
-    return ProcessMessage(state=process.state, restarts=process.restarts, trouble=_trouble(process.trouble))
+    return ProcessMessage(
+        state=process.state, restarts=process.restarts, trouble=trouble_message(process.trouble)
+    )
 
 
-def _trouble(trouble: Trouble | None) -> TroubleMessage | None:
+def trouble_message(trouble: Trouble | None) -> TroubleMessage | None:
+    """The message of something that is wrong, if anything is."""
     if trouble is None:
         return None
     return TroubleMessage(

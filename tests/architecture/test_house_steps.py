@@ -1,5 +1,6 @@
 """The steps of the set-up: what they say on a machine where something is missing."""
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -155,3 +156,13 @@ def test_a_run_that_executed_nothing_is_no_pass(tmp_path: Path, suite: str, *, p
         capture_output=True,
     )
     assert (judged.returncode == 0) is passes
+
+
+def test_cleaning_takes_no_case_away_and_says_so(tmp_path: Path) -> None:
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    for made in ("tracker", "server", "tests", ".venv", ".coaxial/cases/1"):
+        (tmp_path / made).mkdir(parents=True)
+    said = subprocess.run(["make", "clean"], cwd=tmp_path, check=True, capture_output=True, text=True).stdout
+    assert not (tmp_path / ".venv").exists()
+    assert (tmp_path / ".coaxial" / "cases" / "1").exists()
+    assert "Kept: .coaxial" in said

@@ -56,7 +56,7 @@ class Rehearsal:
         self.process = subprocess.Popen(
             [sys.executable, "-m", "server", "run", "--port", "0"],
             cwd=folder,
-            env={**os.environ, "PYTHONPATH": str(CHECKOUT)},
+            env={**os.environ, "PYTHONPATH": str(CHECKOUT), "COAXIAL_HOME": str(folder / "home")},
             stdout=subprocess.PIPE,
             text=True,
         )

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 from server.camera_file import load_camera_file
-from server.config import CameraConfig, Config, MarkerConfig, ToolConfig
+from server.config import CameraConfig, Config, MarkerConfig, RehearsalConfig, ToolConfig
 from server.marker_file import load_marker_image
-from server.setup import build_setup
+from server.setup import CaseSetup, Preparation, build_setup, nominal_camera
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.navigation import Absent, AbsentReason
+from tracker.plan import Channel
+from tracker.pose import ToolModel
 
 CAMERA = {
     "matrix": [[500, 0, 32], [0, 500, 24], [0, 0, 1]],
@@ -127,3 +129,50 @@ def test_a_camera_file_for_another_size_is_refused_with_both_sizes(tmp_path: Pat
     assert "640x360" in caught.value.message
     assert "64x48" in caught.value.message
     assert not preparation.uncalibrated_setup_for((640, 360)).camera_calibrated
+
+
+def prepared(tmp_path: Path) -> Preparation:
+    markers = {"m": MarkerConfig(image=picture(tmp_path / "m.png"), side_mm=25.0)}
+    return build_setup(Config(camera=CameraConfig(source="0"), markers=markers))
+
+
+def made_tool(marker: str) -> ToolModel:
+    return ToolModel.from_tip_and_axis(
+        name="awl",
+        marker=marker,
+        tip_in_marker_mm=[0, -90, 0],
+        axis_in_marker=[0, -1, 0],
+        radius_mm=1.5,
+        length_mm=90,
+    )
+
+
+def test_what_a_case_knows_takes_the_place_of_the_settings(tmp_path: Path) -> None:
+    case = CaseSetup(
+        camera=nominal_camera((64, 48)), tools={"awl": made_tool("m"), "lost": made_tool("other")}
+    )
+    changed = prepared(tmp_path).with_case(case)
+    assert changed.setup is not None
+    assert changed.setup.camera_calibrated
+    assert list(changed.setup.tools) == ["awl"], "a tool whose marker nobody looks for cannot be placed"
+
+
+def test_a_channel_of_the_case_is_not_registered_by_what_registered_another() -> None:
+    rehearsal = build_setup(Config())
+    assert not isinstance(rehearsal.camera_from_vertebra, Absent)
+    channel = Channel(
+        name="L4 left", entry_in_vertebra_mm=np.zeros(3), target_in_vertebra_mm=np.ones(3) * 9, radius_mm=3.0
+    )
+    changed = rehearsal.with_case(CaseSetup(channel=channel))
+    assert changed.channel is channel
+    assert changed.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)
+    assert rehearsal.with_case(CaseSetup()).camera_from_vertebra is rehearsal.camera_from_vertebra
+
+
+def test_a_rehearsal_that_brings_no_setup_knows_its_marker_alone() -> None:
+    bare = build_setup(Config(rehearsal=RehearsalConfig(brings_setup=False)))
+    assert [model.name for model in bare.models] == ["drill"]
+    assert bare.camera is None
+    assert bare.tools == {}
+    assert bare.channel == Absent(reason=AbsentReason.NO_PLAN)
+    assert bare.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)

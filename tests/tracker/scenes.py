@@ -19,6 +19,13 @@ SIDE_MM = 25.0
 
 # A 3x3 code in the middle half of the square; white is 1. No quarter turn takes it to itself.
 CODE = ((1, 1, 0), (0, 0, 1), (1, 0, 0))
+OTHER = ((0, 1, 1), (1, 0, 0), (1, 0, 1))
+Fields = tuple[tuple[int, ...], ...]
+# The codes that differ from it in one field.
+NEIGHBOURS: list[Fields] = [
+    tuple(tuple(v ^ (3 * r + c == k) for c, v in enumerate(row)) for r, row in enumerate(CODE))
+    for k in range(9)
+]
 LENS = (-0.16, 0.04, 0.0004, -0.0003, 0.0)
 STRAIGHT = (0.0, 0.0, 0.0, 0.0, 0.0)
 
@@ -173,6 +180,36 @@ def cluttered(camera: CameraModel, seed: int, *, count: int = 40) -> npt.NDArray
         else:
             cv2.fillConvexPoly(picture, np.rint(box).astype(np.int32), grey, cv2.LINE_AA)
     return picture
+
+
+def in_clutter(
+    camera: CameraModel,
+    pose: Rigid[Camera, Marker],
+    *,
+    clutter: int = 0,
+    blur_px: float = 0.6,
+    noise_grey: float = 1.5,
+    seed: int = 0,
+) -> tuple[Image8, Array]:
+    """The image (h, w) of one code among dark and bright things, and where its corners (4, 2) are seen."""
+    image = rendered(
+        camera,
+        [Print(picture=code_image(), pose=pose)],
+        background=cluttered(camera, clutter),
+        blur_px=blur_px,
+        noise_grey=noise_grey,
+        seed=seed,
+    )
+    return image, corners_px_of(camera, pose)
+
+
+def smeared(image: Image8, way_px: float, from_deg: float) -> Image8:
+    """The image, moved by so many pixels while the shutter was open."""
+    height, width = image.shape
+    reach = 0.5 * way_px * np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
+    shifts = [np.array([[1, 0, s * reach[0]], [0, 1, s * reach[1]]]) for s in np.linspace(-1, 1, 21)]
+    moved = [cv2.warpAffine(image.astype(np.float64), shift, (width, height)) for shift in shifts]
+    return np.asarray(np.rint(np.mean(moved, axis=0)), dtype=np.uint8)
 
 
 def seen(sighting: Sighting) -> Seen:

@@ -10,7 +10,8 @@ from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, nodes_of_pla
 from tracker.appearance.picture.kernels import collect
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
-from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
+from tracker.geometry.kernels import pose_rows
 
 # Half of the part of the plane that is looked at, in sides: the outline's blurred outer half lies on the
 # white paper, and what lies beyond the paper must not come in.
@@ -56,7 +57,6 @@ class WholeFit:
         scale_grey: sd of what is not explained, in grey levels.
         contrast_grey: bright less dark, at the marker's centre.
         explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
-        blur_px2: (3,), variances of the blur along u, along v, and between, in px of the image.
         response: bend of the camera's response, 0 where grey levels are proportional to light.
         cost_sd2: robust sum of squared residuals in units of the smaller scale of both; 0 of one alone.
     """
@@ -67,7 +67,6 @@ class WholeFit:
     scale_grey: float
     contrast_grey: float
     explained_ratio: float
-    blur_px2: Array
     response: float
     cost_sd2: float
 
@@ -138,7 +137,8 @@ def whole_fits(
             done = uneven
     scale = min(one.scale_grey for one in done)
     costs = [_cost(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
-    return [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
+    records = [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
+    return [one for one in records if one is not None]
 
 
 def _samples(
@@ -293,10 +293,13 @@ def _cost(seen: Samples, one: Fitted, scale_grey: float) -> float:
     )
 
 
-def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit:
-    size = np.sqrt(np.diag(one.matrix))
-    inverse = np.linalg.inv(one.matrix / np.outer(size, size)) / np.outer(size, size)
-    alone = inverse[:6, :6] * one.scale_grey**2
+def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
+    """What the fit says of the pose; None where it says nothing."""
+    # What is known beforehand is in the matrix: it needs no ridge.
+    rows, is_told = pose_rows(one.matrix, 0.0)
+    if not is_told:
+        return None
+    alone = rows[:, :6] * one.scale_grey**2
     together = scores_spread(
         seen.values,
         one.looked,
@@ -304,19 +307,17 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit:
         one.nodes,
         one.scale_grey,
         CUT,
-        np.ascontiguousarray(inverse[:6]),
+        rows,
         BLOCKS,
     )
     alike = max(float(np.trace(np.linalg.solve(alone, together))) / 6.0, 1.0)
-    u, _, vt = np.linalg.svd(one.rotation)
     return WholeFit(
-        camera_from_marker=Rigid(rotation=u @ vt, translation_mm=one.translation_mm),
+        camera_from_marker=Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm),
         covariance=alone * alike,
         alike_ratio=alike,
         scale_grey=one.scale_grey,
         contrast_grey=float(typical_contrast(one.numbers, one.nodes)),
         explained_ratio=one.explained_ratio,
-        blur_px2=one.numbers[BLUR : BLUR + 3].copy(),
         response=float(one.numbers[RESPONSE]),
         cost_sd2=cost_sd2,
     )

@@ -15,12 +15,15 @@ from tracker.appearance.light.kernels import (
     shaped_by,
 )
 from tracker.appearance.picture.kernels import predict
+from tracker.camera.blur.kernels import keep_within
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive, turn_by
 
 # A step that lowered the cost by less was within a standard deviation, and the next is within a tenth.
 SETTLED_COST_SD2 = 0.3
 LEAST_ANSWER_RATIO = 0.3
+# In one step the blur's variance grows to no more than so many times what it was.
+MOST_WIDENED = 4.0
 
 
 @compiled
@@ -46,13 +49,14 @@ def corner_motion_px(rotation, translation, lens, side_mm, step):
 @compiled
 def _advance(rotation, translation, numbers, step, share, least_blur):
     """Move by a share of a step, in place; False where that turns the face away."""
-    before = numbers[BLUR : BLUR + 3].copy()
+    blur = numbers[BLUR : BLUR + 3]
+    most_blur = MOST_WIDENED * max(blur[0], blur[1])
     for k in range(3):
         translation[k] += share * step[k]
     turn_by(rotation, share * step[3:6])
     for k in range(6, len(numbers)):
         numbers[k] += share * step[k]
-    _keep_blur(numbers[BLUR : BLUR + 3], before, least_blur)
+    keep_within(blur, least_blur, most_blur)
     numbers[RESPONSE] = min(max(numbers[RESPONSE], -0.9), 0.9)
     facing = (
         rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
@@ -210,17 +214,3 @@ def scores_spread(values, seen, response, nodes, scale, cut, inverse, blocks):
     # The fit's matrix counts weights; how the scores answer to a change of the pose is less.
     answer = weights / max(stiffness, LEAST_ANSWER_RATIO * weights)
     return spread * (answer**2 * count / max(count - 6.0, 1.0))
-
-
-@compiled
-def _keep_blur(blur, before, least):
-    """Keep a blur (3,) between `least` px^2 and four times what it was, in every direction."""
-    most = 4.0 * max(before[0], before[1])
-    mean, half = 0.5 * (blur[0] + blur[1]), np.sqrt((0.5 * (blur[0] - blur[1])) ** 2 + blur[2] ** 2)
-    larger = min(max(mean + half, least), most)
-    smaller = min(max(mean - half, least), most)
-    angle = 0.5 * np.arctan2(2.0 * blur[2], blur[0] - blur[1])
-    c, s = np.cos(angle), np.sin(angle)
-    blur[0] = larger * c * c + smaller * s * s
-    blur[1] = larger * s * s + smaller * c * c
-    blur[2] = (larger - smaller) * c * s

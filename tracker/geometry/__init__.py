@@ -6,6 +6,7 @@ from tracker.geometry.rigid import Rigid, point_covariance_mm2
 from tracker.geometry.rotations import (
     Array,
     angle_between_deg,
+    nearest_rotation,
     rotation_between,
     rotation_from_vector,
     skew,
@@ -24,6 +25,7 @@ __all__ = [
     "angle_between_deg",
     "cylinder_ring_mm",
     "cylinder_silhouette_mm",
+    "nearest_rotation",
     "point_covariance_mm2",
     "rotation_between",
     "rotation_from_vector",

@@ -4,6 +4,9 @@ import numpy as np
 
 from tracker.compiled import compiled
 
+# Of a unit diagonal: what is not told at all is not moved.
+RIDGE = 1e-9
+
 
 @compiled
 def off_rotation(m):
@@ -38,21 +41,20 @@ def turn_by(rotation, w):
 
 
 @compiled
-def solve_positive(a, g, out):
-    """Solve a x = g for a symmetric positive definite matrix (n, n) into `out`; False where it is not.
+def _factor(a, ridge, lower, d):
+    """Cholesky factor of a symmetric positive definite matrix (n, n), scaled to a unit diagonal by `d` (n,).
 
-    Its own, because Numba's linear algebra wants SciPy, which nothing else here needs. Rows and columns are
-    scaled to a unit diagonal first: mm and radians differ by orders of magnitude.
+    False where it is not positive. `ridge` is added to that diagonal. Scaled, because mm and radians differ
+    by orders of magnitude.
     """
-    n = len(g)
-    lower, d = np.zeros((n, n)), np.empty(n)
+    n = len(d)
     for i in range(n):
         if not a[i, i] > 0.0:
             return False
         d[i] = np.sqrt(a[i, i])
     for i in range(n):
         for j in range(i + 1):
-            rest = a[i, j] / (d[i] * d[j]) + (1e-9 if i == j else 0.0)
+            rest = a[i, j] / (d[i] * d[j]) + (ridge if i == j else 0.0)
             for k in range(j):
                 rest -= lower[i, k] * lower[j, k]
             if i == j:
@@ -61,6 +63,13 @@ def solve_positive(a, g, out):
                 lower[i, i] = np.sqrt(rest)
             else:
                 lower[i, j] = rest / lower[j, j]
+    return True
+
+
+@compiled
+def _substitute(lower, d, g, out):
+    """Solve for one right-hand side (n,) by a factor, into `out`."""
+    n = len(g)
     for i in range(n):
         rest = g[i] / d[i]
         for k in range(i):
@@ -73,6 +82,20 @@ def solve_positive(a, g, out):
         out[i] = rest / lower[i, i]
     for i in range(n):
         out[i] /= d[i]
+
+
+@compiled
+def solve_positive(a, g, out):
+    """Solve a x = g for a symmetric positive definite matrix (n, n) into `out`; False where it is not.
+
+    Its own, because NumPy's in compiled code raises where there is no answer, does not see that a matrix is
+    not positive, and took a third longer with so few unknowns.
+    """
+    n = len(g)
+    lower, d = np.zeros((n, n)), np.empty(n)
+    if not _factor(a, RIDGE, lower, d):
+        return False
+    _substitute(lower, d, g, out)
     return True
 
 
@@ -90,18 +113,32 @@ def turn_between(a, b):
 
 
 @compiled
-def pose_inverse(matrix):
-    """The first part (6, 6) of the inverse of a positive matrix (n, n), and False where it has none."""
-    unit, column = np.zeros(len(matrix)), np.empty(len(matrix))
-    inverse = np.empty((6, 6))
+def could_be_tilted(squares, squared_area, least_ratio):
+    """Whether two sides of a parallelogram could be those of a square, squashed to no less than this.
+
+    `squares`: the sum of their squared lengths. The ratio of its singular values is the cosine of the tilt.
+    """
+    root = np.sqrt(max(squares * squares - 4.0 * squared_area, 0.0))
+    return squares - root > least_ratio * least_ratio * (squares + root)
+
+
+@compiled
+def pose_rows(matrix, ridge):
+    """The first six rows (6, n) of the inverse of a positive matrix (n, n), and False where it has none.
+
+    A fit's matrix starts with the pose: its part (6, 6) is what the fit says of the pose alone. `ridge`: of
+    the unit diagonal that the matrix is scaled to; it bounds what is hardly known.
+    """
+    n = len(matrix)
+    lower, d, unit = np.zeros((n, n)), np.empty(n), np.zeros(n)
+    rows = np.empty((6, n))
+    if not _factor(matrix, ridge, lower, d):
+        return rows, False
     for k in range(6):
-        unit[:] = 0.0
         unit[k] = 1.0
-        if not solve_positive(matrix, unit, column):
-            return inverse, False
-        for m in range(6):
-            inverse[m, k] = column[m]
+        _substitute(lower, d, unit, rows[k])
+        unit[k] = 0.0
     for k in range(6):
         for m in range(k):
-            inverse[m, k] = inverse[k, m] = 0.5 * (inverse[m, k] + inverse[k, m])
-    return inverse, True
+            rows[m, k] = rows[k, m] = 0.5 * (rows[m, k] + rows[k, m])
+    return rows, True

@@ -59,6 +59,12 @@ def rotation_between(a: npt.ArrayLike, b: npt.ArrayLike) -> Array:
     return rotation_from_vector(axis / sine * np.arctan2(sine, cosine))
 
 
+def nearest_rotation(matrix: npt.ArrayLike) -> Array:
+    """The rotation (3, 3) nearest to a matrix that is one but for rounding, or nearly."""
+    u, _, vt = np.linalg.svd(np.asarray(matrix, dtype=np.float64))
+    return np.asarray(u @ vt)
+
+
 def angle_between_deg(a: npt.ArrayLike, b: npt.ArrayLike) -> float:
     """The angle 0..180 degrees between two directions (3,)."""
     p, q = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)

@@ -10,7 +10,6 @@ from tracker.marker.explanation import (
 )
 from tracker.marker.looks import Templates, templates_of
 from tracker.marker.model import MarkerModel, refuse_alike
-from tracker.marker.practice import practice_image
 from tracker.marker.score import (
     Agreement,
     ScoreSettings,
@@ -36,7 +35,6 @@ __all__ = [
     "explanation_of",
     "model_agreement",
     "pictures_of",
-    "practice_image",
     "reach_px",
     "refuse_alike",
     "target_coverage_ratio",

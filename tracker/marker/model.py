@@ -13,6 +13,8 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array
 from tracker.marker.active_edges import LEVELS_PX, ActiveEdges, active_edges_at
 
+# White paper around the square, in sides, that a fit may count on; what lies beyond is unknown.
+PAPER_RATIO = 0.2
 LEAST_SIDE_PX = 8
 SQUARE_TOLERANCE_RATIO = 0.02
 LEAST_CONTRAST_GREY = 40

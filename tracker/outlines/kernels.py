@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
+from tracker.geometry.kernels import could_be_tilted
 
 MOST_SUCCESSORS = 8
 MOST_CORNER_QUADS = 12000
@@ -149,10 +150,8 @@ def corner_quads(image, segments, successors, counts, least_side, least_squash, 
                 fixed, length = (la, lb) if whole == 0 else (lb, la)
                 step = 0
                 while fixed >= least_side and q < MOST_CORNER_QUADS:
-                    # The squash of the parallelogram of two sides at this angle.
-                    total, area = fixed * fixed + length * length, fixed * length
-                    root = np.sqrt(max(total * total - 4.0 * area * area * (1.0 - cosine * cosine), 0.0))
-                    good = total - root > least_squash * least_squash * (total + root)
+                    squared_area = (fixed * length) ** 2 * (1.0 - cosine * cosine)
+                    good = could_be_tilted(fixed * fixed + length * length, squared_area, least_squash)
                     if good and length >= 0.5 * least_side and (whole == 0 or step > 0):
                         sa, sb = (1.0, length / lb) if whole == 0 else (length / la, 1.0)
                         quad = quads[q]

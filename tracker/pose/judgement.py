@@ -148,7 +148,7 @@ def _moved(scene: Scene, found: Occurrence, seen: Seen, corners_px: Array) -> Se
     both = (pose, other_solution(pose))
     nearer, farther = sorted(both, key=lambda one: -float(np.sum(one.rotation * before)))
     # Edges that were off have not decided between the two solutions.
-    spread = doubt_between(nearer, farther, gap=0.0, expected=scene.expected)[1]
+    spread = doubt_between(nearer, farther, gap=0.0, expected=scene.expected)
     return replace(
         seen,
         camera_from_marker=nearer,

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
 from tracker.pose.kernels import fit_square, mirror
 
 # The closed form is within a few pixels; each round squares what is left.
@@ -40,8 +40,7 @@ def pose_from_corners(
             best, least = (rotation, translation), left
     if best is None:
         return None
-    u, _, vt = np.linalg.svd(best[0])
-    return Rigid(rotation=u @ vt, translation_mm=best[1])
+    return Rigid(rotation=nearest_rotation(best[0]), translation_mm=best[1])
 
 
 def _foreshortened(homography: Array) -> Rigid[Camera, Marker] | None:
@@ -68,9 +67,9 @@ def _foreshortened(homography: Array) -> Rigid[Camera, Marker] | None:
     first = float(np.sqrt(max(left[0, 0], 0.0)))
     second = float(np.sqrt(max(left[1, 1], 0.0))) * (1.0 if left[0, 1] >= 0.0 else -1.0)
     columns = np.vstack([flat, [first, second]])
-    u, _, vt = np.linalg.svd(np.column_stack([columns, np.cross(columns[:, 0], columns[:, 1])]))
+    turned = nearest_rotation(np.column_stack([columns, np.cross(columns[:, 0], columns[:, 1])]))
     # A unit of length at a distance d along the line of sight is seen as 1 / d.
-    return Rigid(rotation=frame @ u @ vt, translation_mm=sight / scale)
+    return Rigid(rotation=frame @ turned, translation_mm=sight / scale)
 
 
 def other_solution(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:

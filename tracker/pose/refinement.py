@@ -7,13 +7,11 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.geometry.kernels import pose_inverse
+from tracker.geometry.kernels import RIDGE, pose_rows
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import LEAST_RESPONSE_RATIO
 from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
 from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surprise
-
-__all__ = ["Fit", "doubt_between", "projected_edges", "refined_pose", "surprise"]
 
 # Camera response, ink and blooming shift all edges towards dark or bright alike: by up to 0.25 px.
 SHIFT_SD_PX = 0.25
@@ -33,19 +31,13 @@ class Fit:
     Attributes:
         camera_from_marker: the pose.
         covariance: (6, 6) [mm, rad], as in `Seen`.
-        cost_px2: robust sum of squared residuals.
-        residual_px: sd of the residuals along the normals.
         shift_px: by how much all edges are shifted towards their bright side.
-        doubt_ratio: probability that the other planar solution is the true one, 0..0.5.
         lead_sd2: as in `Seen`.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
     covariance: Array
-    cost_px2: float
-    residual_px: float
     shift_px: float
-    doubt_ratio: float = 0.0
     lead_sd2: float = float("inf")
 
 
@@ -90,11 +82,10 @@ def refined_pose(
     if fit is None:
         return None
     gap = abs(costs[1] - costs[0])
-    doubt, spread = doubt_between(poses[best], poses[1 - best], gap=gap, expected=expected)
+    spread = doubt_between(poses[best], poses[1 - best], gap=gap, expected=expected)
     return replace(
         fit,
         covariance=fit.covariance + spread,
-        doubt_ratio=doubt,
         lead_sd2=lead_between(costs, poses, best),
     )
 
@@ -159,13 +150,11 @@ def _fit(
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES
-    inverse, is_told = pose_inverse(matrix)
+    inverse, is_told = pose_rows(matrix, RIDGE)
     if not is_told:
         return None
     return Fit(
         camera_from_marker=pose,
-        covariance=inverse * variance,
-        cost_px2=cost,
-        residual_px=float(np.sqrt(squares / weights)),
+        covariance=inverse[:, :6] * variance,
         shift_px=shift,
     )

@@ -64,23 +64,24 @@ def doubt_between(
     *,
     gap: float,
     expected: Rigid[Camera, Marker] | None,
-) -> tuple[float, Array]:
-    """Probability 0..0.5 that the worse of two planar solutions is the true one, and what it adds (6, 6).
+) -> Array:
+    """What it adds to a pose's covariance (6, 6) that the worse of two planar solutions may be the true one.
 
     `gap` is by how much its squared residuals are larger, in units of their variance.
     """
     if gap > DECIDED_COST and (expected is None or _turn_rad(better, expected) < np.radians(FAR_TURN_DEG)):
-        return 0.0, np.zeros((6, 6))
+        return np.zeros((6, 6))
     if expected is not None and _turned_over(better, worse, expected):
         gap = min(gap, UNDECIDED_COST)
     apart = _difference(better, worse)
     if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
-        return 0.0, np.zeros((6, 6))
+        return np.zeros((6, 6))
+    # How probable it is that the worse one is true, 0..0.5.
     doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
     spread = np.outer(apart, apart)
     # A turn goes along an arc, a covariance along its tangent: by so much is the other solution beside it.
     spread[3:, 3:] += (1.0 - np.cos(np.linalg.norm(apart[3:]))) ** 2 * np.eye(3)
-    return doubt, doubt * spread
+    return np.asarray(doubt * spread)
 
 
 def _turn_rad(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> float:

@@ -85,9 +85,7 @@ def with_whole_shape(
     pose, covariance = near[first].camera_from_marker, COVARIANCE_FACTOR * near[first].covariance
     for k in others:
         gap = float(costs[k] - costs[first])
-        covariance = (
-            covariance + doubt_between(pose, near[k].camera_from_marker, gap=gap, expected=expected)[1]
-        )
+        covariance = covariance + doubt_between(pose, near[k].camera_from_marker, gap=gap, expected=expected)
     lead = seen.lead_sd2
     if len(starts) > 1:
         lead = lead_between(costs, [one.camera_from_marker for one in near], int(first))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
+from tracker.geometry.kernels import could_be_tilted
 
 # Of a side, the part that blur at the corners leaves straight.
 STRAIGHT_FROM, STRAIGHT_TO = 0.14, 0.86
@@ -260,7 +261,6 @@ def could_be_square(quad, least_side, least_squash):
         opposite = np.sqrt((r[0] - o[0]) ** 2 + (r[1] - o[1]) ** 2)
         if side < least_side or side > 2.0 * opposite:
             return False
-    # Singular values of the parallelogram's half sides: their ratio is the cosine of the tilt.
     ax, ay = (
         quad[1, 0] + quad[2, 0] - quad[0, 0] - quad[3, 0],
         quad[1, 1] + quad[2, 1] - quad[0, 1] - quad[3, 1],
@@ -269,9 +269,7 @@ def could_be_square(quad, least_side, least_squash):
         quad[2, 0] + quad[3, 0] - quad[0, 0] - quad[1, 0],
         quad[2, 1] + quad[3, 1] - quad[0, 1] - quad[1, 1],
     )
-    total, area = ax * ax + ay * ay + bx * bx + by * by, abs(ax * by - ay * bx)
-    root = np.sqrt(max(total * total - 4.0 * area * area, 0.0))
-    return total - root > least_squash * least_squash * (total + root)
+    return could_be_tilted(ax * ax + ay * ay + bx * bx + by * by, (ax * by - ay * bx) ** 2, least_squash)
 
 
 @compiled

@@ -3,7 +3,7 @@
 from tracker.rehearsal.anatomy import Needle
 from tracker.rehearsal.motion import Phase
 from tracker.rehearsal.renderer import Renderer
-from tracker.rehearsal.settings import TheatreSettings
+from tracker.rehearsal.settings import BoardKind, Scene, TheatreSettings
 from tracker.rehearsal.theatre import Theatre, Truth
 
-__all__ = ["Needle", "Phase", "Renderer", "Theatre", "TheatreSettings", "Truth"]
+__all__ = ["BoardKind", "Needle", "Phase", "Renderer", "Scene", "Theatre", "TheatreSettings", "Truth"]

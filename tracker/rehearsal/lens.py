@@ -5,12 +5,16 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.camera import CameraModel
+from tracker.geometry import Array
 
 Image32 = npt.NDArray[np.float32]
 
 # Between nodes 4 px apart a straight line is off by under 0.003 px for the lenses and planes rendered here.
 NODE_PX = 4
 MARGIN_NODES = 4
+
+
+Box = tuple[int, int, int, int]  # x, y, width, height in px, all multiples of 4
 
 
 class RayGrid:
@@ -22,7 +26,7 @@ class RayGrid:
     """
 
     def __init__(self, camera: CameraModel) -> None:
-        width, height = camera.size_wh_px
+        width, height = self._size_wh_px = camera.size_wh_px
         self.columns = -(-width // NODE_PX)
         self.rows = -(-height // NODE_PX)
         first = (NODE_PX - 1) / 2.0
@@ -39,6 +43,27 @@ class RayGrid:
         """
         row, column = y // NODE_PX + MARGIN_NODES - 1, x // NODE_PX + MARGIN_NODES - 1
         return self.nodes[row : row + height // NODE_PX + 2, column : column + width // NODE_PX + 2]
+
+    def box_around(self, px: Array, margin_px: int) -> Box | None:
+        """The rectangle of whole blocks around points (n, 2) inside the image, None if there is none."""
+        width, height = self._size_wh_px
+        if len(px) == 0:
+            return None
+        low = np.floor((px.min(axis=0) - margin_px) / NODE_PX).astype(int)
+        high = np.ceil((px.max(axis=0) + margin_px) / NODE_PX).astype(int)
+        low = np.maximum(low, 0)
+        high = np.minimum(high, [self.columns, self.rows])
+        if (high <= low).any():
+            return None
+        x, y = (int(v) * NODE_PX for v in low)
+        across, down = (int(v) * NODE_PX for v in high - low)
+        # The image may end within a block.
+        return (
+            x,
+            y,
+            min(across, -(-(width - x) // NODE_PX) * NODE_PX),
+            min(down, -(-(height - y) // NODE_PX) * NODE_PX),
+        )
 
 
 def resized(image: Image32, width: int, height: int) -> Image32:

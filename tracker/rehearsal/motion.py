@@ -22,6 +22,7 @@ class Phase(StrEnum):
     WITHDRAW = "withdraw"  # back out along the channel
     AWAY = "away"  # out of the picture
     RETURN = "return"  # back into it
+    CALIBRATE = "calibrate"  # the tip in a divot, or a board before the camera
 
 
 PHASE_STARTS_S = (

@@ -5,6 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array, Camera, Rigid, Tool
+from tracker.rehearsal.backdrop import Backdrop
 from tracker.rehearsal.drill import (
     BOARD_EDGE_GREY,
     BOARD_HALF_MM,
@@ -20,15 +21,14 @@ from tracker.rehearsal.drill import (
     drill_portrait,
 )
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
-from tracker.rehearsal.lens import NODE_PX, RayGrid, spread
-from tracker.rehearsal.scenery import still_scenery
-from tracker.rehearsal.sensor import DEFOCUS_PX, Sensor, spread_kernel
+from tracker.rehearsal.lens import NODE_PX, Box, spread
+from tracker.rehearsal.printed import PrintedPlane
+from tracker.rehearsal.sensor import spread_kernel
 from tracker.rehearsal.theatre import Theatre, Truth
 
 Image8 = npt.NDArray[np.uint8]
 Image32 = npt.NDArray[np.float32]
 
-BOARD_SAMPLES = 4
 SPEED_OVER_S = 0.004
 # Only this much of the drill ever comes near the bone.
 NEAR_BONE_MM = 78.0
@@ -36,9 +36,6 @@ SHADOW_GROUND_MM, SHADOW_REACH_MM = 14.0, 260.0
 # The board is wider than the body and throws most of its shadow.
 SHADOW_PROFILE_MM = np.array([*PROFILE_MM[:17], 102, 102.5, 137.5, 138, 168])
 SHADOW_RADIUS_MM = np.array([*RADIUS_MM[:16], 8.5, 8.5, 14.0, 14.0, 8.5, 8.5])
-
-
-Box = tuple[int, int, int, int]  # x, y, width, height in px, all multiples of 4
 
 
 class Renderer:
@@ -50,35 +47,29 @@ class Renderer:
 
     def __init__(self, theatre: Theatre) -> None:
         self._theatre = theatre
-        self._rays = RayGrid(theatre.camera)
-        self._sensor = Sensor(theatre.settings)
-        scenery = still_scenery(theatre, self._rays)
-        self._depth_mm, self._points_mm = scenery.depth_mm, scenery.points_mm
-        picture = scenery.picture * self._sensor.gain[..., None]
-        sigma = DEFOCUS_PX * theatre.settings.blur
-        if sigma > 0.05:
-            picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
-        self._background = np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
-        self._sigmas = self._sensor.sigmas(self._background)
+        self._backdrop = Backdrop(theatre)
+        self._rays = self._backdrop.rays
+        self._depth_mm, self._points_mm = self._backdrop.depth_mm, self._backdrop.points_mm
         self._portrait = drill_portrait()
-        self._face = board_face(theatre.marker.image)
-        self._whole = np.full_like(self._face, 255)
+        self._marker_board = PrintedPlane(
+            board_face(theatre.marker.image),
+            per_mm=BOARD_PER_MM,
+            middle_px=(BOARD_HALF_MM * BOARD_PER_MM,) * 2,
+        )
 
     def image_at(self, at_s: float) -> Image8:
         """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
         truth = self._theatre.truth_at(at_s)
-        image, sigmas = self._background.copy(), self._sigmas
+        image = self._backdrop.picture()
         self._cast_shadow(image, truth)
         kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
         reach_px = 4 if kernel is None else 4 + kernel.shape[0] // 2
-        box = self._box_around(self._outline_px(truth), reach_px)
+        box = self._rays.box_around(self._outline_px(truth), reach_px)
         if box is not None:
-            self._draw_drill(image, box, truth, kernel)
-            x, y, width, height = box
-            sigmas = sigmas.copy()
-            part = np.s_[y : y + height, x : x + width]
-            sigmas[part] = self._sensor.sigmas(image[part])
-        return self._sensor.read_out(image, sigmas, at_s)
+            layer = self._body(box, truth)
+            self._add_board(layer, box, truth)
+            self._backdrop.lay_over(image, box, layer, kernel)
+        return self._backdrop.read_out(image, box, at_s)
 
     def _outline_px(self, truth: Truth) -> Array:
         """Points (n, 2) around everything of the drill that can be in the image."""
@@ -93,42 +84,6 @@ class Renderer:
         )
         in_camera = to_camera.move_points(points)
         return self._theatre.camera.px_from_camera(in_camera[in_camera[:, 2] > 50.0])
-
-    def _box_around(self, px: Array, margin_px: int) -> Box | None:
-        """The rectangle of whole blocks around these points inside the image, None if there is none."""
-        width, height = self._theatre.camera.size_wh_px
-        if len(px) == 0:
-            return None
-        low = np.floor((px.min(axis=0) - margin_px) / NODE_PX).astype(int)
-        high = np.ceil((px.max(axis=0) + margin_px) / NODE_PX).astype(int)
-        low = np.maximum(low, 0)
-        high = np.minimum(high, [self._rays.columns, self._rays.rows])
-        if (high <= low).any():
-            return None
-        x, y = (int(v) * NODE_PX for v in low)
-        across, down = (int(v) * NODE_PX for v in high - low)
-        # The image may end within a block.
-        return (
-            x,
-            y,
-            min(across, -(-(width - x) // NODE_PX) * NODE_PX),
-            min(down, -(-(height - y) // NODE_PX) * NODE_PX),
-        )
-
-    def _draw_drill(self, image: Image8, box: Box, truth: Truth, kernel: Image32 | None) -> None:
-        layer = self._body(box, truth)
-        self._add_board(layer, box, truth)
-        if kernel is not None:
-            soft = cv2.filter2D(layer, -1, kernel, borderType=cv2.BORDER_REPLICATE)
-            layer = np.asarray(soft, dtype=np.uint8)
-        x, y, width, height = box
-        part = image[y : y + height, x : x + width]
-        layer = layer[: part.shape[0], : part.shape[1]]
-        gain = self._sensor.gain[y : y + height, x : x + width]
-        coverage = cv2.merge([255 - layer[..., 3]] * 3)
-        behind = cv2.multiply(part, coverage, scale=1.0 / 255.0)
-        colour = cv2.multiply(cv2.cvtColor(layer, cv2.COLOR_BGRA2BGR), cv2.merge([gain] * 3), dtype=cv2.CV_8U)
-        cv2.add(behind, colour, dst=part)
 
     def _speed_px_s(self, truth: Truth) -> Array:
         """How fast the marker moves through the image."""
@@ -169,33 +124,17 @@ class Renderer:
         layer[at] = cv2.multiply(layer[at], cv2.merge([seen] * 4), dtype=cv2.CV_8U)
 
     def _add_board(self, layer: Image8, box: Box, truth: Truth) -> None:
-        """Draws the board with the marker over the body: exact through lens and perspective, 4x4 samples."""
+        """Draws the board with the marker over the body: exact through lens and perspective."""
         pose = truth.camera_from_marker
         if float(pose.rotation[:, 2] @ pose.translation_mm) >= 0.0:
             return
         front = self._theatre.camera.px_from_camera(pose.move_points(_board_corners(0.0)))
-        inner = self._box_around(front, 2)
+        inner = self._rays.box_around(front, 2)
         if inner is None:
             return
         self._add_board_edge(layer, box, truth, front)
-        plane = np.column_stack([pose.rotation[:, :2], pose.translation_mm])
-        rays = self._rays.block(*inner)
-        on_plane = rays @ np.linalg.inv(plane).T.astype(np.float32)
-        mm = on_plane[..., :2] / on_plane[..., 2:]
-        scale, half = np.float32(BOARD_PER_MM), np.float32(BOARD_HALF_MM)
-        column = spread((mm[..., :1] + half) * scale - np.float32(0.5), BOARD_SAMPLES)
-        row = spread((half - mm[..., 1:]) * scale - np.float32(0.5), BOARD_SAMPLES)
         brightness = float(lit((truth.camera_from_vertebra.rotation.T @ pose.rotation[:, 2])[None])[0])
-        grey = cv2.remap(self._face, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
-        inside = cv2.remap(self._whole, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
-        size = inner[2:]
-        shade = cv2.resize(grey, size, interpolation=cv2.INTER_AREA).astype(np.float32) * brightness
-        coverage = cv2.resize(inside, size, interpolation=cv2.INTER_AREA)
-        x, y = inner[0] - box[0], inner[1] - box[1]
-        part = layer[y : y + size[1], x : x + size[0]]
-        under = cv2.multiply(part, cv2.merge([255 - coverage] * 4), scale=1.0 / 255.0)
-        ink = np.clip(np.rint(shade), 0, 255).astype(np.uint8)
-        cv2.add(under, cv2.merge([ink, ink, ink, coverage]), dst=part)
+        self._marker_board.draw(layer, box, inner, self._rays, pose, brightness)
 
     def _add_board_edge(self, layer: Image8, box: Box, truth: Truth, front_px: Array) -> None:
         """The board's thickness: the outline of its front and back together, in one grey."""
@@ -215,7 +154,7 @@ class Renderer:
         above = np.maximum(above[above < SHADOW_REACH_MM], 0.0)
         ground = truth.camera_from_vertebra.move_points(stations - above[:, None] * TO_LAMP)
         ground = ground[ground[:, 2] > 50.0]
-        box = self._box_around(self._theatre.camera.px_from_camera(ground), 48) if len(ground) else None
+        box = self._rays.box_around(self._theatre.camera.px_from_camera(ground), 48) if len(ground) else None
         if box is None:
             return
         x, y, width, height = box

@@ -2,11 +2,29 @@
 
 import math
 from dataclasses import dataclass
+from enum import StrEnum
 
 from tracker.errors import InvalidInput
 
 HARDEST = 10.0
 SIDE_PX = (160, 4096)
+
+
+class Scene(StrEnum):
+    """What is rehearsed."""
+
+    OPERATION = "operation"  # a drill goes into the pedicle, and wanders off
+    PIVOT = "pivot"  # the drill's tip rests on the bone while it is tilted to all sides
+    SPIN = "spin"  # the drill turns about its own axis
+    BOARD = "board"  # a calibration board is shown to the camera in many places and tilts
+
+
+class BoardKind(StrEnum):
+    """Which calibration board is rehearsed with."""
+
+    DOTS = "dots"
+    CHECKERBOARD = "checkerboard"
+    CHARUCO = "charuco"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,6 +38,8 @@ class TheatreSettings:
         blur: defocus and motion blur (1.0: sigma 0.6 px, exposure 8 ms).
         clutter: instruments, gauze, labels and, above 2, squares that look like markers.
         light: how uneven, dim and unsteady the light is.
+        scene: what is rehearsed.
+        board: which calibration board is shown in its scene.
 
     Raises:
         InvalidInput: REHEARSAL_SETTING_INVALID, with the key, its value and what is allowed.
@@ -31,6 +51,8 @@ class TheatreSettings:
     blur: float = 1.0
     clutter: float = 1.0
     light: float = 1.0
+    scene: Scene = Scene.OPERATION
+    board: BoardKind = BoardKind.DOTS
 
     def __post_init__(self) -> None:
         if not 0 <= self.seed < 2**32:

@@ -1,7 +1,7 @@
 """The theatre: camera, marker, drill, vertebra and needles, and where they all are at any time."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -12,10 +12,12 @@ from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 from tracker.rehearsal.anatomy import Needle, landmark_needles, pedicle_channels, vertebra_surface
 from tracker.rehearsal.emblem import drill_emblem
-from tracker.rehearsal.motion import CYCLE_S, Hand, Phase, phase_at
-from tracker.rehearsal.settings import TheatreSettings
+from tracker.rehearsal.hands import PivotingHand, SpinningHand
+from tracker.rehearsal.motion import CYCLE_S, Hand, Phase, Pose6, phase_at
+from tracker.rehearsal.settings import Scene, TheatreSettings
 
 if TYPE_CHECKING:
+    from tracker.rehearsal.board_renderer import BoardRenderer
     from tracker.rehearsal.renderer import Renderer
 
 MARKER_SIDE_MM = 25.0
@@ -30,6 +32,13 @@ FOCAL_OF_WIDTH = 1400.0 / 1280.0
 SQUARE_IN_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * MARKER_SIDE_MM
 VIEW_MARGIN_PX = 6.0
 STEEPEST_VIEW_COSINE = 0.26  # 75 degrees off: nobody can read a marker from there
+
+
+class _Holding(Protocol):
+    """Whatever moves the drill."""
+
+    def at(self, at_s: float) -> Pose6:
+        """Where the drill is held at this time."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +99,7 @@ class Theatre:
         self.surface: Surface = vertebra_surface()
         self.needles: tuple[Needle, ...] = landmark_needles()
         self.camera_from_vertebra = _camera_from_vertebra(self.channels[0], random)
-        self._hand = Hand(settings.seed)
+        self._hand = _hand_of(settings)
         self._vertebra_from_rest = _vertebra_from_rest(self.channels[0], self.camera_from_vertebra)
 
     def truth_at(self, at_s: float) -> Truth:
@@ -102,7 +111,7 @@ class Theatre:
         corners = camera_from_marker.move_points(SQUARE_IN_MM)
         return Truth(
             at_s=at_s,
-            phase=phase_at(at_s),
+            phase=phase_at(at_s) if self.settings.scene is Scene.OPERATION else Phase.CALIBRATE,
             camera_from_marker=camera_from_marker,
             camera_from_tool=camera_from_tool,
             camera_from_vertebra=self.camera_from_vertebra,
@@ -110,11 +119,12 @@ class Theatre:
             corners_px=self.camera.px_from_camera(corners),
         )
 
-    def renderer(self) -> "Renderer":
-        """What makes its images; rendering the still scenery takes about a second."""
-        from tracker.rehearsal.renderer import Renderer  # noqa: PLC0415  the renderer needs the theatre first
+    def renderer(self) -> "Renderer | BoardRenderer":
+        """What makes the images of its scene; rendering what stands still takes about a second."""
+        from tracker.rehearsal.board_renderer import BoardRenderer  # noqa: PLC0415  they need the theatre first
+        from tracker.rehearsal.renderer import Renderer  # noqa: PLC0415
 
-        return Renderer(self)
+        return BoardRenderer(self) if self.settings.scene is Scene.BOARD else Renderer(self)
 
     def camera_from_tool_at(self, at_s: float) -> Rigid[Camera, Tool]:
         """The drill's tip and drilling direction at this time."""
@@ -133,6 +143,16 @@ class Theatre:
         px = self.camera.px_from_camera(outline)
         last = np.array(self.camera.size_wh_px) - 1.0 - VIEW_MARGIN_PX
         return bool((px >= VIEW_MARGIN_PX).all() and (px <= last).all())
+
+
+def _hand_of(settings: TheatreSettings) -> _Holding:
+    match settings.scene:
+        case Scene.PIVOT:
+            return PivotingHand(settings.seed)
+        case Scene.SPIN:
+            return SpinningHand(settings.seed)
+        case _:
+            return Hand(settings.seed)
 
 
 def _camera(settings: TheatreSettings, random: np.random.Generator) -> CameraModel:

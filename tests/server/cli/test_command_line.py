@@ -22,7 +22,7 @@ REPOSITORY = Path(__file__).parents[3]
 
 
 def coaxial(*words: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY)}
+    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY), "COAXIAL_HOME": str(folder / "home")}
     environment.pop("COAXIAL_PORT", None)
     return subprocess.run(
         [sys.executable, "-W", "error", "-m", "server", *map(str, words)],

@@ -1,5 +1,6 @@
 """`coaxial run` from its first line to its last."""
 
+import json
 import os
 import re
 import signal
@@ -12,7 +13,18 @@ import cv2
 import numpy as np
 import pytest
 
+from server.store import CaseStore, Home
+
 REPOSITORY = Path(__file__).parents[3]
+
+
+def create_case(address: str) -> str:
+    """Ask the running server for a case; gives its id."""
+    asked = urllib.request.Request(  # noqa: S310  our own address
+        address + "api/cases", data=b'{"name": "one"}', headers={"Content-Type": "application/json"}
+    )
+    with urllib.request.urlopen(asked, timeout=60) as answer:  # noqa: S310  our own address
+        return str(json.load(answer)["id"])
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
@@ -26,7 +38,7 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
     with subprocess.Popen(
         [sys.executable, "-m", "server", "run", "--source", "v.avi", "--port", "0"],
         cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(REPOSITORY)},
+        env={**os.environ, "PYTHONPATH": str(REPOSITORY), "COAXIAL_HOME": str(tmp_path / "home")},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -41,9 +53,23 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
         assert last == "Ctrl+C stops it"
         with urllib.request.urlopen(found[1] + "health", timeout=60) as answer:  # noqa: S310  our own address
             assert answer.status == 200
+        case = create_case(found[1])
+        second = subprocess.run(
+            [sys.executable, "-m", "server", "run", "--source", "v.avi", "--port", "0"],
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": str(REPOSITORY), "COAXIAL_HOME": str(tmp_path / "home")},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         os.killpg(server.pid, ending) if ending is signal.SIGINT else server.send_signal(ending)
         out, err = server.communicate(timeout=60)
     assert server.returncode == 0, err
     assert out == ""
     assert "Traceback" not in err
     assert "leaked" not in err
+    assert second.returncode == 2
+    assert f"another Coaxial is running with the folder {tmp_path / 'home'}" in second.stderr
+    assert "Traceback" not in second.stderr
+    with Home(tmp_path / "home") as home, CaseStore(home) as store:
+        assert [(kept.id, kept.name) for kept in store.list()] == [(case, "one")]

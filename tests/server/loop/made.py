@@ -4,6 +4,7 @@ import os
 import signal
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -49,11 +50,13 @@ def made_image(number: int) -> np.ndarray:
     return np.full((SIZE[1], SIZE[0], 3), number % 256, dtype=np.uint8)
 
 
-def send_images(link: WorkerLink, first_number: int, *, count: int | None = None) -> None:
+def send_images(
+    link: WorkerLink, first_number: int, *, count: int | None = None, setup: Setup | None = None
+) -> None:
     """Reports images until told to stop, or `count` of them."""
-    setup = made_setup()
+    setup = setup or made_setup()
     sent = 0
-    while not link.stop.poll(0.005) and (count is None or sent < count):
+    while not _ended(link) and (count is None or sent < count):
         number = first_number + sent
         sent += 1
         shot_like = made_image(number)
@@ -64,8 +67,28 @@ def send_images(link: WorkerLink, first_number: int, *, count: int | None = None
         os.write(link.notice.fileno(), b".")
 
 
+def _ended(link: WorkerLink) -> bool:
+    """Whether the server has let go; waits a moment."""
+    return link.orders.poll(0.005)
+
+
 def steady_worker(order: WorkerOrder, link: WorkerLink) -> None:
     send_images(link, order.first_number)
+
+
+def echoing_worker(order: WorkerOrder, link: WorkerLink) -> None:
+    """Reports images with the camera of the case: of its order first, then of what it is sent."""
+    case = order.case
+    number = order.first_number
+    while True:
+        camera = case.camera
+        setup = made_setup() if camera is None else replace(made_setup(), camera=camera)
+        send_images(link, number, setup=setup)
+        number += 100
+        try:
+            case = link.orders.recv()
+        except EOFError:
+            return
 
 
 def silent_worker(order: WorkerOrder, link: WorkerLink) -> None:

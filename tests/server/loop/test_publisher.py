@@ -53,6 +53,8 @@ def test_picture_and_snapshot_of_an_instant_belong_together() -> None:
     assert instant.snapshot is not None
     assert instant.snapshot.image_number == 5
     assert instant.jpeg == bytes([6, 6])
+    assert instant.image is not None
+    assert instant.image[0, 0, 0] == 5, "without the overlay"
     assert set(instant.server_ms) == {"overlay", "encode"}
     assert instant.process.state is ProcessState.RUNNING
     assert instant.source == made_source(6)

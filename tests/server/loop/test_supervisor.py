@@ -13,7 +13,8 @@ from server.loop.board import Board
 from server.loop.publisher import Picture, Publisher
 from server.loop.supervisor import Supervisor, Target, Watch
 from server.loop.worker import WorkerOrder
-from tests.server.loop.made import Seen, failing_worker, silent_worker, steady_worker
+from server.setup import CaseSetup, nominal_camera
+from tests.server.loop.made import Seen, echoing_worker, failing_worker, silent_worker, steady_worker
 
 
 class Stage:
@@ -131,3 +132,22 @@ def test_stopping_ends_the_process(staged: Callable[[Target, Watch], Stage]) -> 
     stage.end()
     assert not exists(pid)
     assert stage.supervisor.pid is None
+
+
+def width(instant: Instant) -> int:
+    return 0 if instant.snapshot is None else instant.snapshot.setup.camera.size_wh_px[0]
+
+
+def test_what_the_open_case_knows_reaches_the_process_and_the_one_after_it(
+    staged: Callable[[Target, Watch], Stage],
+) -> None:
+    stage = staged(echoing_worker, Watch(restarts=5))
+    stage.hub.until(lambda instant: width(instant) == 64)
+    stage.supervisor.adopt(CaseSetup(camera=nominal_camera((320, 240))))
+    stage.hub.until(lambda instant: width(instant) == 320)
+    seen = len(stage.hub.instants)
+    assert stage.supervisor.pid is not None
+    os.kill(stage.supervisor.pid, signal.SIGKILL)
+    dead = stage.hub.until(is_dead, after=seen)
+    after = stage.hub.until(shows_image, after=stage.hub.instants.index(dead))
+    assert width(after) == 320

@@ -18,6 +18,7 @@ from server.live import SourceState
 from server.logs import LogSettings
 from server.loop.publisher import Picture
 from server.loop.tracked import Tracked
+from server.setup import CaseSetup, nominal_camera
 from tests.server.loop.made import Seen
 
 REPOSITORY = Path(__file__).parents[3]
@@ -110,6 +111,25 @@ def test_images_of_another_size_than_calibrated_are_shown_without_millimetres_an
     assert shown.process.trouble.code == "CAMERA_SIZE_MISMATCH"
     assert "64x48" in shown.process.trouble.message
     assert "640x480" in shown.process.trouble.message
+
+
+def test_a_case_that_is_opened_while_tracking_brings_its_camera(
+    tmp_path: Path, running: list[Running]
+) -> None:
+    film(tmp_path / "v.avi")
+    running.append(Running(config(tmp_path)))
+    hub = running[0].hub
+    before = hub.until(lambda instant: instant.snapshot is not None)
+    assert before.snapshot is not None
+    assert not before.snapshot.setup.camera_calibrated
+    running[0].tracked.adopt(CaseSetup(camera=nominal_camera((64, 48))))
+    hub.until(lambda instant: instant.snapshot is not None and instant.snapshot.setup.camera_calibrated)
+    running[0].tracked.adopt(CaseSetup())
+    seen = len(hub.instants)
+    hub.until(
+        lambda instant: instant.snapshot is not None and not instant.snapshot.setup.camera_calibrated,
+        after=seen,
+    )
 
 
 SERVER = """

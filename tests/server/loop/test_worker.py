@@ -15,7 +15,7 @@ from server.logs import LogSettings
 from server.loop.report import Report, ReportUnpacker
 from server.loop.ring import ImageRing
 from server.loop.tracking import Tracking
-from server.loop.worker import WorkerLink, WorkerOrder, work
+from server.loop.worker import NewestCase, WorkerLink, WorkerOrder, work
 from server.setup import Preparation
 from tests.server.loop.made import made_image, made_setup
 from tracker.errors import InvalidInput
@@ -111,7 +111,7 @@ def link() -> Iterator[tuple[WorkerLink, KeptRing]]:
     ring = KeptRing()
     notices, notice = multiprocessing.Pipe(duplex=False)
     told, stop = multiprocessing.Pipe(duplex=False)
-    yield WorkerLink(ring=ring, notice=notice, stop=told), ring
+    yield WorkerLink(ring=ring, notice=notice, orders=told), ring
     for end in (notices, notice, told, stop):
         end.close()
 
@@ -119,7 +119,9 @@ def link() -> Iterator[tuple[WorkerLink, KeptRing]]:
 def run_to_the_end(link: tuple[WorkerLink, KeptRing], tracker: Tracker) -> list[Report]:
     stop = threading.Event()
     thread = threading.Thread(
-        target=work, args=(ORDER, link[0], stop, Counting(), Tracking(Prepared(tracker)))
+        target=work,
+        args=(ORDER, link[0], stop, Counting(), Tracking(Prepared(tracker))),
+        kwargs={"newest": NewestCase()},
     )
     thread.start()
     assert link[1].ended.wait(30)
@@ -156,4 +158,4 @@ def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
 ) -> None:
     tracking = Tracking(Prepared(Failing(11, ZeroDivisionError("a bug"))))
     with pytest.raises(ZeroDivisionError):
-        work(ORDER, link[0], threading.Event(), Counting(), tracking)
+        work(ORDER, link[0], threading.Event(), Counting(), tracking, newest=NewestCase())

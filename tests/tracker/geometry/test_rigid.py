@@ -12,6 +12,7 @@ from tracker.geometry import (
     Rigid,
     Tool,
     angle_between_deg,
+    nearest_rotation,
     point_covariance_mm2,
     rotation_between,
     rotation_from_vector,
@@ -155,6 +156,15 @@ def test_the_rotation_between_two_directions_takes_one_to_the_other(
     )
     turned_deg = np.degrees(np.linalg.norm(vector_from_rotation(rotation)))
     assert turned_deg == pytest.approx(angle_between_deg(a, b), abs=1e-4)
+
+
+def test_a_rotation_that_rounding_has_bent_becomes_one_again() -> None:
+    rotation = rotation_from_vector([0.3, -1.2, 0.7])
+    bent = rotation + 1e-4 * np.array([[1.0, -2.0, 0.5], [0.3, 1.0, -1.0], [2.0, 0.2, -0.7]])
+    straight = nearest_rotation(bent)
+    np.testing.assert_allclose(straight @ straight.T, np.eye(3), atol=1e-14)
+    assert np.linalg.det(straight) == pytest.approx(1.0)
+    assert np.linalg.norm(straight - bent) < np.linalg.norm(rotation - bent)
 
 
 @pytest.mark.parametrize("direction", [(0, 0, 1), (1, 0, 0), (1, -2, 3)])

@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 
 from tests.tracker.scenes import (
+    OTHER,
     Image8,
     Print,
     camera_of,
-    cluttered,
     code_image,
     code_model,
     corners_px_of,
     facing_at_px,
+    in_clutter,
     rendered,
 )
 from tracker.edges import kernels as edges_loops
@@ -22,13 +23,13 @@ from tracker.geometry import Array
 from tracker.marker import Candidate, MarkerModel, candidate_rounds, templates_of
 from tracker.marker import kernels as marker_loops
 from tracker.marker.looks import kernels as looks_loops
+from tracker.marker.sampling import kernels as sampling_loops
 from tracker.outlines import kernels as outlines_loops
 from tracker.regions import kernels as regions_loops
 from tracker.regions.borders import kernels as borders_loops
 from tracker.warm_up import warm_up
 
 CAMERA = camera_of((480, 360), focal_px=500.0)
-OTHER = ((1, 0, 1), (1, 0, 0), (0, 1, 0))
 MODEL = code_model()
 
 
@@ -40,14 +41,7 @@ def _scene(
     side_px: float, *, tilt_deg: float = 0.0, roll_deg: float = 0.0, blur_px: float = 0.6, seed: int = 0
 ) -> tuple[Image8, Array]:
     pose = facing_at_px(CAMERA, (230.0, 175.0), side_px, tilt_deg=tilt_deg, about_deg=20, roll_deg=roll_deg)
-    image = rendered(
-        CAMERA,
-        [Print(picture=code_image(), pose=pose)],
-        background=cluttered(CAMERA, seed),
-        blur_px=blur_px,
-        seed=seed,
-    )
-    return image, corners_px_of(CAMERA, pose)
+    return in_clutter(CAMERA, pose, clutter=seed, blur_px=blur_px, seed=seed)
 
 
 def _off_px(candidate: Candidate, corners: Array) -> float:
@@ -182,7 +176,10 @@ def test_after_the_warm_up_a_search_compiles_nothing() -> None:
     def versions() -> dict[str, int]:
         return {
             f"{room.__name__}.{name}": len(loop.signatures)
-            for room in (borders_loops, edges_loops, looks_loops, marker_loops, outlines_loops, regions_loops)
+            for room in (
+                *(borders_loops, edges_loops, looks_loops, marker_loops),
+                *(outlines_loops, regions_loops, sampling_loops),
+            )
             for name, loop in vars(room).items()
             if hasattr(loop, "signatures")
         }

@@ -74,12 +74,10 @@ def test_the_light_of_the_uncovered_part_finds_the_cover() -> None:
     seen = 30.0 + 150.0 * shown[0].astype(np.float64)
     seen[:, 20:] = 95.0
     weight = np.empty((WIDE, WIDE))
-    assert weights_of_a_part(seen, shown[0], FIELDS / 2.0, 12, np.array([0.0, 0.35, 0.7]), 0.25, weight)
+    assert weights_of_a_part(seen, shown[0], 12, np.array([0.0, 0.35, 0.7]), 0.25, weight)
     assert weight[:, :20].min() > 0.8
     assert float(weight[:, 20:].mean()) < 0.5
-    assert not weights_of_a_part(
-        30.0 + 150.0 * shown[0], shown[0], FIELDS / 2.0, 12, np.array([0.0]), 0.25, weight
-    )
+    assert not weights_of_a_part(30.0 + 150.0 * shown[0], shown[0], 12, np.array([0.0]), 0.25, weight)
 
 
 @pytest.mark.parametrize(("angle_deg", "place"), [(20.0, 0.1), (80.0, -0.4), (140.0, 0.35)])
@@ -92,7 +90,7 @@ def test_the_edge_of_a_shadow_is_found_where_it_is(angle_deg: float, place: floa
     lit = 1.0 - 0.7 / (1.0 + np.exp(-(u * np.cos(angle) + v * np.sin(angle) - place) / 0.06))
     seen = lit * (30.0 + 150.0 * shown[0].astype(np.float64))
     edge = np.empty(3)
-    part = shadow_edge(seen, shown[0], np.ones((WIDE, WIDE), np.bool_), FIELDS / 2.0, 12, 9, 0.1, edge)
+    part = shadow_edge(seen, shown[0], np.ones((WIDE, WIDE), np.bool_), 12, 9, 0.1, edge)
     assert part > 0.9
     assert edge[0] == pytest.approx(angle, abs=0.1)
     assert edge[1] == pytest.approx(place, abs=0.06)

@@ -3,16 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.tracker.scenes import (
-    Print,
-    camera_of,
-    cluttered,
-    code_image,
-    code_model,
-    corners_px_of,
-    facing,
-    rendered,
-)
+from tests.tracker.scenes import Image8, camera_of, code_model, corners_px_of, facing, in_clutter
 from tracker.edges import edgels_of, gradient_of
 from tracker.geometry import Array
 from tracker.marker import edge_crossings, model_agreement
@@ -25,12 +16,10 @@ MODEL = code_model()
 REACH_PX = 3.0
 
 
-def _picture() -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
-    image = rendered(
-        CAMERA, [Print(picture=code_image(), pose=POSE)], background=cluttered(CAMERA, 3), noise_grey=4.0
-    )
+def _picture() -> Image8:
+    image, corners = in_clutter(CAMERA, POSE, clutter=3, noise_grey=4.0)
     # A corner of the marker is covered, so that not all edges are found.
-    corner = corners_px_of(CAMERA, POSE)[2].astype(int)
+    corner = corners[2].astype(int)
     image[corner[1] - 12 : corner[1] + 12, corner[0] - 12 : corner[0] + 12] = 90
     return image
 

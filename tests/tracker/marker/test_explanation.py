@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.tracker.scenes import (
-    CODE,
+    NEIGHBOURS,
     Image8,
     Print,
     camera_of,
@@ -16,6 +16,7 @@ from tests.tracker.scenes import (
     code_model,
     corners_px_of,
     rendered,
+    smeared,
 )
 from tests.tracker.scenes import facing_at_px as placed
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -24,10 +25,6 @@ from tracker.marker import Explanation, MarkerModel, explanation_of
 CAMERA = camera_of((200, 160), focal_px=400.0)
 MIDDLE = (100.3, 80.7)
 Degraded = Callable[[Image8, float, float], Image8]
-OTHERS = [
-    tuple(tuple(v ^ (3 * r + c == k) for c, v in enumerate(row)) for r, row in enumerate(CODE))
-    for k in range(9)
-]
 
 
 def _u_v() -> tuple[Array, Array]:
@@ -48,10 +45,7 @@ def _out_of_focus(image: Image8, side_px: float, _: float) -> Image8:
 
 def _smeared(image: Image8, side_px: float, from_deg: float) -> Image8:
     """Moved by a fifth of its side while the shutter was open."""
-    reach = 0.1 * side_px * np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
-    shifts = [np.array([[1, 0, s * reach[0]], [0, 1, s * reach[1]]]) for s in np.linspace(-1, 1, 21)]
-    moved = [cv2.warpAffine(image.astype(np.float64), shift, (200, 160)) for shift in shifts]
-    return np.asarray(np.rint(np.mean(moved, axis=0)), dtype=np.uint8)
+    return smeared(image, 0.2 * side_px, from_deg)
 
 
 def _under_glare(image: Image8, side_px: float, from_deg: float) -> Image8:
@@ -113,7 +107,7 @@ def test_it_does_not_make_the_marker_of_a_look_alike_that_differs_in_one_field(
 ) -> None:
     pose = placed(CAMERA, MIDDLE, 30.0, tilt_deg=20, about_deg=40, roll_deg=15)
     image = degraded(
-        rendered(CAMERA, [Print(picture=code_image(OTHERS[field]), pose=pose)]), 30.0, 40 * field
+        rendered(CAMERA, [Print(picture=code_image(NEIGHBOURS[field]), pose=pose)]), 30.0, 40 * field
     )
     found = _explained(image, pose, 30.0)
     assert found is None or not found.explains, found

@@ -4,24 +4,13 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.tracker.scenes import (
-    Image8,
-    Print,
-    camera_of,
-    cluttered,
-    code_image,
-    code_model,
-    corners_px_of,
-    facing_at_px,
-    rendered,
-)
+from tests.tracker.scenes import OTHER, Image8, camera_of, code_model, facing_at_px, in_clutter, smeared
 from tracker.geometry import Array
 from tracker.marker import templates_of
 from tracker.marker.looks import Templates, glance, glance_past_cover, looked_closer
 from tracker.marker.looks.kernels import distinct
 
 CAMERA = camera_of((320, 240), focal_px=500.0)
-OTHER = ((1, 0, 1), (1, 0, 0), (0, 1, 0))
 SIDE_PX = 28.0
 
 
@@ -30,26 +19,9 @@ def templates() -> Templates:
     return templates_of((code_model(), code_model(OTHER, name="other")))
 
 
-def _scene(*, blur_px: float = 0.6, noise_grey: float = 1.0, roll_deg: float = 20.0) -> tuple[Image8, Array]:
-    pose = facing_at_px(CAMERA, (160.3, 119.6), SIDE_PX, tilt_deg=30, roll_deg=roll_deg)
-    image = rendered(
-        CAMERA,
-        [Print(picture=code_image(), pose=pose)],
-        background=cluttered(CAMERA, 1),
-        blur_px=blur_px,
-        noise_grey=noise_grey,
-    )
-    return image, corners_px_of(CAMERA, pose)
-
-
-def _smeared(image: Image8, length_px: int, direction_deg: float) -> Image8:
-    """The image, moved meanwhile."""
-    streak = np.zeros((length_px + 2, length_px + 2))
-    middle, half = (length_px + 1) / 2, length_px / 2 * np.array([1.0, 1.0])
-    along = half * np.array([np.cos(np.radians(direction_deg)), np.sin(np.radians(direction_deg))])
-    ends = np.rint([middle - along, middle + along]).astype(int).tolist()
-    cv2.line(streak, ends[0], ends[1], 1.0)
-    return np.asarray(cv2.filter2D(image, -1, streak / streak.sum()), dtype=np.uint8)
+def _scene() -> tuple[Image8, Array]:
+    pose = facing_at_px(CAMERA, (160.3, 119.6), SIDE_PX, tilt_deg=30, roll_deg=20.0)
+    return in_clutter(CAMERA, pose, clutter=1, noise_grey=1.0)
 
 
 def _covered(image: Image8, corners: Array) -> Image8:
@@ -68,7 +40,7 @@ def _shaded(image: Image8, corners: Array) -> Image8:
 CASES = [
     pytest.param(lambda image, _: image, 1.0, id="sharp"),
     pytest.param(lambda image, _: cv2.GaussianBlur(image, (0, 0), 2.0), 1.8, id="out of focus"),
-    pytest.param(lambda image, _: _smeared(image, 8, 30), 1.8, id="in motion"),
+    pytest.param(lambda image, _: smeared(image, 8, 30), 1.8, id="in motion"),
     pytest.param(_covered, 2.5, id="partly covered"),
     pytest.param(_shaded, 1.2, id="half in the shadow"),
 ]
@@ -92,7 +64,7 @@ def test_an_outline_that_is_off_by_a_tenth_of_its_side_is_moved_to_where_it_fits
 def test_a_skewed_outline_becomes_what_a_tilted_square_can_look_like(templates: Templates) -> None:
     """Smear leaves corners free to run; a square of this size is seen as a parallelogram, within a pixel."""
     image, corners = _scene()
-    picture = _smeared(image, 8, 30)
+    picture = smeared(image, 8, 30)
     off = np.random.default_rng(7).normal(0.0, 0.07 * SIDE_PX, (12, 4, 2))
     found, _ = looked_closer(picture, (corners + off).astype(np.float32), templates.each[0])
     apart = np.abs(found[:, 0] - found[:, 1] + found[:, 2] - found[:, 3]).max(axis=1)

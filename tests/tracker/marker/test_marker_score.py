@@ -5,7 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.tracker.scenes import CODE, STRAIGHT, Image8, Print, camera_of, code_image, code_model, rendered
+from tests.tracker.scenes import (
+    NEIGHBOURS,
+    STRAIGHT,
+    Image8,
+    Print,
+    camera_of,
+    code_image,
+    code_model,
+    rendered,
+)
 from tests.tracker.scenes import facing_at_px as placed
 from tracker import CameraModel, InvalidInput, MarkerModel
 from tracker.edges import edgels_of, gradient_of
@@ -183,20 +192,10 @@ def _contradicts(image: Image8, pose: Rigid[Camera, Marker]) -> tuple[bool, floa
     return answer.is_other_shape, answer.inside_ratio, answer.covered_ratio
 
 
-def _neighbours() -> list[tuple[tuple[int, ...], ...]]:
-    """The nine codes that differ from CODE in one field."""
-    out = []
-    for k in range(9):
-        fields = np.array(CODE)
-        fields[k // 3, k % 3] ^= 1
-        out.append(tuple(tuple(int(v) for v in row) for row in fields))
-    return out
-
-
 @pytest.mark.parametrize(("side_px", "tilt_deg"), [(36, 0), (36, 45), (70, 20)])
 def test_one_flipped_field_is_another_shape(side_px: float, tilt_deg: float) -> None:
     pose = placed(CAMERA, MIDDLE, side_px, tilt_deg=tilt_deg, about_deg=70, roll_deg=12)
-    for fields in _neighbours():
+    for fields in NEIGHBOURS:
         image = rendered(CAMERA, [Print(picture=code_image(fields), pose=pose)])
         is_other, inside, _ = _contradicts(image, pose)
         assert is_other, fields

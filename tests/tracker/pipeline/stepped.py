@@ -6,6 +6,7 @@ import numpy as np
 
 from tests.tracker.scenes import (
     CODE,
+    Fields,
     Image8,
     Print,
     camera_of,
@@ -20,12 +21,6 @@ from tracker.geometry import Camera, Marker, Rigid
 
 CAMERA = camera_of((480, 360), focal_px=550.0)
 MODEL = code_model()
-OTHER = ((0, 1, 1), (1, 0, 0), (1, 0, 1))
-Fields = tuple[tuple[int, ...], ...]
-NEIGHBOURS = [
-    tuple(tuple(v ^ (3 * r + c == k) for c, v in enumerate(row)) for r, row in enumerate(CODE))
-    for k in range(9)
-]
 
 
 def pose_of(

@@ -6,12 +6,22 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.tracker.pipeline.stepped import CAMERA, MODEL, OTHER, off_px, pose_of
-from tests.tracker.scenes import Image8, Print, code_image, code_model, corners_px_of, rendered, seen
+from tests.tracker.pipeline.stepped import CAMERA, MODEL, off_px, pose_of
+from tests.tracker.scenes import (
+    OTHER,
+    Image8,
+    Print,
+    code_image,
+    code_model,
+    corners_px_of,
+    rendered,
+    seen,
+)
 from tracker import MarkerModel, Seen, Tracker, Unseen
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import Candidate, candidate_rounds
 from tracker.marker.looks import Templates
+from tracker.pipeline.fitter import Fitter
 from tracker.pose import Pixels
 
 ABSENT = ((1, 1, 0), (0, 1, 0), (1, 0, 0))
@@ -51,17 +61,17 @@ def test_what_is_out_of_view_costs_a_part_of_a_search_in_less_than_half_of_the_i
             rounds[-1] += 1
             yield candidates
 
-    looked = Tracker._search_one
+    looked = Fitter.best_of
 
     def counted_look(
-        tracker: Tracker, pixels: Pixels, model: MarkerModel, candidates: list[Candidate]
+        fitter: Fitter, pixels: Pixels, model: MarkerModel, candidates: list[Candidate]
     ) -> Seen | Unseen:
         looks[-1] += 1
-        return looked(tracker, pixels, model, candidates)
+        return looked(fitter, pixels, model, candidates)
 
     tracker = _tracker()
-    monkeypatch.setattr("tracker.pipeline.candidate_rounds", counted)
-    monkeypatch.setattr(Tracker, "_search_one", counted_look)
+    monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", counted)
+    monkeypatch.setattr(Fitter, "best_of", counted_look)
     for k in range(14):
         sightings = tracker.step(_two(None, seed=k), captured_at_s=k / 30)
         assert isinstance(sightings["other"], Unseen)
@@ -99,7 +109,7 @@ def test_an_image_that_is_searched_later_may_be_written_over(monkeypatch: pytest
     tracker = _tracker()
     memory = _two(None, seed=0)
     tracker.step(memory, captured_at_s=0.0)
-    monkeypatch.setattr("tracker.pipeline.candidate_rounds", watched)
+    monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", watched)
     for k in range(1, 4):
         memory[:] = _two(None, seed=k)
         tracker.step(memory, captured_at_s=k / 30)

@@ -3,18 +3,11 @@
 import numpy as np
 import pytest
 
-from tests.tracker.pipeline.stepped import (
-    CAMERA,
-    MODEL,
+from tests.tracker.pipeline.stepped import CAMERA, MODEL, image_of, off_px, pose_of, tracker_of
+from tests.tracker.scenes import (
     NEIGHBOURS,
     OTHER,
     Fields,
-    image_of,
-    off_px,
-    pose_of,
-    tracker_of,
-)
-from tests.tracker.scenes import (
     Image8,
     Print,
     cluttered,

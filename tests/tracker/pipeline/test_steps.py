@@ -3,15 +3,9 @@
 import numpy as np
 import pytest
 
-from tests.tracker.pipeline.stepped import (
-    NEIGHBOURS,
-    assert_same,
-    image_of,
-    off_px,
-    pose_of,
-    tracker_of,
-)
+from tests.tracker.pipeline.stepped import assert_same, image_of, off_px, pose_of, tracker_of
 from tests.tracker.scenes import (
+    NEIGHBOURS,
     seen,
 )
 from tracker import Unseen

@@ -7,18 +7,10 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from tests.tracker.pipeline.stepped import (
-    CAMERA,
-    MODEL,
+from tests.tracker.pipeline.stepped import CAMERA, MODEL, assert_same, image_of, off_px, pose_of, tracker_of
+from tests.tracker.scenes import (
     NEIGHBOURS,
     OTHER,
-    assert_same,
-    image_of,
-    off_px,
-    pose_of,
-    tracker_of,
-)
-from tests.tracker.scenes import (
     Image8,
     code_model,
     corners_px_of,

@@ -1,11 +1,10 @@
 """Which candidates are accepted as the marker where edges alone say too little."""
 
-import cv2
 import numpy as np
 import pytest
 
 from tests.tracker.scenes import (
-    CODE,
+    NEIGHBOURS,
     SIDE_MM,
     Image8,
     Print,
@@ -15,6 +14,7 @@ from tests.tracker.scenes import (
     corners_px_of,
     facing_at_px,
     rendered,
+    smeared,
 )
 from tracker import Seen, Sighting
 from tracker.appearance import textures_of
@@ -25,14 +25,6 @@ from tracker.pose import Pixels, Scene, judged, occurrence_near, pose_from_corne
 
 CAMERA = camera_of((200, 160), focal_px=400.0)
 MODEL = code_model()
-
-
-def _smeared(image: Image8, way_px: float, from_deg: float) -> Image8:
-    """Moved by so many pixels while the shutter was open."""
-    reach = 0.5 * way_px * np.array([np.cos(np.radians(from_deg)), np.sin(np.radians(from_deg))])
-    shifts = [np.array([[1, 0, s * reach[0]], [0, 1, s * reach[1]]]) for s in np.linspace(-1, 1, 21)]
-    moved = [cv2.warpAffine(image.astype(np.float64), shift, (200, 160)) for shift in shifts]
-    return np.asarray(np.rint(np.mean(moved, axis=0)), dtype=np.uint8)
 
 
 def _accepted(image: Image8, pose: Rigid[Camera, Marker]) -> Sighting:
@@ -59,7 +51,7 @@ def _accepted(image: Image8, pose: Rigid[Camera, Marker]) -> Sighting:
 @pytest.mark.parametrize("from_deg", [10, 55, 100, 145])
 def test_a_marker_smeared_over_a_quarter_of_its_side_is_seen_and_where_it_is(from_deg: float) -> None:
     pose = facing_at_px(CAMERA, (100.3, 80.7), 30.0, tilt_deg=20, about_deg=40, roll_deg=15)
-    image = _smeared(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]), 8.0, from_deg)
+    image = smeared(rendered(CAMERA, [Print(picture=code_image(), pose=pose)]), 8.0, from_deg)
     sighting = _accepted(image, pose)
     assert isinstance(sighting, Seen), sighting
     # Its edges are found up to three pixels off.
@@ -70,9 +62,8 @@ def test_a_marker_smeared_over_a_quarter_of_its_side_is_seen_and_where_it_is(fro
 
 @pytest.mark.parametrize("field", range(9))
 def test_a_smeared_look_alike_is_not_seen(field: int) -> None:
-    other = tuple(
-        tuple(value ^ (3 * r + c == field) for c, value in enumerate(row)) for r, row in enumerate(CODE)
-    )
     pose = facing_at_px(CAMERA, (100.3, 80.7), 30.0, tilt_deg=20, about_deg=40, roll_deg=15)
-    image = _smeared(rendered(CAMERA, [Print(picture=code_image(other), pose=pose)]), 8.0, 40.0 * field)
+    image = smeared(
+        rendered(CAMERA, [Print(picture=code_image(NEIGHBOURS[field]), pose=pose)]), 8.0, 40.0 * field
+    )
     assert not isinstance(_accepted(image, pose), Seen)

@@ -31,6 +31,7 @@ from tracker.geometry import (
     vector_from_rotation,
 )
 from tracker.pose import Prior, other_solution, pose_from_corners, refined_pose, side_px_of
+from tracker.pose.rivals import DECIDED_COST
 from tracker.rehearsal import Theatre, TheatreSettings
 
 CAMERA = camera_of()
@@ -308,7 +309,7 @@ def test_from_the_wrong_one_of_both_solutions_the_fit_comes_to_the_right_one(abo
         first_reach_px=6.0,
     )
     assert fit is not None
-    assert fit.doubt_ratio == 0.0
+    assert fit.lead_sd2 > DECIDED_COST
     assert _turned_deg(fit.camera_from_marker, pose) < 0.5
 
 

@@ -26,7 +26,9 @@ def staged(
     theatre = Theatre(
         TheatreSettings(seed=seed, size_wh_px=size, noise=noise, blur=blur, clutter=clutter, light=light)
     )
-    return theatre, theatre.renderer()
+    renderer = theatre.renderer()
+    assert isinstance(renderer, Renderer)
+    return theatre, renderer
 
 
 def edge_offsets_px(image: npt.NDArray[np.uint8], theatre: Theatre, truth: Truth) -> Array:

@@ -4,13 +4,15 @@ import math
 
 import numpy as np
 
+from tracker.camera.blur.kernels import axes_of, level_of
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
+from tracker.marker.model import PAPER_RATIO
 
 MOST_TAPS = 13
 BRIGHTEST = 254
-# White paper around the square, in sides; what is seen beyond so many sd of the blur is not mixed in.
-PAPER_RATIO, FAR_SDS = 0.2, 4.0
+# What lies beyond the paper, so many sd of the blur away, is not mixed in.
+FAR_SDS = 4.0
 STRAIGHT_PX = 4
 
 
@@ -143,7 +145,7 @@ def collect(
     if c1 - c0 < 2 or r1 - r0 < 2 or not _footprint(rotation, translation, lens, side_mm, ahead):
         return 0
     m00, _, m11 = _in_sides(ahead, blur)
-    level = _level_of(np.sqrt(max(m00, m11)), blurs)
+    level = level_of(max(m00, m11), blurs)
     first, size, texel = starts[level], sizes[level], widths[level]
     least2 = (slope_ratio * steepest[level]) ** 2
     # The plane that the marker lies in: normal . point = distance.
@@ -186,15 +188,6 @@ def collect(
 
 
 @compiled
-def _level_of(blur_ratio, blurs):
-    """The picture whose blur is next to this one, in sides."""
-    level = 0
-    while level < len(blurs) - 1 and blurs[level] * blurs[level + 1] < blur_ratio * blur_ratio:
-        level += 1
-    return level
-
-
-@compiled
 def _spread(ahead, blur, blurs, offsets, weights):
     """How a blur (3,) in px^2 is made of one picture and taps along a line.
 
@@ -202,11 +195,9 @@ def _spread(ahead, blur, blurs, offsets, weights):
     that is left to first order, in sides^2.
     """
     m00, m01, m11 = _in_sides(ahead, blur)
-    mean, half = 0.5 * (m00 + m11), np.sqrt((0.5 * (m00 - m11)) ** 2 + m01**2)
-    larger, smaller = mean + half, max(mean - half, 1e-8)
-    angle = 0.5 * np.arctan2(2.0 * m01, m00 - m11)
-    ex, ey = np.cos(angle), np.sin(angle)
-    level = _level_of(np.sqrt(smaller), blurs)
+    larger, smaller, ex, ey = axes_of(m00, m11, m01)
+    smaller = max(smaller, 1e-8)
+    level = level_of(smaller, blurs)
     has = blurs[level] ** 2
     across = smaller - has
     more = larger - smaller

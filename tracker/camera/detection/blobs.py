@@ -26,10 +26,13 @@ class Blobs:
     Attributes:
         centres_px: (n, 2).
         areas_px2: (n,).
+        fourth_moments: (n,) of the distance from the middle, by the square of its second: 4/3 of an ellipse,
+            1.4 of a square or a parallelogram.
     """
 
     centres_px: Array
     areas_px2: Array
+    fourth_moments: Array
 
 
 def dark_blobs(grey: GreyImage, *, window_ratio: float) -> Blobs:
@@ -38,7 +41,7 @@ def dark_blobs(grey: GreyImage, *, window_ratio: float) -> Blobs:
     smooth = cv2.GaussianBlur(grey, (0, 0), 0.8)
     binary = cv2.adaptiveThreshold(smooth, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, 5)
     count, labels, stats, _ = cv2.connectedComponentsWithStats(binary, connectivity=4)
-    centres, areas = [], []
+    centres, areas, fourths = [], [], []
     most = MOST_AREA_RATIO * grey.size
     for label in range(1, count):
         left, top, width, height, area = (int(v) for v in stats[label])
@@ -53,14 +56,16 @@ def dark_blobs(grey: GreyImage, *, window_ratio: float) -> Blobs:
         if spot is not None:
             centres.append(spot[0])
             areas.append(spot[1])
+            fourths.append(ellipse[2])
     return Blobs(
         centres_px=np.array(centres, dtype=np.float64).reshape(-1, 2),
         areas_px2=np.array(areas, dtype=np.float64),
+        fourth_moments=np.array(fourths, dtype=np.float64),
     )
 
 
-def _ellipse_of(patch: npt.NDArray[np.bool_]) -> tuple[Array, Array] | None:
-    """Centre and second moments (2, 2) of a spot, if it is nearly an ellipse."""
+def _ellipse_of(patch: npt.NDArray[np.bool_]) -> tuple[Array, Array, float] | None:
+    """Centre, second moments (2, 2) and the fourth one of a spot, if it is nearly an ellipse."""
     y, x = np.nonzero(patch)
     centre = np.array([x.mean(), y.mean()])
     offset = np.stack([x, y]) - centre[:, None]
@@ -69,14 +74,15 @@ def _ellipse_of(patch: npt.NDArray[np.bool_]) -> tuple[Array, Array] | None:
     small, large = np.sqrt(np.linalg.eigvalsh(moments))
     if small < LEAST_AXES_RATIO * large:
         return None
-    inside = np.einsum("in,ij,jn->n", offset, np.linalg.inv(moments), offset) <= 4.0
+    squares = np.einsum("in,ij,jn->n", offset, np.linalg.inv(moments), offset)
+    inside = squares <= 4.0
     area = 4.0 * np.pi * small * large
     if (
         inside.mean() < LEAST_OVERLAP_RATIO
         or not LEAST_OVERLAP_RATIO < x.size / area < 1.0 / LEAST_OVERLAP_RATIO
     ):
         return None
-    return centre, moments
+    return centre, moments, float((squares**2).mean() / squares.mean() ** 2)
 
 
 def _measured(grey: GreyImage, centre: Array, moments: Array) -> tuple[Array, float] | None:

@@ -1,5 +1,7 @@
 """ChArUco boards: every corner is known by the markers around it, so that a part of the board is enough."""
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 
@@ -10,20 +12,17 @@ from tracker.camera.detection.plane import off_plane_px
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
 from tracker.geometry import Array
 
-LEAST_CORNERS = 6
+LEAST_CORNERS, LEAST_MARKERS = 6, 4
 # A corner farther than this from where its neighbours expect it, in sides of a square, is another one.
 OFF_NEIGHBOURS_RATIO = 0.15
 
 
 def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
     """The corners of the board in an image, or why not; the layout is found out where it is not told."""
-    layouts = list(CharucoLayout) if board.layout is None and board.rows % 2 == 0 else [board.layout]
-    ids, corners, most_markers = np.zeros(0, dtype=np.int64), np.zeros((0, 2)), 0
-    for layout in layouts:
-        found_ids, found, markers = _detected(grey, board, layout)
-        most_markers = max(most_markers, markers)
-        if len(found_ids) > len(ids):
-            ids, corners = found_ids, found
+    layout = board.layout
+    if layout is None:
+        layout = charuco_layout([layout_misfits(grey, board)])
+    ids, corners, most_markers = _detected(grey, board, layout)
     if len(ids) < LEAST_CORNERS:
         return BoardNotFound(
             reason=NotFoundReason.TOO_FEW_POINTS if most_markers else NotFoundReason.NO_POINTS,
@@ -34,16 +33,38 @@ def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFo
     return BoardView(ids=ids, object_points_mm=board.object_points_mm[ids], image_points_px=corners)
 
 
-def charuco_layout(views: list[tuple[int, int]]) -> CharucoLayout:
-    """The layout that more corners speak for; `views` has for each image corners as newer and as older."""
-    newer, older = (sum(one[axis] for one in views) for axis in (0, 1))
+def charuco_layout(misfits: list[tuple[float, float]]) -> CharucoLayout:
+    """The layout that fits most images better; `misfits` are as `layout_misfits` gives them."""
+    older = sum(as_older < as_newer for as_newer, as_older in misfits)
+    newer = sum(as_newer < as_older for as_newer, as_older in misfits)
     return CharucoLayout.OLDER if older > newer else CharucoLayout.NEWER
 
 
-def corner_counts(grey: GreyImage, board: CharucoBoard) -> tuple[int, int]:
-    """How many corners hold together if the board is of the newer, and of the older layout."""
-    newer, older = (len(_detected(grey, board, layout)[0]) for layout in CharucoLayout)
-    return newer, older
+def layout_misfits(grey: GreyImage, board: CharucoBoard) -> tuple[float, float]:
+    """How far markers lie from a flat board (median, px) if it is of the newer, and of the older layout."""
+    corners, ids, _ = cv2.aruco.ArucoDetector(board.opencv_dictionary).detectMarkers(grey)
+    if _count(ids) < LEAST_MARKERS:
+        return 0.0, 0.0
+    named = [int(one) for one in np.asarray(ids).ravel()]
+    as_newer, as_older = (
+        _misfit(corners, named, board.opencv_board(layout))
+        for layout in (CharucoLayout.NEWER, CharucoLayout.OLDER)
+    )
+    return as_newer, as_older
+
+
+def _misfit(corners: Sequence[object], ids: list[int], board: cv2.aruco.CharucoBoard) -> float:
+    place_of = {
+        int(one): np.asarray(at)
+        for one, at in zip(np.ravel(board.getIds()), board.getObjPoints(), strict=True)
+    }
+    both = [(place_of[one], np.asarray(px)) for one, px in zip(ids, corners, strict=True) if one in place_of]
+    if len(both) < LEAST_MARKERS:
+        return 0.0
+    points = np.concatenate([at.reshape(-1, 3)[:, :2] for at, _ in both]).astype(np.float64)
+    seen = np.concatenate([px.reshape(-1, 2) for _, px in both]).astype(np.float64)
+    off = off_plane_px(points, seen, is_robust=True)
+    return 0.0 if off is None else float(np.median(np.linalg.norm(off, axis=1)))
 
 
 def _detected(

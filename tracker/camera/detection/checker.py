@@ -8,7 +8,7 @@ from tracker.camera.boards import CheckerBoard
 from tracker.camera.detection.blobs import GreyImage
 from tracker.camera.detection.corners import SADDLE_SMOOTHING_PX, quarter_signs, refined, saddles
 from tracker.camera.detection.lattice import Cells, lattices, step_lengths_px
-from tracker.camera.detection.placing import placed
+from tracker.camera.detection.placing import placed, within
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
 from tracker.geometry import Array
 
@@ -17,6 +17,7 @@ QUAD_FLAGS = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.C
 LEAST_CORNERS = 12
 LEAST_SIDE = 3
 MOST_GRIDS = 4
+LEAST_REGULAR_RATIO, LEAST_CONTRAST_RATIO = 0.75, 0.6
 # Corners of a part of a board at which the colours may be told wrongly, as by glare.
 MOST_ODD_RATIO = 0.05
 
@@ -41,7 +42,7 @@ def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
             most_seen = max(most_seen, len(lattice.members))
             if len(lattice.members) < min(LEAST_CORNERS, board.columns * board.rows):
                 break
-            seen = _viewed(grey, board, points[lattice.members], lattice.cells)
+            seen = _part_viewed(grey, board, points[lattice.members], lattice.cells)
             if isinstance(seen, BoardNotFound):
                 other = other or seen
             elif best is None or seen.ids.size > best.ids.size:
@@ -53,6 +54,27 @@ def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
         sentence=f"{most_seen} corners of squares stand in a grid, at least {LEAST_CORNERS} are needed",
         seen_points=most_seen,
     )
+
+
+def _part_viewed(
+    grey: GreyImage, board: CheckerBoard, points: Array, cells: Cells
+) -> BoardView | BoardNotFound:
+    """Without corners at which dark and light do not take turns, and without stray lines at the rim."""
+    # The board's own rim has corners of half the contrast, and a flat part of the image those of noise.
+    contrast = np.abs(_quarters(grey, points, cells))
+    clear = contrast > LEAST_CONTRAST_RATIO * np.percentile(contrast, 90)
+    points, cells = points[clear], cells[clear]
+    odd = (_looks(grey, points, cells) + cells.sum(axis=1)) % 2
+    usual = odd == round(float(odd.mean()))
+    inside, kept = within(cells[usual], board.columns, board.rows)
+    seen = points[usual][kept]
+    if len(seen) < min(LEAST_CORNERS, board.columns * board.rows) or usual.mean() < LEAST_REGULAR_RATIO:
+        return BoardNotFound(
+            reason=NotFoundReason.TOO_FEW_POINTS,
+            sentence=f"{len(seen)} corners where dark and light take turns, at least {LEAST_CORNERS} needed",
+            seen_points=len(seen),
+        )
+    return _viewed(grey, board, seen, inside)
 
 
 def _whole(grey: GreyImage, board: CheckerBoard) -> Array | None:
@@ -105,11 +127,14 @@ def _viewed(
 
 def _looks(grey: GreyImage, corners: Array, cells: Cells) -> npt.NDArray[np.int64]:
     """At each corner 0 where the square towards the next column and row is dark, 1 where it is light."""
+    return np.asarray(_quarters(grey, corners, cells) > 0, dtype=np.int64)
+
+
+def _quarters(grey: GreyImage, corners: Array, cells: Cells) -> Array:
     design = np.column_stack([cells, np.ones(len(cells))])
     affine, *_ = np.linalg.lstsq(design, corners, rcond=None)
     a, b = (np.broadcast_to(affine[axis], corners.shape) for axis in (0, 1))
-    light = quarter_signs(grey, corners, a, b)
-    return (light > 0).astype(np.int64)
+    return quarter_signs(grey, corners, a, b)
 
 
 def _is_mirrored(cells: Cells, corners: Array) -> bool:

@@ -39,7 +39,7 @@ def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
     strength = np.maximum(xy * xy - xx * yy, 0.0)
     reach = 2 * round(smoothing_px * 1.5) + 1
     peak = cv2.dilate(strength, np.ones((reach, reach), np.uint8))
-    floor = 0.04 * float(np.percentile(peak, 99.0))
+    floor = 0.1 * float(np.percentile(peak, 99.0))
     y, x = np.nonzero((strength >= peak) & (strength > max(floor, 1.0)))
     strongest = np.argsort(-strength[y, x])[:MOST_SADDLES]
     return np.stack([x[strongest], y[strongest]], axis=1).astype(np.float64)

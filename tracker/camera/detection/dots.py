@@ -6,12 +6,15 @@ import numpy.typing as npt
 from tracker.camera.boards import DotBoard, DotLayout
 from tracker.camera.detection.blobs import WINDOW_RATIOS, Blobs, GreyImage, dark_blobs
 from tracker.camera.detection.lattice import Cells, Lattice, largest_lattice, step_lengths_px
-from tracker.camera.detection.placing import placed
+from tracker.camera.detection.placing import placed, within
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
 from tracker.geometry import Array
 
 LEAST_DOTS = 12
 LARGER_AREA_RATIO = 1.6
+# Between an ellipse (4/3) and a square (1.4); told of spots that are large enough to show their shape.
+MOST_FOURTH_MOMENT = 1.368
+LEAST_AREA_FOR_SHAPE_PX2 = 60.0
 
 
 def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
@@ -27,7 +30,14 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
             sentence=f"{len(lattice.members)} dots stand in a grid, at least {needed} are needed",
             seen_points=len(lattice.members),
         )
+    fourth = float(np.median(blobs.fourth_moments[lattice.members]))
     px, areas_px2 = blobs.centres_px[lattice.members], blobs.areas_px2[lattice.members]
+    if fourth > MOST_FOURTH_MOMENT and float(np.median(areas_px2)) > LEAST_AREA_FOR_SHAPE_PX2:
+        return BoardNotFound(
+            reason=NotFoundReason.NO_POINTS,
+            sentence=f"{len(px)} spots stand in a grid, and they are square and not round",
+            seen_points=len(px),
+        )
     _, cell_areas_px2 = step_lengths_px(px, lattice.cells)
     share = areas_px2 / cell_areas_px2
     larger = share > LARGER_AREA_RATIO * float(np.median(share))
@@ -92,22 +102,7 @@ def _on_board(cells: Cells, board: DotBoard) -> tuple[Cells, npt.NDArray[np.bool
     if asymmetric:
         # The nearest dots of an asymmetric board stand on its diagonals.
         cells = np.column_stack([cells[:, 0] - cells[:, 1], cells[:, 0] + cells[:, 1]])
-    most = sorted((2 * board.columns if asymmetric else board.columns, board.rows))
-    kept = np.ones(len(cells), dtype=bool)
-    for _ in range(8):
-        inside = cells[kept]
-        low, high = inside.min(axis=0), inside.max(axis=0)
-        size = high - low + 1
-        if sorted(size)[0] <= most[0] and sorted(size)[1] <= most[1]:
-            break
-        lines = [(axis, end) for axis in (0, 1) for end in (low[axis], high[axis])]
-        counts = [int((inside[:, axis] == end).sum()) for axis, end in lines]
-        weakest = int(np.argmin(counts))
-        if counts[weakest] > 0.25 * len(inside) / float(size[lines[weakest][0]]):
-            break
-        kept &= cells[:, lines[weakest][0]] != lines[weakest][1]
-    inside = cells[kept]
-    return inside - inside.min(axis=0), kept
+    return within(cells, 2 * board.columns if asymmetric else board.columns, board.rows)
 
 
 def _cells_of(board: DotBoard) -> npt.NDArray[np.int64]:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from tracker.camera.boards import Board, CharucoBoard, CheckerBoard, DotBoard
 from tracker.camera.detection.blobs import GreyImage
-from tracker.camera.detection.charuco import charuco_layout, corner_counts, find_charuco
+from tracker.camera.detection.charuco import charuco_layout, find_charuco, layout_misfits
 from tracker.camera.detection.checker import find_checker
 from tracker.camera.detection.dots import find_dots, larger_dots
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
@@ -38,7 +38,9 @@ def board_as_seen(images: Sequence[npt.NDArray[np.uint8]], board: Board) -> Boar
     the other way round where the named ones are seen only so. A few images are enough.
     """
     if isinstance(board, CharucoBoard) and board.layout is None:
-        return replace(board, layout=charuco_layout([corner_counts(_grey(image), board) for image in images]))
+        return replace(
+            board, layout=charuco_layout([layout_misfits(_grey(image), board) for image in images])
+        )
     if isinstance(board, DotBoard):
         return _dots_as_seen([_grey(image) for image in images], board)
     return board

@@ -14,6 +14,9 @@ TURNS = tuple(
     np.array(turn) for turn in (((1, 0), (0, 1)), ((0, 1), (-1, 0)), ((-1, 0), (0, -1)), ((0, -1), (1, 0)))
 )
 
+# A line at the rim of a grid is no part of it when it holds so little of what an average line holds.
+EMPTY_LINE_RATIO = 0.34
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Placed:
@@ -74,6 +77,26 @@ def placed(
     rivals = [one for one in found if one[0] <= fewest + max(1, len(cells) // 100) * (fewest > 0)]
     best = min(rivals, key=lambda one: (one[0], round(one[1], 1), one[2], one[1]))
     return Placed(ids=best[3], sureness=_sureness([one[4] for one in rivals]), misfits=fewest)
+
+
+def within(cells: Cells, columns: int, rows: int) -> tuple[Cells, npt.NDArray[np.bool_]]:
+    """Cells counted from 0, and which are kept: lines at the rim that hold next to nothing are no board's."""
+    most = sorted((columns, rows))
+    kept = np.ones(len(cells), dtype=bool)
+    while True:
+        inside = cells[kept]
+        low, high = inside.min(axis=0), inside.max(axis=0)
+        size = high - low + 1
+        if min(size) <= most[0] and max(size) <= most[1]:
+            break
+        lines = [(axis, end) for axis in (0, 1) for end in (low[axis], high[axis])]
+        counts = [int((inside[:, axis] == end).sum()) for axis, end in lines]
+        axis, end = lines[int(np.argmin(counts))]
+        if min(counts) > EMPTY_LINE_RATIO * len(inside) / float(size[axis]):
+            break
+        kept &= cells[:, axis] != end
+    inside = cells[kept]
+    return inside - inside.min(axis=0), kept
 
 
 def _sureness(quarters: list[int]) -> Sureness:

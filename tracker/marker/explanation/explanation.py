@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from tracker.camera.blur.kernels import axes_of
 from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import PART_CONTRAST, Mask, covered, weights_beside_a_cover
@@ -18,6 +19,7 @@ from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
 from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
+from tracker.marker.sampling.kernels import through
 
 FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 3, 6, 4, 3
 LEAST_HOPE = 0.55
@@ -63,7 +65,6 @@ class Explanation:
         hidden_ratio: part of the square that is covered, 0..1.
         inner_hidden_ratio: the same of where the model has its shape.
         inside_ratio: area of the largest piece that contradicts and is not covered, by the square's.
-        left_ratio: rms of what is left where the model has its shape, by the contrast there.
         corners_px: (4, 2), where they explain it best.
         moved_px: how far the corners (4, 2) had to be moved to explain it best, the farthest.
         blur_px: (2,), sd along the sharpest and the most blurred direction.
@@ -77,7 +78,6 @@ class Explanation:
     hidden_ratio: float
     inner_hidden_ratio: float
     inside_ratio: float
-    left_ratio: float
     corners_px: Array
     moved_px: float
     blur_px: tuple[float, float]
@@ -212,30 +212,16 @@ def _explanation(fit: Fit) -> Explanation:
         hidden_ratio=1.0 - float(visible[inside_square()].mean()),
         inner_hidden_ratio=1.0 - float(visible[shape].mean()),
         inside_ratio=inside / FIELDS**2,
-        left_ratio=_left(fit, telling & shape),
-        corners_px=_to_px(fit.to_px, fit.corners),
+        corners_px=np.array([through(fit.to_px, a, b) for a, b in fit.corners]),
         moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
         under_highlights=fit.light.shape[1] > MOST_SMOOTH_TERMS,
         blur_px=_blur_px(fit.blur, fit.field_px),
     )
 
 
-def _left(fit: Fit, chosen: Mask) -> float:
-    if not chosen.any():
-        return 1.0
-    contrast = float(np.median(fit.gain[chosen]))
-    return float(np.sqrt(np.mean(fit.rest[chosen] ** 2))) / contrast if contrast > 0.0 else 1.0
-
-
-def _to_px(h: Array, corners: Array) -> Array:
-    a, b = corners[:, 0], corners[:, 1]
-    w = h[6] * a + h[7] * b + 1.0
-    return np.stack([(h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w], axis=1)
-
-
 def _blur_px(blur: Array, field_px: float) -> tuple[float, float]:
-    mean, half = 0.5 * float(blur[0] + blur[1]), float(np.hypot(0.5 * (blur[0] - blur[1]), blur[2]))
-    least, most = (float(np.sqrt(max(one - SPREAD, 0.0))) for one in (mean - half, mean + half))
+    larger, smaller, _, _ = axes_of(blur[0], blur[1], blur[2])
+    least, most = (float(np.sqrt(max(one - SPREAD, 0.0))) for one in (smaller, larger))
     return least * field_px, most * field_px
 
 

@@ -17,11 +17,11 @@ from tracker.marker.explanation.kernels import (
     clear_of_beyond,
     picture_at,
     sample_fields,
-    unit_to_px,
     walk,
 )
 from tracker.marker.explanation.light import contrasts, grid, smooth_light
 from tracker.marker.explanation.pictures import Pictures
+from tracker.marker.sampling.kernels import square_to_quad
 
 # Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
 FIRST_BLUR_PX = 0.8
@@ -53,7 +53,8 @@ class Fit:
         self.image, self.pictures = image, pictures
         self.side_px = side_px
         self.field_px = max(side_px, 8.0) / FIELDS
-        self.to_px = unit_to_px(np.ascontiguousarray(corners_px, dtype=np.float64))
+        self.to_px = np.empty(8)
+        square_to_quad(np.ascontiguousarray(corners_px, dtype=np.float64), self.to_px)
         self.corners: Array = UNIT.copy()
         self.blur: Array = np.array([1.0, 1.0, 0.0]) * ((FIRST_BLUR_PX / self.field_px) ** 2 + SPREAD)
         self.held: Array = np.ones((WIDE, WIDE))

@@ -2,9 +2,11 @@
 
 import numpy as np
 
+from tracker.camera.blur.kernels import axes_of, keep_within, level_of
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
-from tracker.marker.kernels import sample_square, square_to_quad
+from tracker.marker.model import PAPER_RATIO
+from tracker.marker.sampling.kernels import sample_square, through
 
 FIELDS, RING = 24, 3  # fields a side of the square, and of its white paper around it
 WIDE = FIELDS + 2 * RING
@@ -21,14 +23,14 @@ LEAST_BLUR_PX, MOST_BLUR_PX = 0.3, 4.5
 SETTLED_FIELDS, SETTLED_BLUR = 0.01, 0.02
 # Fewer fields than this are like anything.
 LEAST_COUNT = 40
-# White paper around the square, in sides; what lies so many sd of the blur away is a thirtieth of a field.
-PAPER_RATIO, FAR_SDS = 0.2, 1.85
+# What lies beyond the paper, so many sd of the blur away, is a thirtieth of a field.
+FAR_SDS = 1.85
 LEAST_WEIGHT = 1e-3
 
 
 @compiled
 def u_of(c):
-    """Where a column (or a row) of fields lies, -1..1 over the square."""
+    """Where a column (or a row) of fields lies: its middle, -1..1 over the square."""
     return (c - 0.5 * (WIDE - 1)) * (2.0 / FIELDS)
 
 
@@ -40,13 +42,9 @@ def _taps(blur, blurs, weights):
     """
     weights[:, :] = 0.0
     middle = len(weights) // 2
-    mean, half = 0.5 * (blur[0] + blur[1]), np.sqrt((0.5 * (blur[0] - blur[1])) ** 2 + blur[2] ** 2)
-    larger, smaller = mean + half, max(mean - half, 1e-6)
-    angle = 0.5 * np.arctan2(2.0 * blur[2], blur[0] - blur[1])
-    ex, ey = np.cos(angle), np.sin(angle)
-    level = 0
-    while level < len(blurs) - 1 and blurs[level] * blurs[level + 1] < smaller:
-        level += 1
+    larger, smaller, ex, ey = axes_of(blur[0], blur[1], blur[2])
+    smaller = max(smaller, 1e-6)
+    level = level_of(smaller, blurs)
     has = blurs[level] ** 2
     more = larger - smaller
     across = smaller - has
@@ -113,8 +111,7 @@ def sample_fields(image, h, corners):
     for k in range(4):
         a = mu + (corners[k, 0] - mu) * (WIDE / FIELDS)
         b = mv + (corners[k, 1] - mv) * (WIDE / FIELDS)
-        w = h[6] * a + h[7] * b + 1.0
-        px[k, 0], px[k, 1] = (h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w
+        px[k, 0], px[k, 1] = through(h, a, b)
     return sample_square(image, px, WIDE, SAMPLES)
 
 
@@ -184,13 +181,7 @@ def _step(corners, blur, step, field_px):
         blur[k] += min(max(step[6 + k], -0.5 * wide - 0.3), wide + 0.3)
     least = SPREAD + (LEAST_BLUR_PX / field_px) ** 2
     most = SPREAD + (MOST_BLUR_PX / field_px) ** 2
-    mean, half = 0.5 * (blur[0] + blur[1]), np.sqrt((0.5 * (blur[0] - blur[1])) ** 2 + blur[2] ** 2)
-    larger, smaller = min(max(mean + half, least), most), min(max(mean - half, least), most)
-    angle = 0.5 * np.arctan2(2.0 * blur[2], blur[0] - blur[1])
-    ex, ey = np.cos(angle), np.sin(angle)
-    blur[0] = larger * ex * ex + smaller * ey * ey
-    blur[1] = larger * ey * ey + smaller * ex * ex
-    blur[2] = (larger - smaller) * ex * ey
+    keep_within(blur, least, most)
     changed = np.abs(blur - before).max() / wide
     return far > SETTLED_FIELDS or changed > SETTLED_BLUR
 
@@ -288,14 +279,6 @@ def clear_of_beyond(blur, clear):
     for r in range(WIDE):
         for c in range(WIDE):
             clear[r, c] = abs(u_of(c)) < most_u and abs(u_of(r)) < most_v
-
-
-@compiled
-def unit_to_px(corners):
-    """The homography (8,) from the unit square to four corners (4, 2)."""
-    h = np.empty(8)
-    square_to_quad(corners, h)
-    return h
 
 
 @compiled

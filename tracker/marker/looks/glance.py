@@ -3,8 +3,7 @@
 import numpy as np
 
 from tracker.edges import GreyImage
-from tracker.marker.kernels import even_light, peek, products, sample_quads
-from tracker.marker.looks.kernels import alike_past_cover
+from tracker.marker.looks.kernels import alike_past_cover, peek, products
 from tracker.marker.looks.templates import (
     AROUND_CELLS,
     CELLS,
@@ -17,6 +16,7 @@ from tracker.marker.looks.templates import (
     Float32,
     Templates,
 )
+from tracker.marker.sampling.kernels import even_light, sample_quads
 from tracker.outlines import Quads
 
 DARK, LIGHT = np.float32(64.0), np.float32(192.0)

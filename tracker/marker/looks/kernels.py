@@ -3,8 +3,9 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.marker.kernels import even_light, sample_quads, square_to_quad
+from tracker.marker.sampling.kernels import even_light, sample_quads, square_to_quad, through
 
+BLOCK = 64
 # The unknowns of a step: the picture's gain and offset, and two for each corner.
 UNKNOWN = 10
 # In one step a corner is moved by no more of a side.
@@ -15,6 +16,65 @@ LEAST_GAIN = 0.1
 MOST_UNLIKE_RATIO = 0.95
 # It is asked anew which picture and which cover it is after so many steps.
 ASKED_EVERY = 3
+
+
+@compiled
+def peek(image, quads, cells, templates, dark, light):
+    """Correlation (t, q) of templates (t, n * n), n = cells + 2, with parallelograms, a pixel a cell.
+
+    What is as dark or light as these, or more so, counts as 0 and 1.
+    """
+    height, width = image.shape
+    count, n = len(quads), cells + 2
+    size, scale = n * n, np.float32(1.0) / (light - dark)
+    out = np.empty((len(templates), count), np.float32)
+    # Quads lie side by side in a block, so that the machine works on many at once.
+    block = np.empty((size, BLOCK), np.float32)
+    for start in range(0, count, BLOCK):
+        many = min(BLOCK, count - start)
+        for k in range(many):
+            quad = quads[start + k]
+            ax, ay = (quad[1, 0] - quad[0, 0]) / cells, (quad[1, 1] - quad[0, 1]) / cells
+            bx, by = (quad[3, 0] - quad[0, 0]) / cells, (quad[3, 1] - quad[0, 1]) / cells
+            ox, oy = quad[0, 0] - 0.5 * (ax + bx) + 0.5, quad[0, 1] - 0.5 * (ay + by) + 0.5
+            total, square = np.float32(0.0), np.float32(0.0)
+            for r in range(n):
+                for c in range(n):
+                    u = min(max(int(ox + c * ax + r * bx), 0), width - 1)
+                    v = min(max(int(oy + c * ay + r * by), 0), height - 1)
+                    value = min(max((image[v, u] - dark) * scale, np.float32(0.0)), np.float32(1.0))
+                    block[r * n + c, k] = value
+                    total += value
+                    square += value * value
+            mean = total / size
+            length = np.float32(1.0) / np.sqrt(max(square - size * mean * mean, np.float32(1e-3)))
+            for i in range(size):
+                block[i, k] = (block[i, k] - mean) * length
+        for t in range(len(templates)):
+            line = out[t, start : start + many]
+            line[:] = 0.0
+            for i in range(size):
+                weight = templates[t, i]
+                for k in range(many):
+                    line[k] += weight * block[i, k]
+    return out
+
+
+@compiled
+def products(rows, columns):
+    """The matrix product of rows (n, k) and columns (k, m).
+
+    A library's product would start threads for so little, and wait for them.
+    """
+    out = np.zeros((len(rows), columns.shape[1]), np.float32)
+    for i in range(len(rows)):
+        line = out[i]
+        for k in range(columns.shape[0]):
+            weight = rows[i, k]
+            column = columns[k]
+            for j in range(columns.shape[1]):
+                line[j] += weight * column[j]
+    return out
 
 
 @compiled
@@ -100,6 +160,8 @@ def _factor(basis, cover, damping, stiffness, matrix):
     """Cholesky factor, the lower half, of the damped normal matrix of the cells that a cover leaves.
 
     What makes a parallelogram another shape is damped more, by the stiffness: perspective does little of it.
+    Not `solve_positive`: one factor serves all steps to the same picture and cover, damping makes it
+    positive, and it needs no scaling, as all but two of the unknowns are sides.
     """
     matrix[:] = 0.0
     for i in range(len(basis)):
@@ -162,8 +224,7 @@ def _move_back(quad, off):
     for k in range(4):
         a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MOST_STEP_SIDES), MOST_STEP_SIDES)
         b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MOST_STEP_SIDES), MOST_STEP_SIDES)
-        w = h[6] * a + h[7] * b + 1.0
-        moved[k, 0], moved[k, 1] = (h[0] * a + h[1] * b + h[2]) / w, (h[3] * a + h[4] * b + h[5]) / w
+        moved[k, 0], moved[k, 1] = through(h, a, b)
     quad[:] = moved
 
 

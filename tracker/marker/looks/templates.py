@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
-from tracker.marker.kernels import even_light
 from tracker.marker.looks.kernels import masked_pictures
 from tracker.marker.model import MarkerModel
+from tracker.marker.sampling.kernels import even_light
 
 Float32 = npt.NDArray[np.float32]
 

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.marker.explanation.cover.kernels import grown, weights_of_a_part, wrong_pieces
-from tracker.marker.explanation.kernels import FIELDS, RING
+from tracker.marker.explanation.kernels import RING
 
 Mask = npt.NDArray[np.bool_]
 HIDDEN_CONTRAST, CLEAR_CONTRAST = 0.35, 0.2
@@ -47,7 +47,7 @@ class Left:
 def weights_beside_a_cover(seen: Array, picture: npt.NDArray[np.float32]) -> Array | None:
     """Weights of the fields by even light of the part that is not covered; None if none need be."""
     weight = np.empty(seen.shape)
-    found = weights_of_a_part(seen, picture, FIELDS / 2.0, PART_ANGLES, PART_PLACES, PART_CONTRAST, weight)
+    found = weights_of_a_part(seen, picture, PART_ANGLES, PART_PLACES, PART_CONTRAST, weight)
     return weight if found else None
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
-from tracker.marker.explanation.kernels import SATURATED_GREY
+from tracker.marker.explanation.kernels import SATURATED_GREY, WIDE, u_of
 
 
 @compiled
@@ -27,9 +27,9 @@ def _smoothed(rest, contrast):
 def wrong_pieces(rest, contrast, ring, limit, least, labels):
     """Connected pieces of fields (n, n) whose neighbourhood is off by more than `limit` of the contrast.
 
-    Fills `labels`: 0 none, -1 what comes over the border (from the ring,
-    or, as bright as the paper there, where the outline is missing), `k` the k-th piece inside. Pieces of
-    fewer than `least` fields count for nothing. Returns the areas of the pieces inside.
+    Fills `labels`: 0 for none, -1 for a piece that reaches into the `ring` fields along the border, k for the
+    k-th piece inside. Pieces of fewer than `least` fields count for nothing. Returns the areas (k,) of the
+    pieces inside, in fields.
     """
     n = len(rest)
     off = _smoothed(rest, contrast)
@@ -110,19 +110,18 @@ def _cost(at, seen, picture, solution, limit, near):
 
 
 @compiled
-def weights_of_a_part(seen, picture, half, angles, places, limit, weight):
-    """Weights (n, n) of fields by the light of that part of the square whose light explains most of it.
+def weights_of_a_part(seen, picture, angles, places, limit, weight):
+    """Weights (WIDE, WIDE) of fields by the light of that part of the square whose light explains most of it.
 
     Where a third is covered, light that is fitted to all of it is wrong everywhere. Tried are the parts on
     one side of a line, and the whole, which stays if no part is better.
     """
-    n = len(seen)
-    every = (n + 1) // 2
+    every = (WIDE + 1) // 2
     count = every * every
     at, values, ink = np.empty((count, 2)), np.empty(count), np.empty(count)
     for i in range(count):
         y, x = 2 * (i // every), 2 * (i % every)
-        at[i, 0], at[i, 1] = (x - 0.5 * (n - 1)) / half, (y - 0.5 * (n - 1)) / half
+        at[i, 0], at[i, 1] = u_of(x), u_of(y)
         values[i], ink[i] = seen[y, x], picture[y, x]
     weight[:, :] = 1.0
     chosen, near = np.ones(count, np.bool_), np.empty(count, np.bool_)
@@ -150,10 +149,9 @@ def weights_of_a_part(seen, picture, half, angles, places, limit, weight):
                 best[:] = solution
     if not found:
         return False
-    for r in range(n):
-        for c in range(n):
-            u, v = (c - 0.5 * (n - 1)) / half, (r - 0.5 * (n - 1)) / half
-            off = seen[r, c] - best[0] - best[1] * u - best[2] * v - best[3] * picture[r, c]
+    for r in range(WIDE):
+        for c in range(WIDE):
+            off = seen[r, c] - best[0] - best[1] * u_of(c) - best[2] * u_of(r) - best[3] * picture[r, c]
             if seen[r, c] >= SATURATED_GREY and off < 0.0:
                 off = 0.0
             off /= limit * best[3]

@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
+from tracker.marker.explanation.kernels import WIDE, u_of
 
 STRIDE = 3  # a field of every nine is enough to find an edge by
 BASE = 9
@@ -32,14 +33,37 @@ def _orthonormal(base, left):
 
 
 @compiled
+def _across(angle, place, soft):
+    """What to multiply u and v by, and what to take away, so that a soft edge reaches from -1 to 1."""
+    return np.cos(angle) / (2.0 * soft), np.sin(angle) / (2.0 * soft), place / (2.0 * soft)
+
+
+@compiled
+def _lit(t):
+    """The light across an edge: 0 up to -1, smoothly rising to 1 from 1 on."""
+    t = min(max(t, -1.0), 1.0)
+    return 0.5 + t * (0.75 - 0.25 * t * t)
+
+
+@compiled
+def shadow_of(edge):
+    """The light (fields,) beside an edge (3,), from 0 on one side of it to 1 on the other."""
+    out = np.empty(WIDE * WIDE)
+    x, y, less = _across(edge[0], edge[1], edge[2])
+    for r in range(WIDE):
+        for c in range(WIDE):
+            out[r * WIDE + c] = _lit(u_of(c) * x + u_of(r) * y - less)
+    return out
+
+
+@compiled
 def _gained(at, picture, weight, base, left, angle, place, soft):
     """By how much a step of the light, on ink and paper, lowers the squares."""
     first, second = np.zeros(BASE), np.zeros(BASE)
+    x, y, less = _across(angle, place, soft)
     aa, ab, bb, fa, fb = 0.0, 0.0, 0.0, 0.0, 0.0
-    x, y = np.cos(angle) / (2.0 * soft), np.sin(angle) / (2.0 * soft)
     for i in range(len(left)):
-        t = min(max(at[i, 0] * x + at[i, 1] * y - place / (2.0 * soft), -1.0), 1.0)
-        s = weight[i] * (0.5 + t * (0.75 - 0.25 * t * t))
+        s = weight[i] * _lit(at[i, 0] * x + at[i, 1] * y - less)
         p = s * picture[i]
         aa += s * s
         ab += s * p
@@ -58,21 +82,20 @@ def _gained(at, picture, weight, base, left, angle, place, soft):
 
 
 @compiled
-def shadow_edge(seen, picture, visible, half, angles, places, soft, edge):
-    """Find the edge that explains most of what quadratic light leaves of fields (n, n).
+def shadow_edge(seen, picture, visible, angles, places, soft, edge):
+    """Find the edge that explains most of what quadratic light leaves of fields (WIDE, WIDE).
 
     Fills `edge` (3,): its angle, its place and its softness, in half sides. Returns the part that it
     explains, 0..1. Without a say: what is not `visible`.
     """
-    n = len(seen)
-    every = (n + STRIDE - 1) // STRIDE
+    every = (WIDE + STRIDE - 1) // STRIDE
     count = every * every
     at, base = np.empty((count, 2)), np.empty((count, BASE))
     left, ink, weight = np.empty(count), np.empty(count), np.empty(count)
     for r in range(every):
         for c in range(every):
             i, y, x = r * every + c, r * STRIDE, c * STRIDE
-            u, v = (x - 0.5 * (n - 1)) / half, (y - 0.5 * (n - 1)) / half
+            u, v = u_of(x), u_of(y)
             w = 1.0 if visible[y, x] else 0.0
             p = picture[y, x]
             at[i, 0], at[i, 1], ink[i], weight[i], left[i] = u, v, p, w, w * seen[y, x]

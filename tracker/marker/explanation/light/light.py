@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
-from tracker.marker.explanation.kernels import FIELDS, WIDE
-from tracker.marker.explanation.light.kernels import shadow_edge
+from tracker.marker.explanation.kernels import WIDE, u_of
+from tracker.marker.explanation.light.kernels import shadow_edge, shadow_of
 
 SHADOW_ANGLES, SHADOW_PLACES, SHADOW_SOFT = 12, 9, 0.1
 LEAST_GAINED_RATIO = 0.15
@@ -18,7 +18,8 @@ NODES = 6
 @cache
 def grid() -> tuple[Array, Array]:
     """(u, v) of the fields, -1..1 over the square."""
-    v, u = (np.mgrid[0:WIDE, 0:WIDE] - (WIDE - 1) / 2.0) * (2.0 / FIELDS)
+    at = np.array([u_of(c) for c in range(WIDE)])
+    u, v = np.meshgrid(at, at)
     return u, v
 
 
@@ -49,14 +50,5 @@ def highlights() -> Array:
 def shadow_in(seen: Array, picture: npt.NDArray[np.float32], visible: npt.NDArray[np.bool_]) -> Array | None:
     """The straight edge of a shadow (fields,), from 0 to 1, that explains most of what is left, if any."""
     edge = np.empty(3)
-    part = shadow_edge(seen, picture, visible, FIELDS / 2.0, SHADOW_ANGLES, SHADOW_PLACES, SHADOW_SOFT, edge)
-    if part < LEAST_GAINED_RATIO:
-        return None
-    u, v = grid()
-    angle, place, soft = (float(one) for one in edge)
-    return np.asarray(_steps(u.ravel(), v.ravel(), angle, place, soft))
-
-
-def _steps(u: Array, v: Array, angle: float, place: float, soft: float) -> Array:
-    t = np.clip((u * np.cos(angle) + v * np.sin(angle) - place) / (2.0 * soft), -1.0, 1.0)
-    return np.asarray(0.5 + t * (0.75 - 0.25 * t * t))
+    part = shadow_edge(seen, picture, visible, SHADOW_ANGLES, SHADOW_PLACES, SHADOW_SOFT, edge)
+    return np.asarray(shadow_of(edge)) if part >= LEAST_GAINED_RATIO else None

@@ -1,16 +1,34 @@
 """A picture to try all loops on, before the first image comes."""
 
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
 
 from tracker.edges import GreyImage
+from tracker.geometry import Array
 
 PAPER_GREY, INK_GREY = 200, 20
 SPECKS_APART_PX = 16
 
 
-def practice_image(square: GreyImage, *, size_wh_px: tuple[int, int]) -> GreyImage:
-    """A marker (n, n) a quarter of the picture (h, w) wide, among dark squares for every round."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PracticePicture:
+    """A marker a quarter of the picture wide, among dark squares for every round of a search.
+
+    Attributes:
+        image: (h, w).
+        corners_px: (4, 2), top-left, top-right, bottom-right, bottom-left of the marker.
+        side_px: how wide it is.
+    """
+
+    image: GreyImage
+    corners_px: Array
+    side_px: int
+
+
+def practice_picture(square: GreyImage, *, size_wh_px: tuple[int, int]) -> PracticePicture:
+    """Of a marker's grey square (n, n), in an image of this size."""
     width, height = size_wh_px
     side = max(min(width, height) // 4, 2)
     margin = side // 4
@@ -23,4 +41,5 @@ def practice_image(square: GreyImage, *, size_wh_px: tuple[int, int]) -> GreyIma
     image[top - margin : top + side + margin, left - margin : left + side + margin] = PAPER_GREY
     seen = cv2.resize(square, (side, side), interpolation=cv2.INTER_AREA)
     image[top : top + side, left : left + side] = np.minimum(seen, PAPER_GREY)
-    return image
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * side
+    return PracticePicture(image=image, corners_px=corners + np.array([left - 0.5, top - 0.5]), side_px=side)

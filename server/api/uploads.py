@@ -1,0 +1,75 @@
+"""What is sent up: written to the disk as it comes, never held in memory."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+from anyio import to_thread
+from fastapi import Request
+from starlette.requests import ClientDisconnect
+
+from server.store import Home, told
+from tracker.errors import InvalidInput
+
+# Handed to the disk in pieces of this size.
+PIECE_BYTES = 2**20
+
+
+@asynccontextmanager
+async def received(request: Request, home: Home, *, most_bytes: int) -> AsyncIterator[Path]:
+    """The body of a request as a file, which is gone at the end of the block.
+
+    Raises:
+        InvalidInput: UPLOAD_TOO_LARGE (HTTP 413), UPLOAD_EMPTY, UPLOAD_CUT.
+        StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
+    """
+    _refuse_above(_announced_bytes(request), most_bytes)
+    path = home.new_temporary()
+    try:
+        await _write(request, path, home, most_bytes=most_bytes)
+        yield path
+    finally:
+        await to_thread.run_sync(lambda: path.unlink(missing_ok=True))
+
+
+async def _write(request: Request, path: Path, home: Home, *, most_bytes: int) -> None:
+    taken_bytes, waiting = 0, bytearray()
+    with told(home.folder, known_only=True):
+        stream = await to_thread.run_sync(lambda: path.open("xb"))
+        try:
+            async for chunk in request.stream():
+                taken_bytes += len(chunk)
+                _refuse_above(taken_bytes, most_bytes)
+                waiting += chunk
+                if len(waiting) >= PIECE_BYTES:
+                    await to_thread.run_sync(stream.write, waiting)
+                    waiting = bytearray()
+            await to_thread.run_sync(stream.write, waiting)
+        except ClientDisconnect:
+            raise InvalidInput(
+                "UPLOAD_CUT",
+                f"the connection ended after {taken_bytes / 2**20:.1f} MB",
+                "Send it again; nothing of it was kept.",
+                {"taken_bytes": taken_bytes},
+            ) from None
+        finally:
+            await to_thread.run_sync(stream.close)
+    if not taken_bytes:
+        raise InvalidInput(
+            "UPLOAD_EMPTY", "nothing was sent", "Send the file itself as the body of the request."
+        )
+
+
+def _announced_bytes(request: Request) -> int:
+    announced = request.headers.get("content-length", "")
+    return int(announced) if announced.isdecimal() else 0
+
+
+def _refuse_above(size_bytes: int, most_bytes: int) -> None:
+    if size_bytes > most_bytes:
+        raise InvalidInput(
+            "UPLOAD_TOO_LARGE",
+            f"the file has {size_bytes / 2**20:.1f} MB or more, allowed are {most_bytes / 2**20:g} MB",
+            "Send a smaller one.",
+            {"size_bytes": size_bytes, "allowed_bytes": most_bytes},
+        )

@@ -1,0 +1,169 @@
+"""The board that was described on the command line."""
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+
+from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from tracker.errors import InvalidInput
+
+
+class Pattern(StrEnum):
+    """What is printed on the board."""
+
+    DOTS = "dots"
+    CHECKERBOARD = "checkerboard"
+    CHARUCO = "charuco"
+
+
+class Layout(StrEnum):
+    """Of dots: symmetric or asymmetric; of ChArUco: newer or older."""
+
+    SYMMETRIC = "symmetric"
+    ASYMMETRIC = "asymmetric"
+    NEWER = "newer"
+    OLDER = "older"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoardOptions:
+    """The options that describe a board, None where they were left out."""
+
+    pattern: Pattern
+    size: str
+    pitch_mm: float | None = None
+    square_mm: float | None = None
+    marker_mm: float | None = None
+    dictionary: str | None = None
+    fiducials: str | None = None
+    layout: Layout | None = None
+    inset: str | None = None
+    inset_square_mm: float | None = None
+
+
+def boards_of(given: BoardOptions) -> tuple[Board, ...]:
+    """The board, and the checkerboard that is set into it if there is one.
+
+    Raises:
+        InvalidInput: BOARD_OPTION_MISSING, BOARD_OPTION_UNUSED, BOARD_OPTION_INVALID or BOARD_INVALID.
+    """
+    columns, rows = _pair("--size", given.size)
+    board: Board
+    if given.pattern is Pattern.DOTS:
+        _refuse_unused(given, "square_mm", "marker_mm", "dictionary")
+        board = DotBoard(
+            columns=columns,
+            rows=rows,
+            pitch_mm=_needed(given, "pitch_mm"),
+            layout=DotLayout(_layout(given, Layout.SYMMETRIC, Layout.ASYMMETRIC) or Layout.SYMMETRIC),
+            fiducials=_indexes(given.fiducials),
+        )
+    elif given.pattern is Pattern.CHECKERBOARD:
+        _refuse_unused(given, "pitch_mm", "marker_mm", "dictionary", "fiducials", "layout")
+        board = CheckerBoard(columns=columns, rows=rows, square_mm=_needed(given, "square_mm"))
+    else:
+        _refuse_unused(given, "pitch_mm", "fiducials")
+        if given.dictionary is None:
+            raise _missing(given, "dictionary")
+        layout = _layout(given, Layout.NEWER, Layout.OLDER)
+        board = CharucoBoard(
+            columns=columns,
+            rows=rows,
+            square_mm=_needed(given, "square_mm"),
+            marker_mm=_needed(given, "marker_mm"),
+            dictionary=given.dictionary,
+            layout=None if layout is None else CharucoLayout(layout),
+        )
+    if given.inset is None:
+        _refuse_unused(given, "inset_square_mm")
+        return (board,)
+    inner_columns, inner_rows = _pair("--inset", given.inset)
+    square_mm = _needed(given, "inset_square_mm")
+    return board, CheckerBoard(columns=inner_columns, rows=inner_rows, square_mm=square_mm)
+
+
+def described(board: Board) -> dict[str, object]:
+    """The board as a camera file keeps it."""
+    size = [board.columns, board.rows]
+    if isinstance(board, DotBoard):
+        return {
+            "pattern": Pattern.DOTS.value,
+            "size": size,
+            "pitch_mm": board.pitch_mm,
+            "layout": board.layout.value,
+            "fiducials": list(board.fiducials),
+        }
+    if isinstance(board, CheckerBoard):
+        return {"pattern": Pattern.CHECKERBOARD.value, "size": size, "square_mm": board.square_mm}
+    return {
+        "pattern": Pattern.CHARUCO.value,
+        "size": size,
+        "square_mm": board.square_mm,
+        "marker_mm": board.marker_mm,
+        "dictionary": board.dictionary,
+        "layout": board.layout.value if board.layout else None,
+    }
+
+
+def _pair(option: str, text: str) -> tuple[int, int]:
+    found = re.fullmatch(r"\s*(\d{1,4})\s*[x×X,]\s*(\d{1,4})\s*", text)
+    if not found:
+        raise InvalidInput(
+            "BOARD_OPTION_INVALID",
+            f"{option} {text} is no size, allowed is COLUMNSxROWS",
+            f"Write it as {option} 14x16: dots, inner corners of a checkerboard, squares of a ChArUco board.",
+        )
+    return int(found[1]), int(found[2])
+
+
+def _indexes(text: str | None) -> tuple[int, ...]:
+    if text is None or not text.strip():
+        return ()
+    parts = [part.strip() for part in text.split(",")]
+    if not all(part.isdigit() for part in parts):
+        raise InvalidInput(
+            "BOARD_OPTION_INVALID",
+            f"--fiducials {text} is no list of indexes",
+            "Count the dots row by row from 0 at the top left, and write the larger ones as 69,74,149,154.",
+        )
+    return tuple(int(part) for part in parts)
+
+
+def _layout(given: BoardOptions, *allowed: Layout) -> str | None:
+    if given.layout is not None and given.layout not in allowed:
+        raise InvalidInput(
+            "BOARD_OPTION_INVALID",
+            f"--layout {given.layout.value} is none of {given.pattern.value}, allowed: "
+            + ", ".join(one.value for one in allowed),
+            "Leave it out, or give the layout of the board.",
+        )
+    return None if given.layout is None else given.layout.value
+
+
+def _needed(given: BoardOptions, name: str) -> float:
+    value: float | None = getattr(given, name)
+    if value is None:
+        raise _missing(given, name)
+    return value
+
+
+def _missing(given: BoardOptions, name: str) -> InvalidInput:
+    option = "--" + name.replace("_", "-")
+    return InvalidInput(
+        "BOARD_OPTION_MISSING",
+        f"a {given.pattern.value} board is not described whole: {option} is missing",
+        f"Measure the print and give {option}.",
+        {"option": option},
+    )
+
+
+def _refuse_unused(given: BoardOptions, *names: str) -> None:
+    for name in names:
+        if getattr(given, name) is not None:
+            option = "--" + name.replace("_", "-")
+            raise InvalidInput(
+                "BOARD_OPTION_UNUSED",
+                f"{option} says nothing about a {given.pattern.value} board",
+                f"Leave {option} out, or give another --pattern.",
+                {"option": option},
+            )

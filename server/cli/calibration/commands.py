@@ -1,0 +1,126 @@
+"""What can be typed after `coaxial calibrate`."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from server.cli.calibration.asked import BoardOptions, Layout, Pattern
+
+PatternOption = Annotated[Pattern, typer.Option(help="What is printed on the board.")]
+SizeOption = Annotated[
+    str,
+    typer.Option(
+        help="Columns x rows: dots, inner corners of a checkerboard, squares of a ChArUco board.",
+        metavar="14x16",
+    ),
+]
+PitchOption = Annotated[
+    float | None,
+    typer.Option("--pitch-mm", help="From dot to dot; asymmetric: half of it in a row.", metavar="MM"),
+]
+SquareOption = Annotated[float | None, typer.Option("--square-mm", help="Side of a square.", metavar="MM")]
+MarkerOption = Annotated[
+    float | None, typer.Option("--marker-mm", help="Side of a marker in a square.", metavar="MM")
+]
+DictionaryOption = Annotated[
+    str | None, typer.Option(help="Of the markers, as DICT_6X6_250.", metavar="NAME")
+]
+FiducialsOption = Annotated[
+    str | None,
+    typer.Option(help="Indexes of the larger dots, as 69,74,149,154; found if left out.", metavar="LIST"),
+]
+LayoutOption = Annotated[
+    Layout | None,
+    typer.Option(help="Dots: symmetric or asymmetric. ChArUco: newer or older; found if left out."),
+]
+InsetOption = Annotated[
+    str | None,
+    typer.Option(help="Inner corners of a checkerboard that is set into the board.", metavar="13x8"),
+]
+InsetSquareOption = Annotated[
+    float | None, typer.Option("--inset-square-mm", help="Side of its squares.", metavar="MM")
+]
+OutputOption = Annotated[
+    Path | None, typer.Option(help="Camera file that is written, as camera.yaml.", metavar="FILE")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Write the report as JSON.", show_default=False)]
+PlotsOption = Annotated[
+    Path | None, typer.Option(help="Folder for residuals.svg and coverage.svg.", metavar="FOLDER")
+]
+RmsOption = Annotated[
+    float | None,
+    typer.Option("--most-rms-px", help="Allowed RMS; calibration.most_rms_px if left out.", metavar="PX"),
+]
+ConfigOption = Annotated[
+    Path | None,
+    typer.Option("--config", help="Settings file; ./config.yaml is taken if it is there.", metavar="FILE"),
+]
+
+
+def add_calibration(app: typer.Typer) -> None:
+    """Add the commands."""
+    app.command()(calibrate)
+
+
+def calibrate(
+    images: Annotated[list[str], typer.Argument(help="Images, folders or patterns.", metavar="IMAGES...")],
+    pattern: PatternOption,
+    size: SizeOption,
+    pitch_mm: PitchOption = None,
+    square_mm: SquareOption = None,
+    marker_mm: MarkerOption = None,
+    dictionary: DictionaryOption = None,
+    fiducials: FiducialsOption = None,
+    layout: LayoutOption = None,
+    inset: InsetOption = None,
+    inset_square_mm: InsetSquareOption = None,
+    output: OutputOption = None,
+    camera_name: Annotated[
+        str | None,
+        typer.Option(help="The camera's name in the settings; another one is refused later.", metavar="NAME"),
+    ] = None,
+    camera_source: Annotated[
+        str | None,
+        typer.Option(
+            help="The camera's source in the settings; another one is refused later.", metavar="SOURCE"
+        ),
+    ] = None,
+    coefficients: Annotated[
+        int | None,
+        typer.Option(help="Of the lens: 4, 5 or 8; the best on views held out if left out.", metavar="N"),
+    ] = None,
+    most_rms_px: RmsOption = None,
+    plots: PlotsOption = None,
+    json: JsonOption = False,
+    config: ConfigOption = None,
+) -> None:
+    """Calibrate a camera from images of a board, and tell how far it can be trusted.
+
+    Exit status 1 says that the points lie off by more than is allowed; then no camera file is written.
+    """
+    from server.cli.calibration.run import CalibrationOrder, calibrate_camera  # noqa: PLC0415  loaded when needed
+
+    order = CalibrationOrder(
+        images=tuple(images),
+        board=BoardOptions(
+            pattern=pattern,
+            size=size,
+            pitch_mm=pitch_mm,
+            square_mm=square_mm,
+            marker_mm=marker_mm,
+            dictionary=dictionary,
+            fiducials=fiducials,
+            layout=layout,
+            inset=inset,
+            inset_square_mm=inset_square_mm,
+        ),
+        output=output,
+        plots=plots,
+        camera_name=camera_name,
+        camera_source=camera_source,
+        coefficients=coefficients,
+        most_rms_px=most_rms_px,
+        config=config,
+    )
+    raise typer.Exit(calibrate_camera(order, as_json=json))

@@ -1,0 +1,190 @@
+"""`coaxial calibrate`: boards found in images, a camera fitted, a file written, a report told."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from hashlib import blake2b
+from pathlib import Path
+
+import typer
+
+from server.camera_file import CameraFile, camera_file_text
+from server.cli.calibration.asked import BoardOptions, boards_of, described
+from server.cli.calibration.images import Picture, files_of, pictures
+from server.cli.calibration.plots import coverage_svg, residuals_svg
+from server.cli.calibration.told import ImageEntry, entries_of, json_of, tell
+from server.cli.output import write_whole
+from server.cli.progress import Steps, shown_steps
+from server.config_file import load_config
+from tracker.camera import Board
+from tracker.camera.calibration import CalibrationReport, CalibrationSettings, calibrate
+from tracker.camera.detection import BoardNotFound, BoardView, board_as_seen, find_board
+from tracker.errors import CalibrationError, InvalidInput
+
+FAILED = 1
+# So many images tell what the description of a board leaves open.
+LOOKED_AT_FIRST = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CalibrationOrder:
+    """What was asked for; see the options of `coaxial calibrate`."""
+
+    images: tuple[str, ...]
+    board: BoardOptions
+    output: Path | None
+    plots: Path | None
+    camera_name: str | None
+    camera_source: str | None
+    coefficients: int | None
+    most_rms_px: float | None
+    config: Path | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Looked:
+    """What was found in the images.
+
+    Attributes:
+        boards: as the images show them.
+        names: of the images.
+        seen: for each image and board a view, or why not.
+        size_wh_px: of all images.
+    """
+
+    boards: tuple[Board, ...]
+    names: tuple[str, ...]
+    seen: tuple[tuple[BoardView | BoardNotFound, ...], ...]
+    size_wh_px: tuple[int, int]
+
+
+def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
+    """Write the camera file, tell the report, and give the exit status: 0, or 1 if the RMS is too large.
+
+    Raises:
+        NavigationError: the images, the board or the views cannot be used, or a file cannot be written.
+    """
+    config = load_config(order.config)
+    most_rms_px = config.calibration.most_rms_px if order.most_rms_px is None else order.most_rms_px
+    boards = boards_of(order.board)
+    files = files_of(order.images)
+    _refuse_writing_over(order.output, files)
+    with shown_steps() as steps:
+        looked = looked_at(files, boards, steps)
+    views, owners = flattened(looked)
+    report = calibrate(
+        views,
+        size_wh_px=looked.size_wh_px,
+        names=[looked.names[owner] for owner in owners],
+        settings=CalibrationSettings(coefficients=order.coefficients),
+    )
+    entries = entries_of(looked.names, looked.seen, report)
+    passed = report.rms_px <= most_rms_px
+    written = _write(order, report, entries, looked.boards) if passed else ()
+    if as_json:
+        typer.echo(
+            json_of(
+                report,
+                entries,
+                boards=[described(board) for board in looked.boards],
+                more={"most_rms_px": most_rms_px, "passed": passed, "files": [str(one) for one in written]},
+            )
+        )
+    else:
+        tell(report, entries, most_rms_px=most_rms_px)
+        if written:
+            typer.echo(f"Wrote {', '.join(map(str, written))}.")
+    if not passed:
+        typer.echo(
+            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {most_rms_px:g} px.\n"
+            "Take sharp images of a flat, stiff board, or allow more with --most-rms-px.",
+            err=True,
+        )
+    return 0 if passed else FAILED
+
+
+def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> Looked:
+    """Every board looked for in every image; an image that is there twice counts once."""
+    some = list(files[:: max(1, len(files) // LOOKED_AT_FIRST)])[:LOOKED_AT_FIRST]
+    first = [picture.image for picture in pictures(some)]
+    seen_boards = tuple(board_as_seen(first, board) for board in boards)
+    names: list[str] = []
+    found: list[tuple[BoardView | BoardNotFound, ...]] = []
+    size = (0, 0)
+    name_of: dict[bytes, str] = {}
+    for picture in pictures(files):
+        steps.advance("looking for the board", len(files))
+        twin = name_of.setdefault(blake2b(picture.image.tobytes()).digest(), picture.name)
+        if twin != picture.name:
+            raise InvalidInput(
+                "IMAGE_TWICE",
+                f"{picture.name} is the same picture as {twin}: twice it would count as two",
+                "Leave one of them out.",
+                {"image": picture.name, "same_as": twin},
+            )
+        names.append(picture.name)
+        found.append(tuple(_found(picture, board) for board in seen_boards))
+        size = (picture.image.shape[1], picture.image.shape[0])
+    return Looked(boards=seen_boards, names=tuple(names), seen=tuple(found), size_wh_px=size)
+
+
+def flattened(looked: Looked) -> tuple[list[BoardView], list[int]]:
+    """All views, and for each the index of its image.
+
+    Raises:
+        CalibrationError: BOARD_NOT_FOUND, it is in no image.
+    """
+    views, owners = [], []
+    for index, found in enumerate(looked.seen):
+        for one in found:
+            if isinstance(one, BoardView):
+                views.append(one)
+                owners.append(index)
+    if not views:
+        why = next(one for found in looked.seen for one in found if isinstance(one, BoardNotFound))
+        raise CalibrationError(
+            "BOARD_NOT_FOUND",
+            f"the board is in none of {len(looked.names)} images ({looked.names[0]}: {why.sentence})",
+            "Check --pattern and --size (dots, inner corners of a checkerboard, squares of a ChArUco board), "
+            "and that the board is sharp and evenly lit.",
+            {"images": len(looked.names), "reason": why.reason.value},
+        )
+    return views, owners
+
+
+def _found(picture: Picture, board: Board) -> BoardView | BoardNotFound:
+    return find_board(picture.image, board)
+
+
+def _write(
+    order: CalibrationOrder, report: CalibrationReport, entries: Sequence[ImageEntry], boards: Sequence[Board]
+) -> tuple[Path, ...]:
+    written: list[Path] = []
+    if order.output is not None:
+        file = CameraFile(
+            model=report.camera, camera_name=order.camera_name, camera_source=order.camera_source
+        )
+        facts = {
+            "rms_px": round(report.rms_px, 4),
+            "sd": {one.name: float(f"{one.sd:.4g}") for one in report.parameters},
+            "views_used": sum(entry.used for entry in entries),
+            "views": len(entries),
+            "boards": [described(board) for board in boards],
+            "warnings": [one.code for one in report.warnings],
+        }
+        write_whole(order.output, camera_file_text(file, facts).encode())
+        written.append(order.output)
+    if order.plots is not None:
+        for name, svg in (("residuals.svg", residuals_svg(report)), ("coverage.svg", coverage_svg(report))):
+            write_whole(order.plots / name, svg.encode())
+            written.append(order.plots / name)
+    return tuple(written)
+
+
+def _refuse_writing_over(output: Path | None, files: Sequence[Path]) -> None:
+    if output is not None and any(output.exists() and file.samefile(output) for file in files):
+        raise InvalidInput(
+            "OUTPUT_IS_INPUT",
+            f"--output {output} would write over an image",
+            "Name a file of its own, as camera.yaml.",
+            {"file": str(output)},
+        )

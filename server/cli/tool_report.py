@@ -1,0 +1,191 @@
+"""How a calibration of a tool is told: to a person in words, to a machine as JSON."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from server.pose_file import PoseFiles
+from tracker.errors import CalibrationError
+from tracker.pose.tool import PivotCalibration, RejectedPose, SpinCalibration, TipCheck, ToolGate, Turning
+
+MOST_TOLD = 12
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Report:
+    """What a command says.
+
+    Attributes:
+        lines: for a person.
+        values: for a machine.
+        failures: why the gate is not passed.
+    """
+
+    lines: Sequence[str]
+    values: dict[str, Any]
+    failures: Sequence[CalibrationError] = field(default_factory=tuple)
+
+
+def told(report: Report, *, as_json: bool) -> None:
+    """Write a report to standard output, and why the gate failed to standard error."""
+    passed = not report.failures
+    if as_json:
+        gate = {
+            **report.values["gate"],
+            "passed": passed,
+            "failures": [_failure(one) for one in report.failures],
+        }
+        typer.echo(json.dumps({**report.values, "gate": gate}, allow_nan=False))
+    else:
+        for line in report.lines:
+            typer.echo(line)
+        typer.echo("Passed." if passed else "FAILED.")
+    for failure in report.failures:
+        typer.echo(f"Failed: {failure.message}.\n{failure.remedy}", err=True)
+
+
+def pivot_report(
+    found: PivotCalibration,
+    failures: Sequence[CalibrationError],
+    files: PoseFiles,
+    written: Path | None,
+    gate: ToolGate,
+) -> Report:
+    """What `coaxial pivot` says."""
+    sd_mm = [float(v) ** 0.5 for v in found.tip_covariance_mm2.diagonal()]
+    turning = found.turning
+    lines = [
+        f"Tip in the marker's frame: {_point(found.tip_in_marker_mm)} mm (sd {_point(sd_mm, 3)})",
+        f"Pivot in the camera's frame: {_point(found.pivot_in_camera_mm)} mm",
+        f"3-D RMS of the tip about the pivot: {found.rms_3d_mm:.3f} mm, allowed {gate.most_rms_3d_mm:g} mm",
+        _used_line(int(found.used.sum()), found.rejected, files, "mm from the pivot"),
+        _turning_line(turning),
+        *_written_line(written),
+    ]
+    values = {
+        "tip_in_marker_mm": found.tip_in_marker_mm.tolist(),
+        "pivot_mm": found.pivot_in_camera_mm.tolist(),
+        "rms_3d_mm": found.rms_3d_mm,
+        "covariance_mm2": found.tip_covariance_mm2.tolist(),
+        "used": int(found.used.sum()),
+        "rejected": len(found.rejected),
+        "tilt_range_deg": turning.tilt_range_deg,
+        "tilt_range_across_deg": turning.tilt_range_across_deg,
+        "spin_range_deg": turning.spin_range_deg,
+        "least_turn_deg": turning.least_turn_deg,
+        "rms_3d_of_all_mm": found.rms_3d_of_all_mm,
+        "pivot_covariance_mm2": found.pivot_covariance_mm2.tolist(),
+        "tip_sd_mm": found.tip_sd_mm,
+        "rejected_poses": _rejected(found.rejected, files, "off_mm"),
+        **_files(files),
+        "written": None if written is None else str(written),
+        "gate": {"most_rms_3d_mm": gate.most_rms_3d_mm, "most_tip_sd_mm": gate.most_tip_sd_mm},
+    }
+    return Report(lines=lines, values=values, failures=failures)
+
+
+def spin_report(
+    found: SpinCalibration,
+    failures: Sequence[CalibrationError],
+    files: PoseFiles,
+    written: Path | None,
+    gate: ToolGate,
+) -> Report:
+    """What `coaxial spin` says."""
+    sign = "towards the tip" if found.points_to_tip else "its sign is open: give --tool or --tip-mm"
+    lines = [
+        f"Axis in the marker's frame: {_point(found.axis_in_marker, 4)} ({sign}), "
+        f"sd {found.axis_sd_deg:.3f} deg, allowed {gate.most_axis_sd_deg:g} deg",
+        f"Spun by {found.spin_range_deg:.0f} deg, the axis itself moved by {found.wobble_deg:.2f} deg (RMS)",
+        _used_line(int(found.used.sum()), found.rejected, files, "deg off the axis"),
+        *_written_line(written),
+    ]
+    values = {
+        "axis_in_marker": found.axis_in_marker.tolist(),
+        "points_to_tip": found.points_to_tip,
+        "axis_sd_deg": found.axis_sd_deg,
+        "covariance_rad2": found.axis_covariance_rad2.tolist(),
+        "spin_range_deg": found.spin_range_deg,
+        "wobble_deg": found.wobble_deg,
+        "used": int(found.used.sum()),
+        "rejected": len(found.rejected),
+        "rejected_poses": _rejected(found.rejected, files, "off_deg"),
+        **_files(files),
+        "written": None if written is None else str(written),
+        "gate": {"most_axis_sd_deg": gate.most_axis_sd_deg},
+    }
+    return Report(lines=lines, values=values, failures=failures)
+
+
+def check_report(
+    found: TipCheck, failures: Sequence[CalibrationError], files: PoseFiles, gate: ToolGate
+) -> Report:
+    """What `coaxial tip-check` says."""
+    lines = [
+        f"The tip wanders by {found.rms_3d_mm:.3f} mm (3-D RMS, allowed {gate.most_rms_3d_mm:g}), "
+        f"{found.most_mm:.3f} mm at most, by axis {_point(found.rms_by_axis_mm, 3)} mm, "
+        f"in {found.poses} poses",
+        _turning_line(found.turning),
+    ]
+    values = {
+        "rms_3d_mm": found.rms_3d_mm,
+        "most_mm": found.most_mm,
+        "rms_by_axis_mm": found.rms_by_axis_mm.tolist(),
+        "pivot_mm": found.pivot_in_camera_mm.tolist(),
+        "used": found.poses,
+        "tilt_range_deg": found.turning.tilt_range_deg,
+        "tilt_range_across_deg": found.turning.tilt_range_across_deg,
+        "spin_range_deg": found.turning.spin_range_deg,
+        **_files(files),
+        "gate": {"most_rms_3d_mm": gate.most_rms_3d_mm},
+    }
+    return Report(lines=lines, values=values, failures=failures)
+
+
+def _failure(error: CalibrationError) -> dict[str, str]:
+    return {"code": error.code, "message": error.message, "remedy": error.remedy}
+
+
+def _rejected(rejected: Sequence[RejectedPose], files: PoseFiles, off: str) -> list[dict[str, Any]]:
+    return [
+        {"pose": files.records[one.index].place, "reason": one.reason.value, off: one.off} for one in rejected
+    ]
+
+
+def _files(files: PoseFiles) -> dict[str, Any]:
+    return {
+        "poses": len(files.records),
+        "unseen_images": files.unseen,
+        "ignored_files": list(files.ignored),
+    }
+
+
+def _used_line(used: int, rejected: Sequence[RejectedPose], files: PoseFiles, off: str) -> str:
+    line = f"Used {used} of {len(files.records)} poses"
+    if rejected:
+        named = [
+            f"{files.records[one.index].place} ({one.reason.value}, {one.off:.2f} {off})"
+            for one in rejected[:MOST_TOLD]
+        ]
+        more = f" and {len(rejected) - MOST_TOLD} more" if len(rejected) > MOST_TOLD else ""
+        line += "; not " + ", ".join(named) + more
+    return line
+
+
+def _turning_line(turning: Turning) -> str:
+    return (
+        f"Tilted by {turning.tilt_range_deg:.0f} deg and by {turning.tilt_range_across_deg:.0f} deg across, "
+        f"spun by {turning.spin_range_deg:.0f} deg"
+    )
+
+
+def _written_line(written: Path | None) -> list[str]:
+    return [] if written is None else [f"Wrote {written}: name it under tools: NAME: calibration:"]
+
+
+def _point(numbers: Any, digits: int = 2) -> str:  # noqa: ANN401  any three numbers
+    return ", ".join(f"{number:.{digits}f}" for number in numbers)

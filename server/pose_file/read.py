@@ -1,0 +1,144 @@
+"""From a path to poses: which reader a file needs, and in which order a folder's files come."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from server.pose_file.record import FORMATS_REMEDY, PoseRecord, unreadable
+from server.pose_file.structured import Told, poses_from_array, poses_from_json
+from server.pose_file.text import holds_numbers, poses_from_text
+from server.pose_file.unit import Unit
+from tracker.errors import InvalidInput
+from tracker.pose.tool import Poses
+
+TEXT = {".txt", ".csv", ".tsv", ".dat", ".mat", ".asc", ".pose"}
+JSON = {".json", ".jsonl", ".ndjson"}
+ARRAY = {".npy", ".npz"}
+MOST_BYTES = 200_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PoseFiles:
+    """All poses that a path holds.
+
+    Attributes:
+        records: in the order of time, as far as names and lines tell it.
+        ignored: files of a folder that hold no pose.
+        unseen: how many images did not show the marker.
+    """
+
+    records: tuple[PoseRecord, ...]
+    ignored: tuple[str, ...] = ()
+    unseen: int = 0
+
+    @property
+    def poses(self) -> Poses:
+        """For a calibration; with covariances if all poses state theirs.
+
+        Raises:
+            InvalidInput: POSE_UNIT_SUSPECT or POSE_COVARIANCE_INVALID.
+        """
+        covariances = [record.covariance for record in self.records]
+        stated = [one for one in covariances if one is not None]
+        return Poses.from_rigids(
+            [record.pose for record in self.records],
+            stated if stated and len(stated) == len(covariances) else None,
+        )
+
+
+def read_poses(path: Path, *, unit: Unit = Unit.MM, marker: str | None = None) -> PoseFiles:
+    """Poses of one marker from a folder or a file.
+
+    Raises:
+        InvalidInput: POSES_NOT_FOUND, POSES_UNREADABLE, POSES_NOT_CALIBRATED, POSES_OF_SEVERAL_MARKERS, or
+            POSE_MATRIX_INVALID; each says where.
+    """
+    if not path.exists():
+        raise InvalidInput("POSES_NOT_FOUND", f"there is no {path}", FORMATS_REMEDY, {"path": str(path)})
+    records: list[PoseRecord] = []
+    ignored: list[str] = []
+    unseen = 0
+    for file in _files(path):
+        told = _told(file, unit, in_folder=path.is_dir())
+        if told is None:
+            ignored.append(file.name)
+            continue
+        records += told.poses
+        unseen += told.unseen
+    chosen = _of_one_marker(records, marker)
+    if not chosen:
+        what = f"{unseen} images do not show the marker" if unseen else f"{len(ignored)} other files"
+        raise InvalidInput(
+            "POSES_NOT_FOUND", f"{path} holds no pose ({what})", FORMATS_REMEDY, {"path": str(path)}
+        )
+    return PoseFiles(records=tuple(chosen), ignored=tuple(ignored), unseen=unseen)
+
+
+def _files(path: Path) -> list[Path]:
+    if not path.is_dir():
+        return [path]
+    files = [file for file in path.iterdir() if file.is_file() and not file.name.startswith(".")]
+    # As a person counts: pose2 before pose10.
+    return sorted(files, key=lambda file: [_counted(part) for part in re.split(r"(\d+)", file.name)])
+
+
+def _counted(part: str) -> tuple[int, int, str]:
+    return (0, int(part), "") if part.isdecimal() and part.isascii() else (1, 0, part)
+
+
+def _told(file: Path, unit: Unit, *, in_folder: bool) -> Told | None:
+    """What one file tells; None for a file of a folder that is something else (a licence, a picture)."""
+    kind = file.suffix.lower()
+    if in_folder and kind not in TEXT | JSON | ARRAY:
+        return None
+    try:
+        size = file.stat().st_size
+        if size > MOST_BYTES:
+            raise unreadable(str(file), f"it has {size / 1e6:.0f} MB, allowed {MOST_BYTES / 1e6:.0f} MB")
+        if kind in ARRAY:
+            return Told(poses=poses_from_array(_array(file), name=file.name, unit=unit))
+        text = file.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise unreadable(str(file), f"it cannot be read: {(error.strerror or str(error)).lower()}") from error
+    except UnicodeDecodeError as error:
+        raise unreadable(str(file), "it is no text") from error
+    if kind in JSON or (kind not in TEXT and text.lstrip()[:1] == "{"):
+        return poses_from_json(text, name=file.name, unit=unit)
+    if in_folder and not holds_numbers(text) and text.strip():
+        return None
+    return Told(poses=poses_from_text(text, name=file.name, unit=unit))
+
+
+def _array(file: Path) -> np.ndarray:
+    try:
+        loaded = np.load(file, allow_pickle=False)
+        if isinstance(loaded, np.ndarray):
+            return loaded
+        with loaded:
+            names = list(loaded)
+            if len(names) != 1:
+                raise unreadable(str(file), f"it holds {len(names)} arrays, needed one")
+            return np.asarray(loaded[names[0]])
+    except (ValueError, EOFError, OSError) as error:
+        raise unreadable(str(file), "it is no whole NumPy file of numbers") from error
+
+
+def _of_one_marker(records: list[PoseRecord], marker: str | None) -> list[PoseRecord]:
+    names = sorted({record.marker for record in records if record.marker is not None})
+    if marker is None and len(names) > 1:
+        raise InvalidInput(
+            "POSES_OF_SEVERAL_MARKERS",
+            f"there are poses of {len(names)} markers: {', '.join(names)}",
+            "Say with --marker which one is on the tool.",
+            {"markers": names},
+        )
+    if marker is not None and names and marker not in names:
+        raise InvalidInput(
+            "POSES_NOT_FOUND",
+            f"there are no poses of '{marker}', only of {', '.join(names)}",
+            "Say with --marker which one is on the tool.",
+            {"markers": names},
+        )
+    return [record for record in records if marker is None or record.marker in {None, marker}]

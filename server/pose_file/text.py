@@ -1,0 +1,140 @@
+"""Poses in text: rows of numbers, or columns with names."""
+
+import re
+
+import numpy as np
+
+from server.pose_file.record import PoseRecord, at_place, unreadable
+from server.pose_file.unit import Unit
+from tracker.errors import InvalidInput
+from tracker.pose.tool import rigid_from_quaternion, rigid_from_written
+
+NO_NUMBERS = re.compile(r"[\[\](){},;|]")
+COMMENT = re.compile(r"(#|%|//).*$")
+LAST_ROW = [0.0, 0.0, 0.0, 1.0]
+TIMES = {"t", "time", "time_s", "timestamp", "stamp", "sec", "seconds", "frame", "index", "image_number"}
+NAMES = {
+    "x": ("x", "tx", "px", "pos_x", "x_mm", "tx_mm"),
+    "y": ("y", "ty", "py", "pos_y", "y_mm", "ty_mm"),
+    "z": ("z", "tz", "pz", "pos_z", "z_mm", "tz_mm"),
+    "qw": ("qw", "q_w", "q0", "qr", "rot_w"),
+    "qx": ("qx", "q_x", "q1", "qi", "rot_x"),
+    "qy": ("qy", "q_y", "q2", "qj", "rot_y"),
+    "qz": ("qz", "q_z", "q3", "qk", "rot_z"),
+}
+Row = tuple[int, list[float]]
+
+
+def poses_from_text(text: str, *, name: str, unit: Unit) -> list[PoseRecord]:
+    """All poses in a text.
+
+    Raises:
+        InvalidInput: POSES_UNREADABLE or POSE_MATRIX_INVALID, with the file and its line.
+    """
+    lines = [
+        (number, COMMENT.sub("", line).strip()) for number, line in enumerate(text.splitlines(), start=1)
+    ]
+    lines = [(number, line) for number, line in lines if NO_NUMBERS.sub("", line).strip()]
+    if not lines:
+        raise unreadable(name, "there is nothing in it")
+    header: list[str] = []
+    if _numbers(lines[0][1]) is None:
+        header = [word.strip().strip('"').lower() for word in _split(lines[0][1])]
+        lines = lines[1:]
+    rows: list[Row] = []
+    for number, line in lines:
+        numbers = _numbers(line)
+        if numbers is None:
+            raise unreadable(f"{name}, line {number}", f"'{line[:40]}' is no row of numbers")
+        rows.append((number, numbers))
+    widths = {len(numbers) for _, numbers in rows}
+    if len(widths) > 1 and "[" in text:
+        # A printed array breaks its rows where the line is full.
+        flat = [number for _, numbers in rows for number in numbers]
+        if len(flat) % 16 == 0:
+            blocks = [flat[at : at + 16] for at in range(0, len(flat), 16)]
+            rows, widths = list(enumerate(blocks, start=1)), {16}
+    if len(widths) != 1:
+        shown = ", ".join(str(width) for width in sorted(widths))
+        raise unreadable(name, f"its rows have different lengths ({shown or 'no rows'})")
+    return _from_rows(rows, header, name=name, unit=unit)
+
+
+def holds_numbers(text: str) -> bool:
+    """Whether any line of a text is a row of at least three numbers: what is not is no pose, but a note."""
+    return any(len(_numbers(line) or []) >= 3 for line in text.splitlines())
+
+
+def _from_rows(rows: list[Row], header: list[str], *, name: str, unit: Unit) -> list[PoseRecord]:
+    width = len(rows[0][1])
+    if header and len(header) == width and not {"qw", "q_w", "q0", "qr", "rot_w"}.isdisjoint(header):
+        return _from_quaternions(rows, header, name=name, unit=unit)
+    if header and len(header) == width and header[0] in TIMES:
+        rows = [(number, numbers[1:]) for number, numbers in rows]
+        width -= 1
+    if width == 4:
+        return _from_blocks(rows, name=name, unit=unit)
+    if width in {13, 17}:
+        # A time stands before the matrix.
+        rows = [(number, numbers[1:]) for number, numbers in rows]
+        width -= 1
+    if width not in {12, 16}:
+        told = "; the order of a quaternion's parts must be named by a header" if width in {7, 8} else ""
+        raise unreadable(name, f"its rows have {width} numbers, needed 4, 12 or 16{told}")
+    return [
+        _pose(np.array(numbers).reshape(-1, 4), f"{name}, line {number}", unit) for number, numbers in rows
+    ]
+
+
+def _from_blocks(rows: list[Row], *, name: str, unit: Unit) -> list[PoseRecord]:
+    """Rows of four: blocks of four rows, or of three where the last row was left out."""
+    count = len(rows)
+    with_last = count % 4 == 0 and (count % 3 != 0 or any(numbers == LAST_ROW for _, numbers in rows))
+    size = 4 if with_last else 3
+    if count % size != 0:
+        raise unreadable(name, f"it has {count} rows of 4 numbers, which is no whole number of 4x4 matrices")
+    single = count == size
+    found = []
+    for start in range(0, count, size):
+        place = name if single else f"{name}, line {rows[start][0]}"
+        found.append(_pose(np.array([numbers for _, numbers in rows[start : start + size]]), place, unit))
+    return found
+
+
+def _from_quaternions(rows: list[Row], header: list[str], *, name: str, unit: Unit) -> list[PoseRecord]:
+    column_of = {}
+    for part, names in NAMES.items():
+        there = [header.index(one) for one in names if one in header]
+        if not there:
+            raise unreadable(name, f"its header ({', '.join(header)}) names no column for {part}")
+        column_of[part] = there[0]
+    found = []
+    for number, numbers in rows:
+        place = f"{name}, line {number}"
+        quaternion = [numbers[column_of[part]] for part in ("qw", "qx", "qy", "qz")]
+        translation = [numbers[column_of[part]] for part in ("x", "y", "z")]
+        try:
+            pose = rigid_from_quaternion(quaternion, translation, unit_mm=unit.in_mm)
+        except InvalidInput as error:
+            raise at_place(place, error) from None
+        found.append(PoseRecord(place=place, pose=pose))
+    return found
+
+
+def _pose(matrix: np.ndarray, place: str, unit: Unit) -> PoseRecord:
+    try:
+        return PoseRecord(place=place, pose=rigid_from_written(matrix, unit_mm=unit.in_mm))
+    except InvalidInput as error:
+        raise at_place(place, error) from None
+
+
+def _split(line: str) -> list[str]:
+    parts = line.split(",") if "," in line else line.split(";") if ";" in line else line.split()
+    return [part.strip() for part in parts if part.strip()]
+
+
+def _numbers(line: str) -> list[float] | None:
+    try:
+        return [float(word) for word in NO_NUMBERS.sub(" ", COMMENT.sub("", line)).split()]
+    except ValueError:
+        return None

@@ -1,0 +1,80 @@
+"""Looks at the live images while a step of the set-up collects from them."""
+
+import threading
+import time
+from collections.abc import Callable
+
+import structlog
+
+from server.live import Instant, LiveHub, Trouble
+from tracker.errors import NavigationError
+
+WAIT_S = 0.2
+
+log = structlog.get_logger(__name__)
+
+
+class Follower:
+    """Hands the newest instant to `look`, in a thread of its own, until it is stopped.
+
+    A look that takes long skips images; nothing is queued. What a look raises ends the following and is kept
+    as `trouble`.
+
+    Args:
+        hub: where instants come from.
+        look: what is done with each; called from one thread alone.
+        name: of the thread, for the log.
+        rest_s: least pause between two looks, so that the video keeps its share of the machine.
+    """
+
+    def __init__(
+        self, hub: LiveHub, look: Callable[[Instant], None], *, name: str, rest_s: float = 0.0
+    ) -> None:
+        self._hub = hub
+        self._look = look
+        self._rest_s = rest_s
+        self._stop = threading.Event()
+        self._trouble: Trouble | None = None
+        newest = hub.newest
+        # What was there before somebody asked is not looked at.
+        self._sequence = -1 if newest is None else newest.sequence
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        self._thread.start()
+
+    @property
+    def trouble(self) -> Trouble | None:
+        """Why it ended by itself; None while it follows, and when it was stopped."""
+        return self._trouble
+
+    @property
+    def running(self) -> bool:
+        """Whether it still looks."""
+        return self._trouble is None and not self._stop.is_set()
+
+    def stop(self) -> None:
+        """Look no more; returns when the last look is over."""
+        self._stop.set()
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+
+    def _run(self) -> None:
+        while not self._stop.is_set():
+            instant = self._hub.wait_after(self._sequence, WAIT_S)
+            if instant is None:
+                continue
+            self._sequence = instant.sequence
+            began_s = time.monotonic()
+            try:
+                self._look(instant)
+            except NavigationError as error:
+                self._trouble = Trouble.from_error(error)
+                return
+            except Exception:
+                log.exception("a live image could not be used", step=self._thread.name)
+                self._trouble = Trouble(
+                    code="STEP_FAILED",
+                    message=f"{self._thread.name} ended by a mistake of the server",
+                    remedy="Start it again; if it comes back, send the server's log to the maintainer.",
+                )
+                return
+            self._stop.wait(max(0.0, self._rest_s - (time.monotonic() - began_s)))

@@ -1,0 +1,70 @@
+"""What the open case knows, kept in use: each change of it reaches the tracking process at once."""
+
+import threading
+from collections.abc import Callable, Mapping
+
+import structlog
+
+from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.tool import kept_tool
+from server.setup import CaseSetup
+from server.store import CaseStore, Current, Document, DocumentKind
+from tracker.camera import CameraModel
+from tracker.errors import NavigationError
+from tracker.pose import ToolModel
+
+log = structlog.get_logger(__name__)
+
+
+class CaseInUse:
+    """Hands what the open case knows to whatever tracks.
+
+    What is out of date, withdrawn, unreadable or of another camera is not used: it is then unknown.
+
+    Args:
+        store: where cases are kept.
+        adopt: told what the open case knows, whenever that has changed.
+        source: of the camera, in words; a calibration of another one is not used.
+    """
+
+    def __init__(self, store: CaseStore, adopt: Callable[[CaseSetup], None], *, source: str) -> None:
+        self._store = store
+        self._adopt = adopt
+        self._source = source
+        self._lock = threading.Lock()
+        self._in_use: tuple[str, ...] = ()
+
+    def refresh(self) -> None:
+        """Look what the open case knows now, and hand it on if it is not what is in use."""
+        with self._lock:
+            documents = self._documents()
+            ids = tuple(document.id for document in documents)
+            if ids != self._in_use:
+                self._adopt(self._setup_of(documents))
+                self._in_use = ids
+
+    def _documents(self) -> list[Document]:
+        """What of the open case holds and says something of the set-up."""
+        case = self._store.opened()
+        if case is None:
+            return []
+        kinds = (DocumentKind.CAMERA, DocumentKind.TOOL)
+        newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
+        return [document for document in newest if isinstance(self._store.standing(document), Current)]
+
+    def _setup_of(self, documents: list[Document]) -> CaseSetup:
+        cameras: dict[str, CameraModel] = {}
+        tools: dict[str, ToolModel] = {}
+        for document in documents:
+            try:
+                if document.kind is DocumentKind.CAMERA:
+                    cameras[document.name] = kept_camera(document, source=self._source)
+                else:
+                    tools.update(_named(document.name, kept_tool(document).model(document.name)))
+            except NavigationError as error:
+                log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
+        return CaseSetup(camera=cameras.get(MAIN_CAMERA), tools=tools)
+
+
+def _named(name: str, tool: ToolModel | None) -> Mapping[str, ToolModel]:
+    return {} if tool is None else {name: tool}

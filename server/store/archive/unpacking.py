@@ -1,0 +1,173 @@
+"""A case taken in from an archive."""
+
+import os
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+from sqlalchemy.orm import Session
+
+from server.store.archive.form import CASE, DOCUMENTS, FILES, CaseForm, DocumentForm, refused
+from server.store.archive.reading import Parts, opened, shaped
+from server.store.cases import add_case, case_of
+from server.store.checks import checked_name, text_of
+from server.store.errors import FULL, REMEDY, StoreError, told
+from server.store.files import READ_ONLY, UNFINISHED, make_folder
+from server.store.home import sync_folder
+from server.store.ledger import Ledger
+from server.store.records import Case, DocumentKind
+from server.store.sweep import remove_case
+from server.store.tables import (
+    ARRIVING,
+    HERE,
+    WHOLE,
+    BasisRow,
+    CaseRow,
+    DocumentFileRow,
+    DocumentRow,
+    FileRow,
+)
+from tracker.errors import InvalidInput
+
+SPARE_BYTES = 64 * 2**20
+
+
+def unpack(ledger: Ledger, archive: Path) -> Case:
+    """Take a case in; it is there whole when this returns, and otherwise nothing of it is.
+
+    Raises:
+        InvalidInput: ARCHIVE_INVALID, ARCHIVE_NEWER.
+        StoreError: STORE_FULL.
+    """
+    with told(ledger.home.folder), opened(archive) as parts:
+        case, documents = _judged(parts)
+        _refuse_without_room(ledger, parts)
+        with ledger.writing() as session:
+            arriving = add_case(session, name=case.name, now=ledger.now, state=ARRIVING, copied_from=case.id)
+        try:
+            _write_files(ledger.home.cases / arriving.id, case, parts)
+            with ledger.writing() as session:
+                return _arrive(session, arriving.id, case, documents, parts)
+        except BaseException:
+            remove_case(ledger, arriving.id)
+            raise
+
+
+def _judged(parts: Parts) -> tuple[CaseForm, list[DocumentForm]]:
+    """The case and its documents, if they fit together."""
+    case = shaped(CaseForm, parts.text(CASE), where=CASE)
+    files = [file.id for file in case.files]
+    expected = {f"{FILES}{file}" for file in files} | {CASE, DOCUMENTS}
+    if len(set(files)) != len(files) or {part.path for part in parts.manifest.parts} != expected:
+        raise refused(f"its files are not those that {CASE} names")
+    lines = parts.text(DOCUMENTS).split(b"\n")
+    if lines.pop() != b"":
+        raise refused(f"{DOCUMENTS} ends in the middle of a line")
+    documents = [
+        shaped(DocumentForm, line, where=f"{DOCUMENTS}, line {number}")
+        for number, line in enumerate(lines, 1)
+    ]
+    try:
+        checked_name(case.name, of="name of the case")
+        _refuse_misfits(documents, set(files))
+    except InvalidInput as error:
+        if error.code == "ARCHIVE_INVALID":
+            raise
+        raise refused(error.message) from error
+    return case, documents
+
+
+def _refuse_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
+    """Each document stands on those before it, has its own version, and files that are there."""
+    earlier: dict[str, DocumentKind] = {}
+    newest: dict[tuple[DocumentKind, str], int] = {}
+    for document in documents:
+        text_of(document.content)
+        for name in (document.name, document.made_by):
+            if checked_name(name, of="name of a document") != name:
+                raise refused(f"the name of the document {document.id} is not in its plain form")
+        if document.id in earlier:
+            raise refused(f"it has two documents {document.id}")
+        if newest.get((document.kind, document.name), 0) + 1 != document.version:
+            before = document.version - 1
+            raise refused(f"the document {document.id} has version {before + 1}, but not version {before}")
+        for basis in document.stands_on:
+            if earlier.get(basis, DocumentKind.PATIENT) is DocumentKind.PATIENT:
+                raise refused(f"the document {document.id} stands on {basis}, which is not before it")
+        repeated = any(len(set(ids)) != len(ids) for ids in (document.stands_on, document.files))
+        if repeated or not files.issuperset(document.files):
+            raise refused(f"the document {document.id} has files or bases that are not there, or there twice")
+        earlier[document.id] = document.kind
+        newest[document.kind, document.name] = document.version
+
+
+def _refuse_without_room(ledger: Ledger, parts: Parts) -> None:
+    free_bytes = shutil.disk_usage(ledger.home.folder).free
+    if parts.total_bytes + SPARE_BYTES > free_bytes:
+        raise StoreError(
+            FULL,
+            f"the case needs {parts.total_bytes / 2**30:.2f} GB, and under {ledger.home.folder} are "
+            f"{free_bytes / 2**30:.2f} GB free",
+            REMEDY[FULL],
+            {"needed_bytes": parts.total_bytes, "free_bytes": free_bytes},
+        )
+
+
+def _write_files(folder: Path, case: CaseForm, parts: Parts) -> None:
+    make_folder(folder)
+    for file in case.files:
+        part = folder / f"{UNFINISHED}{file.id}"
+        with part.open("xb") as stream:
+            for piece in parts.pieces(f"{FILES}{file.id}"):
+                stream.write(piece)
+            stream.flush()
+            os.fsync(stream.fileno())
+        part.chmod(READ_ONLY)
+        part.replace(folder / file.id)
+    sync_folder(folder)
+
+
+def _arrive(
+    session: Session, case_id: str, case: CaseForm, documents: Iterable[DocumentForm], parts: Parts
+) -> Case:
+    row = session.get_one(CaseRow, case_id)
+    row.state, row.created_at, row.changed_at = HERE, case.created_at, case.changed_at
+    for file in case.files:
+        part = parts.part(f"{FILES}{file.id}")
+        session.add(
+            FileRow(
+                case_id=case_id,
+                id=file.id,
+                state=WHOLE,
+                size_bytes=part.size_bytes,
+                sha256=part.sha256,
+                made_at=file.made_at,
+            )
+        )
+    session.flush()
+    for document in documents:
+        session.add(_document_row(case_id, document))
+        session.flush()
+        for place, basis in enumerate(document.stands_on):
+            session.add(BasisRow(case_id=case_id, document_id=document.id, place=place, basis_id=basis))
+        for place, used in enumerate(document.files):
+            session.add(DocumentFileRow(case_id=case_id, document_id=document.id, place=place, file_id=used))
+    session.flush()
+    return case_of(row)
+
+
+def _document_row(case_id: str, document: DocumentForm) -> DocumentRow:
+    withdrawn = document.withdrawn
+    return DocumentRow(
+        case_id=case_id,
+        id=document.id,
+        kind=document.kind.value,
+        name=document.name,
+        version=document.version,
+        content=text_of(document.content),
+        made_at=document.made_at,
+        made_by=document.made_by,
+        withdrawn_at=None if withdrawn is None else withdrawn.at,
+        withdrawn_by=None if withdrawn is None else withdrawn.by,
+        withdrawn_reason=None if withdrawn is None else withdrawn.reason,
+    )

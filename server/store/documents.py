@@ -1,0 +1,258 @@
+"""Documents: added version by version, read, withdrawn; never changed."""
+
+import json
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from sqlalchemy import ColumnClause, func, literal_column, select
+from sqlalchemy.orm import Session
+
+from server.store.cases import new_id
+from server.store.checks import checked_name, text_of
+from server.store.errors import NotStored, StoreConflict
+from server.store.records import Document, DocumentKind, Withdrawal
+from server.store.tables import WHOLE, BasisRow, DocumentFileRow, DocumentRow, FileRow
+from tracker.errors import InvalidInput
+
+# As they were stored; clocks may go back.
+IN_ORDER: ColumnClause[int] = literal_column("documents.rowid")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewDocument:
+    """A document that is to be stored, with everything in it checked."""
+
+    kind: DocumentKind
+    name: str
+    text: str
+    made_by: str
+    stands_on: tuple[str, ...]
+    files: tuple[str, ...]
+    expected_version: int | None
+
+    @classmethod
+    def checked(
+        cls,
+        kind: DocumentKind,
+        name: str,
+        content: Mapping[str, object],
+        *,
+        made_by: str,
+        stands_on: Sequence[str],
+        files: Sequence[str],
+        expected_version: int | None,
+    ) -> "NewDocument":
+        """Refuse what cannot be stored, before the database is asked.
+
+        Raises:
+            InvalidInput: NAME_INVALID, CONTENT_NOT_JSON, CONTENT_TOO_LARGE.
+        """
+        return cls(
+            kind=DocumentKind(kind),
+            name=checked_name(name, of="name of the document"),
+            text=text_of(content),
+            made_by=checked_name(made_by, of="name of who made it"),
+            stands_on=tuple(dict.fromkeys(stands_on)),
+            files=tuple(dict.fromkeys(files)),
+            expected_version=expected_version,
+        )
+
+
+def add_document(session: Session, case_id: str, new: NewDocument, *, now: str) -> Document:
+    """Store the next version."""
+    version = _next_version(session, case_id, new)
+    _refuse_strange(session, case_id, new)
+    row = DocumentRow(
+        case_id=case_id,
+        id=new_id(),
+        kind=new.kind.value,
+        name=new.name,
+        version=version,
+        content=new.text,
+        made_at=now,
+        made_by=new.made_by,
+    )
+    session.add(row)
+    session.flush()
+    for place, basis in enumerate(new.stands_on):
+        session.add(BasisRow(case_id=case_id, document_id=row.id, place=place, basis_id=basis))
+    for place, file in enumerate(new.files):
+        session.add(DocumentFileRow(case_id=case_id, document_id=row.id, place=place, file_id=file))
+    session.flush()
+    return document_of(row, new.stands_on, new.files)
+
+
+def find_document(session: Session, case_id: str, document_id: str) -> Document:
+    """One document.
+
+    Raises:
+        NotStored: DOCUMENT_UNKNOWN.
+    """
+    return _read(session, [document_row(session, case_id, document_id)])[0]
+
+
+def document_row(session: Session, case_id: str, document_id: str) -> DocumentRow:
+    """The row of one document.
+
+    Raises:
+        NotStored: DOCUMENT_UNKNOWN.
+    """
+    row = session.get(DocumentRow, (case_id, document_id))
+    if row is None:
+        raise _unknown(case_id, document_id)
+    return row
+
+
+def versions(session: Session, case_id: str, kind: DocumentKind, name: str) -> tuple[Document, ...]:
+    """All versions, the first first."""
+    chosen = (
+        select(DocumentRow)
+        .where(DocumentRow.case_id == case_id, DocumentRow.kind == kind.value, DocumentRow.name == name)
+        .order_by(DocumentRow.version)
+    )
+    return _read(session, session.scalars(chosen).all())
+
+
+def every_document(session: Session, case_id: str) -> Iterator[Document]:
+    """All documents of a case, one after the other, each after those that it stands on."""
+    bases, files = links_of(session, case_id)
+    for row in session.scalars(
+        select(DocumentRow)
+        .where(DocumentRow.case_id == case_id)
+        .order_by(IN_ORDER)
+        .execution_options(yield_per=20)
+    ):
+        yield document_of(row, bases[row.id], files[row.id])
+
+
+def newest(session: Session, case_id: str, kind: DocumentKind, name: str | None) -> tuple[Document, ...]:
+    """The newest version of each name, where it was not withdrawn; ordered by name."""
+    last = (
+        select(DocumentRow.name, func.max(DocumentRow.version).label("version"))
+        .where(DocumentRow.case_id == case_id, DocumentRow.kind == kind.value)
+        .group_by(DocumentRow.name)
+        .subquery()
+    )
+    chosen = (
+        select(DocumentRow)
+        .join(last, (DocumentRow.name == last.c.name) & (DocumentRow.version == last.c.version))
+        .where(
+            DocumentRow.case_id == case_id,
+            DocumentRow.kind == kind.value,
+            DocumentRow.withdrawn_at.is_(None),
+        )
+        .order_by(DocumentRow.name)
+    )
+    if name is not None:
+        chosen = chosen.where(DocumentRow.name == name)
+    return _read(session, session.scalars(chosen).all())
+
+
+def document_of(row: DocumentRow, stands_on: Iterable[str], files: Iterable[str]) -> Document:
+    """The record of a row."""
+    return Document(
+        case_id=row.case_id,
+        id=row.id,
+        kind=DocumentKind(row.kind),
+        name=row.name,
+        version=row.version,
+        content=json.loads(row.content),
+        made_at=row.made_at,
+        made_by=row.made_by,
+        stands_on=tuple(stands_on),
+        files=tuple(files),
+        withdrawn=withdrawal_of(row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason),
+    )
+
+
+def withdrawal_of(at: str | None, by: str | None, reason: str | None) -> Withdrawal | None:
+    """The record of a withdrawal, if there was one."""
+    return None if at is None else Withdrawal(at=at, by=by or "", reason=reason or "")
+
+
+def _read(session: Session, rows: Sequence[DocumentRow]) -> tuple[Document, ...]:
+    if not rows:
+        return ()
+    case_id, ids = rows[0].case_id, [row.id for row in rows]
+    bases, files = links_of(session, case_id, ids)
+    return tuple(document_of(row, bases[row.id], files[row.id]) for row in rows)
+
+
+def links_of(
+    session: Session, case_id: str, ids: Sequence[str] | None = None
+) -> tuple[Mapping[str, list[str]], Mapping[str, list[str]]]:
+    """What documents stand on, and their files, by the document's id; of all documents if none are named."""
+    bases: Mapping[str, list[str]] = defaultdict(list)
+    files: Mapping[str, list[str]] = defaultdict(list)
+    of_bases = select(BasisRow).where(BasisRow.case_id == case_id).order_by(BasisRow.place)
+    of_files = (
+        select(DocumentFileRow).where(DocumentFileRow.case_id == case_id).order_by(DocumentFileRow.place)
+    )
+    # A question has room for so many names; more documents than that are most of the case anyway.
+    if ids is not None and len(ids) <= 500:
+        of_bases = of_bases.where(BasisRow.document_id.in_(ids))
+        of_files = of_files.where(DocumentFileRow.document_id.in_(ids))
+    for basis in session.scalars(of_bases):
+        bases[basis.document_id].append(basis.basis_id)
+    for file in session.scalars(of_files):
+        files[file.document_id].append(file.file_id)
+    return bases, files
+
+
+def _next_version(session: Session, case_id: str, new: NewDocument) -> int:
+    same = (DocumentRow.case_id == case_id, DocumentRow.kind == new.kind.value, DocumentRow.name == new.name)
+    found = session.scalar(select(func.max(DocumentRow.version)).where(*same)) or 0
+    if new.expected_version is not None and new.expected_version != found:
+        raise StoreConflict(
+            "VERSION_CONFLICT",
+            f"{new.kind.value} '{new.name}' is at version {found}, but the change was made on version "
+            f"{new.expected_version}",
+            "Look at the newest version, and make the change on it again.",
+            {"found_version": found, "expected_version": new.expected_version},
+        )
+    return found + 1
+
+
+def _refuse_strange(session: Session, case_id: str, new: NewDocument) -> None:
+    """What it stands on and its files must be there, and nothing may lead to the patient's identity."""
+    for basis in new.stands_on:
+        found = session.get(DocumentRow, (case_id, basis))
+        if found is None:
+            raise _unknown(case_id, basis)
+        if found.kind == DocumentKind.PATIENT:
+            raise InvalidInput(
+                "STANDS_ON_IDENTITY",
+                "a document may not stand on who the patient is, because that never leaves with the case",
+                "Leave it out of what the document stands on.",
+                {"document_id": basis},
+            )
+    if new.files and new.kind is DocumentKind.PATIENT:
+        raise InvalidInput(
+            "IDENTITY_WITH_FILES",
+            "who the patient is has no files, because files leave with the case",
+            "Put the file under another document.",
+        )
+    for file in new.files:
+        row = session.get(FileRow, (case_id, file))
+        if row is None or row.state != WHOLE:
+            raise file_unknown(case_id, file)
+
+
+def file_unknown(case_id: str, file_id: str) -> NotStored:
+    """The error for a file that is not there."""
+    return NotStored(
+        "FILE_UNKNOWN",
+        f"there is no file {file_id[:60]} in the case {case_id[:40]}",
+        "Look at the files of the case.",
+        {"case_id": case_id[:40], "file_id": file_id[:60]},
+    )
+
+
+def _unknown(case_id: str, document_id: str) -> NotStored:
+    return NotStored(
+        "DOCUMENT_UNKNOWN",
+        f"there is no document {document_id[:40]} in the case {case_id[:40]}",
+        "Look at the documents of the case.",
+        {"case_id": case_id[:40], "document_id": document_id[:40]},
+    )

@@ -1,0 +1,114 @@
+"""What can go wrong with what is kept.
+
+NavigationError
+├── StoreError        the folder or the database cannot be used            HTTP 503, 507
+├── NotStored         there is no such case, document or file              HTTP 404
+├── StoreConflict     it cannot be done as things stand                    HTTP 409
+├── OutOfDateError    what is needed was changed under it, or is missing   HTTP 409
+└── InvalidInput      a name, a content or an archive cannot be used       HTTP 422
+"""
+
+import errno
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from sqlalchemy.exc import DBAPIError
+
+from tracker.errors import NavigationError
+
+FULL, READ_ONLY, BUSY, DAMAGED, FAILED = (
+    "STORE_FULL",
+    "STORE_READ_ONLY",
+    "STORE_BUSY",
+    "STORE_DAMAGED",
+    "STORE_FAILED",
+)
+WHAT = {
+    FULL: "there is no room left on the disk under {folder}",
+    READ_ONLY: "the folder {folder} cannot be written",
+    BUSY: "another program keeps the database in {folder} locked",
+    DAMAGED: "the database in {folder} is damaged",
+    FAILED: "the folder {folder} cannot be used ({why})",
+}
+REMEDY = {
+    FULL: "Make room, then do it again; what was confirmed before is kept.",
+    READ_ONLY: "Give this user the right to write there, or name another folder with COAXIAL_HOME.",
+    BUSY: "Close the program that has the database open, then do it again.",
+    DAMAGED: "Stop the server and keep a copy of the folder; its folder 'backups' holds the database "
+    "as it was before the last change of version.",
+    FAILED: "Look whether the disk is there and sound, then do it again; what was confirmed before is kept.",
+}
+BY_SQLITE = {
+    sqlite3.SQLITE_FULL: FULL,
+    sqlite3.SQLITE_READONLY: READ_ONLY,
+    sqlite3.SQLITE_PERM: READ_ONLY,
+    sqlite3.SQLITE_BUSY: BUSY,
+    sqlite3.SQLITE_LOCKED: BUSY,
+    sqlite3.SQLITE_CORRUPT: DAMAGED,
+    sqlite3.SQLITE_NOTADB: DAMAGED,
+}
+BY_SYSTEM = {
+    errno.ENOSPC: FULL,
+    errno.EDQUOT: FULL,
+    errno.EROFS: READ_ONLY,
+    errno.EACCES: READ_ONLY,
+    errno.EPERM: READ_ONLY,
+}
+
+
+class StoreError(NavigationError):
+    """The folder or the database in which cases are kept cannot be used."""
+
+
+class NotStored(NavigationError):
+    """There is no such case, document or file."""
+
+
+class StoreConflict(NavigationError):
+    """It cannot be done as things stand: somebody else was quicker, or something is in use."""
+
+
+class OutOfDateError(NavigationError):
+    """What a step stands on is missing, was withdrawn, or was changed under it."""
+
+
+@contextmanager
+def told(folder: Path, *, known_only: bool = False) -> Iterator[None]:
+    """Errors of the disk and of the database, as sentences with a remedy.
+
+    Where others do the work, `known_only` lets pass what may have nothing to do with the disk.
+
+    Raises:
+        StoreError: STORE_FULL, STORE_READ_ONLY, STORE_BUSY, STORE_DAMAGED or STORE_FAILED.
+    """
+    try:
+        yield
+    except DBAPIError as error:
+        raise _store_error(folder, _code_of(error.orig), error.orig) from error
+    except (sqlite3.Error, OSError) as error:
+        if known_only and _code_of(error) == FAILED:
+            raise
+        raise _store_error(folder, _code_of(error), error) from error
+
+
+def damaged(folder: Path, found: str) -> StoreError:
+    """The error for a database in which its own check found something."""
+    return StoreError(
+        DAMAGED, f"{WHAT[DAMAGED].format(folder=folder)}: {found[:200]}", REMEDY[DAMAGED], {"found": found}
+    )
+
+
+def _code_of(error: BaseException | None) -> str:
+    if isinstance(error, OSError):
+        return BY_SYSTEM.get(error.errno or 0, FAILED)
+    # The low byte is the kind, the rest its detail.
+    return BY_SQLITE.get(getattr(error, "sqlite_errorcode", 0) & 0xFF, FAILED)
+
+
+def _store_error(folder: Path, code: str, error: BaseException | None) -> StoreError:
+    why = getattr(error, "strerror", None) or str(error)
+    return StoreError(
+        code, WHAT[code].format(folder=folder, why=why), REMEDY[code], {"folder": str(folder), "why": why}
+    )

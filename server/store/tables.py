@@ -1,0 +1,113 @@
+"""The tables of the database, as this version of the program has them.
+
+A change here needs a new file in `migrations/versions`; a test compares the two.
+"""
+
+from sqlalchemy import CheckConstraint, ForeignKey, ForeignKeyConstraint, Index, UniqueConstraint
+from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
+
+# Of a case: on its way in, there, on its way out. Of a file: being written, whole.
+ARRIVING, HERE, LEAVING = "arriving", "here", "leaving"
+COMING, WHOLE = "coming", "whole"
+
+
+class Table(DeclarativeBase):
+    """Common to all tables."""
+
+
+class CaseRow(Table):
+    """A case. A row that is arriving or leaving is seen by nobody, and cleaned away at the next start."""
+
+    __tablename__ = "cases"
+    __table_args__ = (CheckConstraint("state IN ('arriving', 'here', 'leaving')", name="case_state"),)
+
+    id: Mapped[str] = mapped_column(primary_key=True)
+    name: Mapped[str]
+    state: Mapped[str]
+    created_at: Mapped[str]
+    changed_at: Mapped[str]
+    copied_from: Mapped[str | None]
+
+
+class OpenCaseRow(Table):
+    """The one case that is open; it stays so over a restart."""
+
+    __tablename__ = "open_case"
+    __table_args__ = (CheckConstraint("only = 1", name="one_case_is_open"),)
+
+    only: Mapped[int] = mapped_column(primary_key=True)
+    case_id: Mapped[str] = mapped_column(ForeignKey("cases.id", ondelete="CASCADE"))
+
+
+class DocumentRow(Table):
+    """One version of a document; only its withdrawal is ever added."""
+
+    __tablename__ = "documents"
+    __table_args__ = (
+        UniqueConstraint("case_id", "kind", "name", "version", name="one_document_a_version"),
+        CheckConstraint("version >= 1", name="versions_count_from_one"),
+    )
+
+    case_id: Mapped[str] = mapped_column(ForeignKey("cases.id", ondelete="CASCADE"), primary_key=True)
+    id: Mapped[str] = mapped_column(primary_key=True)
+    kind: Mapped[str]
+    name: Mapped[str]
+    version: Mapped[int]
+    content: Mapped[str]
+    made_at: Mapped[str]
+    made_by: Mapped[str]
+    withdrawn_at: Mapped[str | None]
+    withdrawn_by: Mapped[str | None]
+    withdrawn_reason: Mapped[str | None]
+
+
+class FileRow(Table):
+    """A file in the case's folder. The row is there before the file, so that no file is without one."""
+
+    __tablename__ = "files"
+    __table_args__ = (CheckConstraint("state IN ('coming', 'whole')", name="file_state"),)
+
+    case_id: Mapped[str] = mapped_column(ForeignKey("cases.id", ondelete="CASCADE"), primary_key=True)
+    id: Mapped[str] = mapped_column(primary_key=True)
+    state: Mapped[str]
+    size_bytes: Mapped[int]
+    sha256: Mapped[str]
+    made_at: Mapped[str]
+
+
+class BasisRow(Table):
+    """That a document stands on another one."""
+
+    __tablename__ = "bases"
+    __table_args__ = (
+        ForeignKeyConstraint(
+            ["case_id", "document_id"], ["documents.case_id", "documents.id"], ondelete="CASCADE"
+        ),
+        ForeignKeyConstraint(
+            ["case_id", "basis_id"], ["documents.case_id", "documents.id"], ondelete="CASCADE"
+        ),
+        Index("bases_by_basis", "case_id", "basis_id"),
+    )
+
+    case_id: Mapped[str] = mapped_column(primary_key=True)
+    document_id: Mapped[str] = mapped_column(primary_key=True)
+    place: Mapped[int] = mapped_column(primary_key=True)
+    basis_id: Mapped[str]
+
+
+class DocumentFileRow(Table):
+    """That a file belongs to a document."""
+
+    __tablename__ = "document_files"
+    __table_args__ = (
+        ForeignKeyConstraint(
+            ["case_id", "document_id"], ["documents.case_id", "documents.id"], ondelete="CASCADE"
+        ),
+        ForeignKeyConstraint(["case_id", "file_id"], ["files.case_id", "files.id"], ondelete="CASCADE"),
+        Index("document_files_by_file", "case_id", "file_id"),
+    )
+
+    case_id: Mapped[str] = mapped_column(primary_key=True)
+    document_id: Mapped[str] = mapped_column(primary_key=True)
+    place: Mapped[int] = mapped_column(primary_key=True)
+    file_id: Mapped[str]

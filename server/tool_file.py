@@ -1,0 +1,201 @@
+"""Tool files: where pivot and spin found the tip and the axis of a tool, and behind which marker."""
+
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import yaml
+from pydantic import Field, ValidationError
+
+from server.config import MarkerConfig, Name, Point, Section, ToolConfig
+from tracker.errors import CalibrationError, InvalidInput
+from tracker.pose import ToolModel
+from tracker.pose.tool import PivotCalibration, SpinCalibration
+
+# A side is measured with a rule or calipers; a tip that belongs to another side is off by as many per cent.
+SIDE_TOLERANCE_RATIO = 1e-3
+REMEDY = "Write one with 'coaxial pivot POSES --marker NAME --side-mm MM --output FILE'."
+
+Row = Annotated[list[float], Field(min_length=3, max_length=3)]
+Matrix = Annotated[list[Row], Field(min_length=3, max_length=3)]
+
+
+class PivotPart(Section):
+    """What a pivot calibration found."""
+
+    tip_in_marker_mm: Point
+    covariance_mm2: Matrix
+    rms_3d_mm: Annotated[float, Field(ge=0.0)]
+    used: Annotated[int, Field(ge=1)]
+    rejected: Annotated[int, Field(ge=0)]
+    tilt_range_deg: float
+    made_at: datetime
+
+
+class SpinPart(Section):
+    """What a spin calibration found; its axis points from the marker towards the tip."""
+
+    axis_in_marker: Point
+    axis_sd_deg: Annotated[float, Field(ge=0.0)]
+    spin_range_deg: float
+    wobble_deg: float
+    used: Annotated[int, Field(ge=1)]
+    rejected: Annotated[int, Field(ge=0)]
+    made_at: datetime
+
+
+class ToolMarker(Section):
+    """The marker that a tool carries."""
+
+    marker: Name
+    side_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
+
+
+class ToolFile(ToolMarker):
+    """A tool behind one marker of one size; for any other it says nothing."""
+
+    kind: Literal["coaxial tool"] = "coaxial tool"
+    pivot: PivotPart
+    spin: SpinPart | None = None
+
+
+def load_tool_file(path: Path) -> ToolFile:
+    """What a tool file says.
+
+    Raises:
+        InvalidInput: TOOL_FILE_UNREADABLE or TOOL_FILE_INVALID; the message names the file.
+    """
+    context: dict[str, object] = {"file": str(path)}
+    try:
+        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        message = f"the tool file {path} cannot be read: {error.strerror}"
+        raise InvalidInput("TOOL_FILE_UNREADABLE", message, REMEDY, context) from error
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
+        message = f"the tool file {path} is no YAML"
+        raise InvalidInput("TOOL_FILE_UNREADABLE", message, REMEDY, context) from error
+    try:
+        return ToolFile.model_validate(values)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key = ".".join(str(part) for part in first["loc"]) or "it"
+        message = f"the tool file {path} cannot be used: {key}: {first['msg'].lower()}"
+        raise InvalidInput("TOOL_FILE_INVALID", message, REMEDY, context) from None
+
+
+def text_of_tool_file(tool: ToolFile) -> str:
+    """A tool file as it is written."""
+    values = tool.model_dump(mode="python", exclude_none=True)
+    return "# Written by coaxial. Name it under tools: NAME: calibration: in config.yaml.\n" + yaml.safe_dump(
+        values, sort_keys=False, default_flow_style=None, width=100
+    )
+
+
+def tool_mistakes(name: str, tool: ToolConfig) -> list[tuple[str, str]]:
+    """Which key of a tool's settings cannot be used, and the sentence about it."""
+    found = []
+    key = f"tools.{name}"
+    if tool.calibration is None:
+        for part in ("tip_in_marker_mm", "axis_in_marker"):
+            if getattr(tool, part) is None:
+                sentence = f"'{key}.{part}' is missing, needed: three numbers, or a tool file under "
+                found.append((part, f"{sentence}'{key}.calibration'"))
+    elif tool.tip_in_marker_mm is not None:
+        sentence = f"'{key}.tip_in_marker_mm' is there, but its calibration says it too, allowed: one of them"
+        found.append(("tip_in_marker_mm", sentence))
+    axis = tool.axis_in_marker
+    if axis is not None and max(abs(x) for x in axis) < 1e-9:
+        sentence = f"'{key}.axis_in_marker' is {axis}, allowed: a direction, not all three numbers 0"
+        found.append(("axis_in_marker", sentence))
+    return found
+
+
+def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -> ToolModel:
+    """The tool of these settings, from its drawing or its tool file.
+
+    Raises:
+        InvalidInput: TOOL_FILE_UNREADABLE or TOOL_FILE_INVALID.
+        CalibrationError: TOOL_FILE_OF_ANOTHER_MARKER, TOOL_AXIS_UNKNOWN, or TOOL_TIP_UNKNOWN.
+    """
+    tip, axis = tool.tip_in_marker_mm, tool.axis_in_marker
+    if tool.calibration is not None:
+        file = load_tool_file(tool.calibration)
+        _refuse_another_marker(file, tool, marker)
+        tip, axis = file.pivot.tip_in_marker_mm, _one_axis(name, tool, file)
+    if tip is None or axis is None:
+        raise CalibrationError(
+            "TOOL_TIP_UNKNOWN",
+            f"nobody said where the tip of '{name}' is and which way it points",
+            f"Give tools.{name}.calibration, or tip_in_marker_mm and axis_in_marker.",
+            {"tool": name},
+        )
+    return ToolModel.from_tip_and_axis(
+        name=name,
+        marker=tool.marker,
+        tip_in_marker_mm=tip,
+        axis_in_marker=axis,
+        radius_mm=tool.radius_mm,
+        length_mm=tool.length_mm,
+    )
+
+
+def _refuse_another_marker(file: ToolFile, tool: ToolConfig, marker: MarkerConfig | None) -> None:
+    side_mm = file.side_mm if marker is None else marker.side_mm
+    if file.marker == tool.marker and abs(side_mm - file.side_mm) <= SIDE_TOLERANCE_RATIO * file.side_mm:
+        return
+    raise CalibrationError(
+        "TOOL_FILE_OF_ANOTHER_MARKER",
+        f"{tool.calibration} was made with marker '{file.marker}' of {file.side_mm:g} mm, "
+        f"but the tool carries '{tool.marker}' of {side_mm:g} mm",
+        "Calibrate the tool with the marker that it carries; a tip is never scaled.",
+        {"file": str(tool.calibration), "marker": file.marker, "side_mm": file.side_mm},
+    )
+
+
+def _one_axis(name: str, tool: ToolConfig, file: ToolFile) -> list[float]:
+    axes = [tool.axis_in_marker, None if file.spin is None else file.spin.axis_in_marker]
+    known = [axis for axis in axes if axis is not None]
+    if len(known) == 1:
+        return known[0]
+    raise CalibrationError(
+        "TOOL_AXIS_UNKNOWN",
+        f"the axis of '{name}' is "
+        + (f"in the settings and in {tool.calibration}" if known else "nowhere")
+        + ", needed in one place",
+        f"Spin the tool and add its axis with 'coaxial spin', or give it as tools.{name}.axis_in_marker.",
+        {"tool": name},
+    )
+
+
+def pivot_part(found: PivotCalibration) -> PivotPart:
+    """What a tool file keeps of a pivot calibration."""
+    return PivotPart(
+        tip_in_marker_mm=_rounded(found.tip_in_marker_mm),
+        covariance_mm2=[_rounded(row) for row in found.tip_covariance_mm2],
+        rms_3d_mm=round(found.rms_3d_mm, 4),
+        used=int(found.used.sum()),
+        rejected=len(found.rejected),
+        tilt_range_deg=round(found.turning.tilt_range_deg, 2),
+        made_at=_now(),
+    )
+
+
+def spin_part(found: SpinCalibration) -> SpinPart:
+    """What a tool file keeps of a spin calibration."""
+    return SpinPart(
+        axis_in_marker=_rounded(found.axis_in_marker),
+        axis_sd_deg=round(found.axis_sd_deg, 4),
+        spin_range_deg=round(found.spin_range_deg, 2),
+        wobble_deg=round(found.wobble_deg, 3),
+        used=int(found.used.sum()),
+        rejected=len(found.rejected),
+        made_at=_now(),
+    )
+
+
+def _rounded(numbers: Any) -> list[float]:  # noqa: ANN401  an array of any length
+    return [float(f"{number:.8g}") for number in numbers]
+
+
+def _now() -> datetime:
+    return datetime.now(UTC).replace(microsecond=0)

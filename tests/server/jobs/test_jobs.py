@@ -1,0 +1,148 @@
+"""Long work in processes of its own: progress, result, failure, cancelling, a violent end."""
+
+import os
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from server.jobs import Job, Jobs, JobState, JobUnknown
+from server.logs import LogSettings
+from tests.server.jobs import labour
+from tracker.errors import InvalidInput
+
+LOG = LogSettings(as_json=True)
+
+
+@pytest.fixture
+def jobs() -> Iterator[Jobs]:
+    jobs = Jobs(log=LOG)
+    yield jobs
+    jobs.close()
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    folder = tmp_path / "job"
+    folder.mkdir()
+    return folder
+
+
+def until_running(jobs: Jobs, job: Job, folder: Path) -> None:
+    """Waits for the work's first file; its beginning cannot be waited for in another way."""
+    waiting = threading.Event()
+    while not (folder / "half").exists() or not jobs.get(job.id).doing:
+        assert not waiting.wait(0.01)
+        assert not jobs.get(job.id).state.is_over
+
+
+def test_work_is_done_elsewhere_and_its_result_told(jobs: Jobs) -> None:
+    job = jobs.start("adding", labour.add, {"a": 2, "b": 3})
+    assert (job.state, job.progress_ratio, job.result) == (JobState.WAITING, 0.0, None)
+    done = jobs.wait_for(job.id)
+    assert done == Job(id=job.id, title="adding", state=JobState.DONE, progress_ratio=1.0, result={"sum": 5})
+    assert jobs.list() == (done,)
+
+
+def test_work_is_polite_and_in_another_process(jobs: Jobs) -> None:
+    job = jobs.wait_for(jobs.start("looking", labour.go_back).id)
+    assert isinstance(job.result, list)
+    politeness, pid = job.result
+    assert politeness == 10 + os.nice(0)
+    assert pid != os.getpid()
+
+
+def test_the_result_is_kept_before_the_job_is_done(jobs: Jobs) -> None:
+    seen: list[object] = []
+
+    def keep(result: object) -> object:
+        seen.append((result, jobs.list()[0].state))
+        return {"document": "id"}
+
+    done = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 1}, conclude=keep).id)
+    assert seen == [({"sum": 2}, JobState.CONCLUDING)]
+    assert (done.state, done.result) == (JobState.DONE, {"document": "id"})
+
+
+def test_what_cannot_be_kept_has_failed(jobs: Jobs) -> None:
+    def keep(result: object) -> object:
+        raise InvalidInput("NO", f"{result} is not wanted", "Go away.")
+
+    failed = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 1}, conclude=keep).id)
+    assert failed.state is JobState.FAILED
+    assert failed.trouble is not None
+    assert failed.trouble.code == "NO"
+    assert failed.result is None
+
+
+def test_an_error_keeps_its_words(jobs: Jobs) -> None:
+    failed = jobs.wait_for(jobs.start("reading", labour.refuse, {"slices": 1}).id)
+    assert failed.state is JobState.FAILED
+    trouble = failed.trouble
+    assert trouble is not None
+    assert (trouble.code, trouble.message, trouble.remedy, trouble.context) == (
+        "TOO_FEW_SLICES",
+        "1 slices found",
+        "Take more.",
+        {"slices": 1},
+    )
+
+
+@pytest.mark.parametrize("work", [labour.blunder, labour.say_nothing_sensible])
+def test_a_mistake_of_the_program_tells_a_stranger_nothing(jobs: Jobs, work: object) -> None:
+    failed = jobs.wait_for(jobs.start("reading", work).id)  # type: ignore[arg-type]  # either of two
+    assert failed.trouble is not None
+    assert failed.trouble.code == "JOB_FAILED"
+    assert "Zaphod" not in str(failed)
+
+
+def test_a_violent_end_is_told_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
+    killed = jobs.wait_for(jobs.start("dying", labour.die, {"folder": str(folder)}, folder=folder).id)
+    assert killed.state is JobState.FAILED
+    assert killed.trouble is not None
+    assert killed.trouble.message == "the process that did the work ended by signal 9 (SIGKILL)"
+    assert not folder.exists()
+    left = jobs.wait_for(jobs.start("leaving", labour.leave).id)
+    assert left.trouble is not None
+    assert left.trouble.message == "the process that did the work ended with status 3"
+
+
+def test_cancelled_work_ends_at_once_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
+    concluded: list[object] = []
+    work = {"folder": str(folder)}
+    job = jobs.start("waiting", labour.never_end, work, folder=folder, conclude=concluded.append)
+    until_running(jobs, job, folder)
+    assert (jobs.get(job.id).progress_ratio, jobs.get(job.id).doing) == (0.25, "waiting")
+    queued = jobs.start("adding", labour.add, {"a": 1, "b": 1})
+    dropped = jobs.start("adding", labour.add, {"a": 1, "b": 1})
+    assert jobs.cancel(dropped.id).state is JobState.CANCELLED
+    assert jobs.get(queued.id).state is JobState.WAITING
+    assert jobs.cancel(job.id).state is JobState.CANCELLED
+    assert jobs.wait_for(queued.id).state is JobState.DONE
+    assert jobs.wait_for(job.id).state is JobState.CANCELLED
+    assert jobs.wait_for(dropped.id).state is JobState.CANCELLED
+    assert not folder.exists()
+    assert concluded == []
+
+
+def test_what_is_over_is_not_cancelled(jobs: Jobs) -> None:
+    done = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 1}).id)
+    assert jobs.cancel(done.id) == done
+
+
+def test_closing_ends_everything(folder: Path) -> None:
+    jobs = Jobs(log=LOG)
+    job = jobs.start("waiting", labour.never_end, {"folder": str(folder)}, folder=folder)
+    until_running(jobs, job, folder)
+    jobs.close()
+    assert jobs.get(job.id).state is JobState.CANCELLED
+    assert not folder.exists()
+    late = jobs.start("adding", labour.add, {"a": 1, "b": 1})
+    assert jobs.wait_for(late.id).state is not JobState.DONE
+
+
+def test_an_unknown_job_is_told(jobs: Jobs) -> None:
+    for ask in (jobs.get, jobs.cancel):
+        with pytest.raises(JobUnknown, match="there is no job nothing"):
+            ask("nothing")

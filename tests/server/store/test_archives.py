@@ -1,0 +1,257 @@
+"""A case copied out and in: the same again, or nothing at all."""
+
+import contextlib
+import hashlib
+import json
+import stat
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from server.store import Case, CaseStore, DocumentKind, Home, OutOfDate, StoreConflict, StoreError
+from tracker.errors import InvalidInput
+
+PATIENT = "Beeblebrox"
+
+
+@pytest.fixture
+def case(store: CaseStore) -> Case:
+    """A case with a file, a replaced plan, a withdrawn check, and a patient."""
+    case = store.create(PATIENT)
+    store.put(case.id, DocumentKind.PATIENT, "main", {"name": PATIENT}, made_by="ito")
+    with store.new_file(case.id, ".nii.gz") as new:
+        new.path.write_bytes(bytes(range(256)) * 5000)
+    ct = store.put(case.id, DocumentKind.CT, "main", {"mm": 0.1 + 0.2}, made_by="ito", files=[new.stored.id])
+    plan = store.put(case.id, DocumentKind.PLAN, "L3 😀", {}, made_by="abe", stands_on=[ct.id])
+    check = store.put(case.id, DocumentKind.CHECK, "tip", {}, made_by="abe", stands_on=[plan.id, ct.id])
+    store.put(case.id, DocumentKind.PLAN, "L3 😀", {}, made_by="abe", stands_on=[ct.id])
+    store.withdraw(check, by="abe", reason="moved")
+    return case
+
+
+def parts_of(archive: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(archive) as read:
+        return {name: read.read(name) for name in read.namelist()}
+
+
+def written(folder: Path, parts: dict[str, bytes], *, fix_manifest: bool = True) -> Path:
+    """An archive of these parts, with a manifest that agrees with them."""
+    if fix_manifest:
+        manifest = json.loads(parts["manifest.json"])
+        manifest["parts"] = [
+            {"path": path, "size_bytes": len(part), "sha256": hashlib.sha256(part).hexdigest()}
+            for path, part in parts.items()
+            if path != "manifest.json"
+        ]
+        parts = {**parts, "manifest.json": json.dumps(manifest).encode()}
+    path = folder / "changed.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, part in parts.items():
+            archive.writestr(name, part)
+    return path
+
+
+def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
+    archive = store.copy_out(case.id, with_identity=True)
+    again = store.copy_in(archive.path)
+    assert again.id != case.id
+    assert (again.name, again.created_at, again.copied_from) == (PATIENT, case.created_at, case.id)
+
+    def without_case(entries: object) -> str:
+        return repr(entries).replace(case.id, "").replace(again.id, "")
+
+    assert without_case(store.outline(again.id)) == without_case(store.outline(case.id))
+    assert store.latest(again.id, DocumentKind.CT, "main").content == {"mm": 0.1 + 0.2}  # type: ignore[union-attr]  # there
+    assert store.verify(again.id) == ()
+    before, after = store.files(case.id)[0], store.files(again.id)[0]
+    assert (before.id, before.sha256) == (after.id, after.sha256)
+    assert after.path.read_bytes() == bytes(range(256)) * 5000
+    newer = store.put(again.id, DocumentKind.CT, "main", {}, made_by="ito")
+    plan = store.latest(again.id, DocumentKind.PLAN, "L3 😀")
+    assert newer.version == 2
+    assert plan is not None
+    assert isinstance(store.standing(plan), OutOfDate)
+
+
+def test_who_the_patient_is_stays_at_home_unless_asked_for(store: CaseStore, case: Case) -> None:
+    archive = store.copy_out(case.id)
+    assert not any(PATIENT.encode() in part for part in parts_of(archive.path).values())
+    assert PATIENT not in archive.path.name
+    again = store.copy_in(archive.path)
+    assert again.name == f"Case {case.id[:6]}"
+    assert store.all(again.id, DocumentKind.PATIENT) == ()
+    assert len(store.outline(again.id)) == len(store.outline(case.id)) - 1
+
+
+def changed_line(parts: dict[str, bytes], number: int, **changes: object) -> None:
+    lines = parts["documents.jsonl"].splitlines()
+    lines[number] = json.dumps({**json.loads(lines[number]), **changes}).encode()
+    parts["documents.jsonl"] = b"\n".join(lines) + b"\n"
+
+
+def changed_manifest(parts: dict[str, bytes], **changes: object) -> None:
+    parts["manifest.json"] = json.dumps({**json.loads(parts["manifest.json"]), **changes}).encode()
+
+
+def file_of(parts: dict[str, bytes]) -> str:
+    return next(name for name in parts if name.startswith("files/"))
+
+
+def change_file(parts: dict[str, bytes], change: Callable[[bytes], bytes]) -> None:
+    parts[file_of(parts)] = change(parts[file_of(parts)])
+
+
+def first_id(parts: dict[str, bytes]) -> object:
+    return json.loads(parts["documents.jsonl"].split(b"\n")[0])["id"]
+
+
+Change = Callable[[dict[str, bytes]], object]
+AGREEING: list[tuple[str, Change, str]] = [
+    ("traversal", lambda parts: parts.update({"../../evil": b"x"}), "does not belong into a case"),
+    ("absolute", lambda parts: parts.update({"/etc/evil": b"x"}), "does not belong into a case"),
+    ("in-a-folder", lambda parts: parts.update({"files/../case.json": b"x"}), "does not belong"),
+    ("a-file-more", lambda parts: parts.update({"files/0123456789abcdef.bin": b"x"}), "not those that case"),
+    ("a-file-less", lambda parts: parts.pop(file_of(parts)), "not those that case.json names"),
+    ("no-documents", lambda parts: parts.pop("documents.jsonl"), "documents.jsonl is missing"),
+    ("no-case", lambda parts: parts.pop("case.json"), "case.json is missing"),
+    ("cut-documents", lambda parts: parts.update({"documents.jsonl": b'{"id"'}), "middle of a line"),
+    ("no-json", lambda parts: parts.update({"documents.jsonl": b"{]\n"}), "documents.jsonl, line 1"),
+    ("deep-json", lambda parts: parts.update({"case.json": b"[" * 10**6}), "case.json: "),
+    ("unknown-kind", lambda parts: changed_line(parts, 0, kind="spell"), "line 1: kind"),
+    ("unknown-key", lambda parts: changed_line(parts, 0, spell=1), "line 1: spell"),
+    ("nan", lambda parts: changed_line(parts, 0, content={"a": float("nan")}), "it is nan"),
+    ("name-with-controls", lambda parts: changed_line(parts, 0, name="a\nb"), "control characters"),
+    ("version-missing", lambda parts: changed_line(parts, 0, version=2), "has version 2, but not version 1"),
+    ("same-id", lambda parts: changed_line(parts, 1, id=first_id(parts)), "two documents"),
+    ("stands-on-nothing", lambda parts: changed_line(parts, 0, stands_on=["0" * 16]), "not before it"),
+    ("strange-file", lambda parts: changed_line(parts, 0, files=["0" * 16 + ".bin"]), "files or bases that"),
+    ("newer", lambda parts: changed_manifest(parts, version=2, more=1), "form 2, this Coaxial reads form 1"),
+    ("other-format", lambda parts: changed_manifest(parts, format="recipe"), "manifest.json: format"),
+]
+DISAGREEING: list[tuple[str, Change, str]] = [
+    ("changed-file", lambda parts: change_file(parts, lambda part: part[::-1]), "SHA-256 differs"),
+    ("longer-file", lambda parts: change_file(parts, lambda part: part + b"x"), "manifest says"),
+    ("changed-case", lambda parts: parts.update({"case.json": parts["case.json"][::-1]}), "SHA-256"),
+    ("no-manifest", lambda parts: parts.pop("manifest.json"), "it is no case"),
+    ("manifest-of-nonsense", lambda parts: parts.update({"manifest.json": b"\xff\xfe"}), "no JSON"),
+    ("deep-manifest", lambda parts: parts.update({"manifest.json": b"[" * 10**6}), "no JSON"),
+]
+CHANGES = [(name, change, said, True) for name, change, said in AGREEING] + [
+    (name, change, said, False) for name, change, said in DISAGREEING
+]
+
+
+def everything_in(home: Home) -> set[Path]:
+    return {path for path in home.folder.rglob("*") if "sqlite3-" not in path.name}
+
+
+@pytest.mark.parametrize(
+    ("change", "said", "agreeing"), [row[1:] for row in CHANGES], ids=[row[0] for row in CHANGES]
+)
+def test_a_hostile_archive_is_refused_whole(
+    store: CaseStore, home: Home, case: Case, tmp_path: Path, change: Change, said: str, *, agreeing: bool
+) -> None:
+    parts = parts_of(store.copy_out(case.id, with_identity=True).path)
+    # The patient's line comes first and is not interesting here.
+    parts["documents.jsonl"] = parts["documents.jsonl"].split(b"\n", 1)[1]
+    if not agreeing:
+        parts = parts_of(written(tmp_path, parts))
+    change(parts)
+    before = everything_in(home)
+    with pytest.raises(InvalidInput) as refused:
+        store.copy_in(written(tmp_path, parts, fix_manifest=agreeing))
+    assert said in refused.value.message
+    assert refused.value.code == ("ARCHIVE_NEWER" if "reads form" in said else "ARCHIVE_INVALID")
+    assert everything_in(home) == before
+    assert store.list() == (store.get(case.id),)
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"no zip at all" * 100])
+def test_what_is_no_zip_is_refused(store: CaseStore, tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "a.zip"
+    path.write_bytes(content)
+    with pytest.raises(InvalidInput, match="no sound zip file"):
+        store.copy_in(path)
+
+
+def test_an_archive_cut_or_changed_anywhere_is_refused(store: CaseStore, case: Case, tmp_path: Path) -> None:
+    whole = store.copy_out(case.id).path.read_bytes()
+    path = tmp_path / "a.zip"
+    for n in range(0, len(whole), len(whole) // 40):
+        for changed in (whole[:n], whole[:n] + bytes([whole[n] ^ 0x55]) + whole[n + 1 :]):
+            path.write_bytes(changed)
+            with contextlib.suppress(InvalidInput):
+                # It may be a byte that means nothing, as a time inside the zip.
+                taken = store.copy_in(path)
+                assert store.verify(taken.id) == ()
+                assert len(store.outline(taken.id)) == 4
+
+
+def test_a_bomb_is_refused_before_it_is_unpacked(
+    store: CaseStore, home: Home, case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    parts = parts_of(store.copy_out(case.id).path)
+    path = written(tmp_path, parts | {file_of(parts): b"\0" * 2**24})
+    assert path.stat().st_size < 2**17
+    monkeypatch.setattr("server.store.archive.reading.LARGEST_WHOLE_BYTES", 2**23)
+    with pytest.raises(InvalidInput, match="it unpacks to"):
+        store.copy_in(path)
+    assert [one.name for one in home.cases.iterdir()] == [case.id]
+
+
+def test_a_link_in_an_archive_is_refused(store: CaseStore, case: Case, tmp_path: Path) -> None:
+    parts = parts_of(store.copy_out(case.id).path)
+    path = written(tmp_path, parts)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, part in parts.items():
+            entry = zipfile.ZipInfo(name)
+            if name.startswith("files/"):
+                entry.external_attr = (stat.S_IFLNK | 0o777) << 16
+            archive.writestr(entry, part)
+    with pytest.raises(InvalidInput, match="does not belong"):
+        store.copy_in(path)
+
+
+def test_a_case_without_room_is_refused_before_it_is_unpacked(
+    store: CaseStore, case: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    archive = store.copy_out(case.id)
+    monkeypatch.setattr("server.store.archive.unpacking.SPARE_BYTES", 2**60)
+    with pytest.raises(StoreError) as full:
+        store.copy_in(archive.path)
+    assert full.value.code == "STORE_FULL"
+    assert store.list() == (store.get(case.id),)
+
+
+def test_a_damaged_file_is_not_copied_out(store: CaseStore, home: Home, case: Case) -> None:
+    path = store.files(case.id)[0].path
+    path.chmod(0o600)
+    path.write_bytes(b"other bytes")
+    with pytest.raises(StoreError, match="SHA-256 differs") as damaged:
+        store.copy_out(case.id)
+    assert damaged.value.code == "FILE_DAMAGED"
+    path.unlink()
+    with pytest.raises(StoreError, match="it is missing"):
+        store.copy_out(case.id)
+    assert list(home.temporary.iterdir()) == []
+
+
+def test_a_case_is_not_deleted_while_it_is_copied_out(
+    store: CaseStore, case: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    refusals: list[str] = []
+
+    def all_files(*asked: object) -> tuple[()]:
+        del asked
+        with pytest.raises(StoreConflict) as refused:
+            store.delete(case.id, confirm=PATIENT)
+        refusals.append(refused.value.code)
+        return ()
+
+    monkeypatch.setattr("server.store.archive.packing.all_files", all_files)
+    # Inside the reading transaction a writer of the same thread must not wait for itself either.
+    store.copy_out(case.id)
+    assert refusals == ["CASE_IN_USE"]
+    store.delete(case.id, confirm=PATIENT)

@@ -1,0 +1,205 @@
+"""Documents of a case: versions, what they stand on, and whether they hold."""
+
+import math
+import threading
+from collections.abc import Callable
+
+import pytest
+
+from server.store import (
+    CaseStore,
+    Current,
+    Document,
+    DocumentKind,
+    NotStored,
+    OutOfDate,
+    OutOfDateError,
+    StoreConflict,
+)
+from tracker.errors import InvalidInput
+
+CT, PLAN, REGISTRATION = DocumentKind.CT, DocumentKind.PLAN, DocumentKind.REGISTRATION
+
+
+@pytest.fixture
+def case_id(store: CaseStore) -> str:
+    return store.create("one").id
+
+
+@pytest.fixture
+def put(store: CaseStore, case_id: str) -> Callable[..., Document]:
+    def put(kind: DocumentKind, name: str = "main", *on: Document, **content: object) -> Document:
+        return store.put(case_id, kind, name, content, made_by="ito", stands_on=[one.id for one in on])
+
+    return put
+
+
+Put = Callable[..., Document]
+
+
+def test_what_was_put_is_read_back_whole(store: CaseStore, case_id: str) -> None:
+    content = {"text": "Größe 😀", "list": [1, 2.5, None, True], "deep": {"a": {"b": [[]]}}, "tiny": 5e-324}
+    put = store.put(case_id, PLAN, "L3/left 🦴", content, made_by="ito")
+    read = store.document(case_id, put.id)
+    assert read == put
+    assert read.content == content
+    assert (read.version, read.name, read.made_by) == (1, "L3/left 🦴", "ito")
+    assert read.made_at == "2026-11-21T08:00:00.252Z"
+
+
+def test_versions_count_by_kind_and_name_and_the_last_is_the_latest(store: CaseStore, put: Put) -> None:
+    documents = [put(PLAN, "a", n=1), put(PLAN, "a", n=2), put(PLAN, "b", n=3), put(CT, "a", n=4)]
+    assert [one.version for one in documents] == [1, 2, 1, 1]
+    case_id = documents[0].case_id
+    assert store.latest(case_id, PLAN, "a") == documents[1]
+    assert store.history(case_id, PLAN, "a") == tuple(documents[:2])
+    assert store.all(case_id, PLAN) == (documents[1], documents[2])
+    assert store.latest(case_id, PLAN, "c") is None
+
+
+def test_a_new_plan_puts_what_was_registered_on_the_old_one_out_of_date(store: CaseStore, put: Put) -> None:
+    ct = put(CT)
+    plan = put(PLAN, "L3", ct)
+    registration = put(REGISTRATION, "main", plan)
+    check = put(DocumentKind.CHECK, "landmark", registration)
+    assert [store.standing(one) for one in (ct, plan, registration, check)] == [Current()] * 4
+    newer = put(PLAN, "L3", ct)
+    assert store.standing(newer) == Current()
+    assert store.standing(plan) == OutOfDate(reason="plan 'L3' version 1 was replaced by version 2")
+    replaced = OutOfDate(reason="it stands on plan 'L3' version 1, which was replaced by version 2")
+    assert store.standing(registration) == replaced
+    assert store.standing(check) == replaced
+    standings = {entry.heading.id: entry.standing for entry in store.outline(ct.case_id)}
+    assert standings == {one.id: store.standing(one) for one in (ct, plan, newer, registration, check)}
+
+
+def test_what_was_withdrawn_takes_with_it_what_stands_on_it_and_no_older_version_holds_again(
+    store: CaseStore, put: Put
+) -> None:
+    old, ct = put(CT), put(CT)
+    plan = put(PLAN, "L3", ct)
+    withdrawn = store.withdraw(ct, by="ito", reason="another patient")
+    assert withdrawn.withdrawn is not None
+    assert store.withdraw(ct, by="abe", reason="again") == withdrawn
+    assert store.latest(ct.case_id, CT, "main") is None
+    assert store.all(ct.case_id, CT) == ()
+    assert store.standing(old) == OutOfDate(reason="ct 'main' version 1 was replaced by version 2")
+    assert store.standing(plan) == OutOfDate(
+        reason="it stands on ct 'main' version 2, which was withdrawn by ito: another patient"
+    )
+    assert put(CT).version == 3
+
+
+def test_the_reason_is_found_through_either_of_two_ways(store: CaseStore, put: Put) -> None:
+    camera, plan = put(DocumentKind.CAMERA), put(PLAN)
+    registration = put(REGISTRATION, "main", plan, camera)
+    check = put(DocumentKind.CHECK, "a", camera, registration)
+    put(DocumentKind.CAMERA)
+    assert store.standing(check) == OutOfDate(
+        reason="it stands on camera 'main' version 1, which was replaced by version 2"
+    )
+
+
+def test_a_step_gets_only_what_holds(store: CaseStore, put: Put, case_id: str) -> None:
+    with pytest.raises(OutOfDateError) as missing:
+        store.current(case_id, PLAN, "L3")
+    assert (missing.value.code, missing.value.message) == ("DOCUMENT_MISSING", "there is no plan 'L3'")
+    ct = put(CT)
+    plan = put(PLAN, "L3", ct)
+    assert store.current(case_id, PLAN, "L3") == plan
+    put(CT)
+    with pytest.raises(
+        OutOfDateError, match=r"plan 'L3' is out of date: it stands on ct 'main' version 1"
+    ) as old:
+        store.current(case_id, PLAN, "L3")
+    assert old.value.code == "DOCUMENT_OUT_OF_DATE"
+
+
+@pytest.mark.parametrize("expected", [0, 1, 3])
+def test_a_change_made_on_another_version_is_refused_with_both_numbers(
+    store: CaseStore, put: Put, case_id: str, expected: int
+) -> None:
+    put(PLAN, "L3"), put(PLAN, "L3")
+    with pytest.raises(
+        StoreConflict, match=f"is at version 2, but the change was made on version {expected}"
+    ):
+        store.put(case_id, PLAN, "L3", {}, made_by="ito", expected_version=expected)
+    assert len(store.history(case_id, PLAN, "L3")) == 2
+    assert store.put(case_id, PLAN, "L3", {}, made_by="ito", expected_version=2).version == 3
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        pytest.param({"a": {"b": [1.0, math.nan]}}, r"at a\.b\[1\] it is nan", id="nan"),
+        pytest.param({"a": -math.inf}, r"at a it is -inf", id="infinity"),
+        pytest.param({"a": {1: 2}}, r"its key 1 is a int", id="number-as-key"),
+        pytest.param({"a": b"x"}, r"it is a bytes", id="bytes"),
+        pytest.param({"a": object()}, r"it is a object", id="object"),
+        pytest.param({"a": "\ud800"}, r"surrogates not allowed", id="half-a-letter"),
+        pytest.param([1], r"it is a list, not a mapping", id="no-mapping"),
+    ],
+)
+def test_what_json_cannot_say_is_refused(store: CaseStore, case_id: str, content: object, said: str) -> None:
+    with pytest.raises(InvalidInput, match=said) as refused:
+        store.put(case_id, PLAN, "a", content, made_by="ito")  # type: ignore[arg-type]  # wrong on purpose
+    assert refused.value.code == "CONTENT_NOT_JSON"
+    assert store.history(case_id, PLAN, "a") == ()
+
+
+def test_a_bottomless_and_a_huge_content_are_refused(store: CaseStore, case_id: str) -> None:
+    deep: dict[str, object] = {}
+    for _ in range(10_000):
+        deep = {"a": deep}
+    with pytest.raises(InvalidInput, match="more than 64 levels deep"):
+        store.put(case_id, PLAN, "a", deep, made_by="ito")
+    with pytest.raises(InvalidInput, match=r"has 17\.0 MB, allowed are 16 MB"):
+        store.put(case_id, PLAN, "a", {"a": "x" * 17 * 2**20}, made_by="ito")
+
+
+@pytest.mark.parametrize("name", ["", "   ", "a\nb", "a\0b", "x" * 201, "\ud800"])
+def test_a_name_that_nobody_can_read_is_refused(store: CaseStore, case_id: str, name: str) -> None:
+    with pytest.raises(InvalidInput) as refused:
+        store.put(case_id, PLAN, name, {}, made_by="ito")
+    assert refused.value.code == "NAME_INVALID"
+
+
+def test_documents_stand_only_on_documents_of_their_own_case(store: CaseStore, put: Put) -> None:
+    ct = put(CT)
+    other = store.create("two").id
+    with pytest.raises(NotStored, match=f"there is no document {ct.id} in the case {other}"):
+        store.put(other, PLAN, "a", {}, made_by="ito", stands_on=[ct.id])
+    assert store.all(other, PLAN) == ()
+
+
+def test_nothing_stands_on_who_the_patient_is(store: CaseStore, put: Put, case_id: str) -> None:
+    patient = put(DocumentKind.PATIENT)
+    with pytest.raises(InvalidInput) as refused:
+        store.put(case_id, PLAN, "a", {}, made_by="ito", stands_on=[patient.id])
+    assert refused.value.code == "STANDS_ON_IDENTITY"
+
+
+def test_what_a_reader_does_to_a_content_reaches_nobody_else(store: CaseStore, put: Put) -> None:
+    document = put(PLAN, "a", numbers=[1])
+    document.content["numbers"].append(2)  # type: ignore[attr-defined]  # a list, as JSON has it
+    assert store.document(document.case_id, document.id).content == {"numbers": [1]}
+
+
+def test_writers_in_many_threads_get_a_version_each(store: CaseStore, case_id: str) -> None:
+    gate = threading.Barrier(8)
+
+    def write(who: int) -> None:
+        gate.wait()
+        for n in range(5):
+            store.put(case_id, PLAN, "L3", {"who": who, "n": n}, made_by="ito")
+
+    threads = [threading.Thread(target=write, args=(who,)) for who in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    versions = store.history(case_id, PLAN, "L3")
+    assert [one.version for one in versions] == list(range(1, 41))
+    assert {(one.content["who"], one.content["n"]) for one in versions} == {
+        (who, n) for who in range(8) for n in range(5)
+    }

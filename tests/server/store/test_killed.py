@@ -1,0 +1,17 @@
+"""`kill -9` while the store is written: what was confirmed is there, and the next start is clean."""
+
+import random
+from pathlib import Path
+
+from tests.server.store.killed import Promised, Writers, broken_promises
+
+KILLS = 12
+
+
+def test_killed_at_any_moment_nothing_that_was_confirmed_is_lost(tmp_path: Path) -> None:
+    promised, chance = Promised(), random.Random(7)
+    with Writers() as writers:
+        for number in range(KILLS):
+            writers.kill_once(tmp_path, promised, after_s=chance.uniform(0.05, 0.25), seed=number)
+            assert list(broken_promises(tmp_path, promised)) == [], number
+    assert promised.count > KILLS

@@ -1,0 +1,133 @@
+"""Boards found in pictures whose truth is known."""
+
+import numpy as np
+import pytest
+
+from tests.tracker.camera.rendered import POSES, picture, true_px
+from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from tracker.camera.detection import (
+    BoardNotFound,
+    BoardView,
+    NotFoundReason,
+    Sureness,
+    board_as_seen,
+    find_board,
+)
+from tracker.errors import InvalidInput
+
+DOTS = DotBoard(columns=12, rows=9, pitch_mm=9.0, fiducials=(26, 33, 62))
+PLAIN_DOTS = DotBoard(columns=12, rows=9, pitch_mm=9.0)
+ASYMMETRIC = DotBoard(columns=5, rows=11, pitch_mm=8.0, layout=DotLayout.ASYMMETRIC)
+CHECKER = CheckerBoard(columns=9, rows=6, square_mm=12.0)
+CHARUCO = CharucoBoard(columns=8, rows=6, square_mm=14.0, marker_mm=10.0, dictionary="DICT_4X4_50")
+OLDER = CharucoBoard(
+    columns=8, rows=6, square_mm=14.0, marker_mm=10.0, dictionary="DICT_4X4_50", layout=CharucoLayout.OLDER
+)
+
+
+def found(board: Board, pose: int) -> BoardView:
+    view = find_board(picture(board, POSES[pose]), board)
+    assert isinstance(view, BoardView), view
+    return view
+
+
+@pytest.mark.parametrize(
+    ("board", "within_px"),
+    [
+        pytest.param(DOTS, 0.25, id="dots-with-larger-ones"),
+        pytest.param(CHECKER, 0.2, id="checkerboard"),
+        pytest.param(CHARUCO, 0.35, id="charuco"),
+        pytest.param(ASYMMETRIC, 0.25, id="asymmetric-dots"),
+    ],
+)
+@pytest.mark.parametrize("pose", [0, 4, 6])
+def test_every_point_is_where_and_which_it_is(board: Board, pose: int, within_px: float) -> None:
+    view = found(board, pose)
+    assert view.sureness is Sureness.CERTAIN
+    assert view.ids.size > 0.9 * len(board.object_points_mm)
+    off = np.linalg.norm(view.image_points_px - true_px(board, POSES[pose])[view.ids], axis=1)
+    # Larger than the noise of a corner, far smaller than a step: no point has another one's name.
+    assert off.max() < 6 * within_px
+    assert np.median(off) < within_px
+
+
+def test_a_grid_of_equal_dots_may_be_turned_by_half_and_says_so() -> None:
+    assert found(PLAIN_DOTS, 1).sureness is Sureness.HALF_TURN
+
+
+def test_larger_dots_tell_a_board_that_is_upside_down() -> None:
+    upside_down = ((10.0, 5.0, 180.0), (0.0, 0.0, 260.0))
+    view = find_board(picture(DOTS, upside_down), DOTS)
+    assert isinstance(view, BoardView)
+    off = np.linalg.norm(view.image_points_px - true_px(DOTS, upside_down)[view.ids], axis=1)
+    assert off.max() < 2.0
+
+
+@pytest.mark.parametrize("board", [DOTS, CHECKER], ids=["dots", "checkerboard"])
+def test_a_board_partly_out_of_view_gives_what_is_seen(board: Board) -> None:
+    aside = ((15.0, -10.0, 8.0), (95.0, -40.0, 250.0))
+    view = find_board(picture(board, aside), board)
+    assert isinstance(view, BoardView), view
+    assert 12 <= view.ids.size < len(board.object_points_mm)
+    if view.sureness is Sureness.CERTAIN:
+        off = np.linalg.norm(view.image_points_px - true_px(board, aside)[view.ids], axis=1)
+        assert off.max() < 2.0
+    else:
+        assert isinstance(board, CheckerBoard)
+
+
+def test_larger_dots_and_charuco_layout_are_found_by_themselves() -> None:
+    pictures = [picture(DOTS, POSES[index]) for index in (0, 1)]
+    assert board_as_seen(pictures, PLAIN_DOTS) == DOTS
+    pictures = [picture(OLDER, POSES[index]) for index in (0, 1)]
+    seen = board_as_seen(pictures, CHARUCO)
+    assert isinstance(seen, CharucoBoard)
+    assert seen.layout is CharucoLayout.OLDER
+
+
+def test_columns_and_rows_the_other_way_round_are_seen_by_the_larger_dots() -> None:
+    swapped = DOTS.transposed
+    assert board_as_seen([picture(DOTS, POSES[0])], swapped) == DOTS
+
+
+@pytest.mark.parametrize(
+    ("shown", "board", "reason"),
+    [
+        pytest.param(None, DOTS, NotFoundReason.NO_POINTS, id="empty-image"),
+        pytest.param(None, CHECKER, NotFoundReason.NO_POINTS, id="empty-image-checkerboard"),
+        pytest.param(None, CHARUCO, NotFoundReason.NO_POINTS, id="empty-image-charuco"),
+        pytest.param(CHECKER, PLAIN_DOTS, NotFoundReason.NO_POINTS, id="squares-are-no-dots"),
+        pytest.param(
+            PLAIN_DOTS,
+            DotBoard(columns=8, rows=7, pitch_mm=9.0),
+            NotFoundReason.OTHER_SIZE,
+            id="more-dots-than-the-board-has",
+        ),
+        pytest.param(
+            DOTS,
+            DotBoard(columns=12, rows=9, pitch_mm=9.0, fiducials=(0, 1, 2, 3)),
+            NotFoundReason.OTHER_FIDUCIALS,
+            id="larger-dots-elsewhere",
+        ),
+    ],
+)
+def test_what_is_not_the_board_is_not_found(
+    shown: Board | None, board: Board, reason: NotFoundReason
+) -> None:
+    image = np.full((480, 640), 128, np.uint8) if shown is None else picture(shown, POSES[1])
+    seen = find_board(image, board)
+    assert isinstance(seen, BoardNotFound), seen
+    assert seen.reason is reason
+    assert seen.sentence
+
+
+def test_noise_alone_is_no_board() -> None:
+    noise = np.random.default_rng(3).integers(0, 255, (240, 320)).astype(np.uint8)
+    for board in (DOTS, CHECKER, CHARUCO):
+        assert isinstance(find_board(noise, board), BoardNotFound)
+
+
+def test_what_is_no_image_is_refused() -> None:
+    with pytest.raises(InvalidInput) as told:
+        find_board(np.zeros((4, 4), np.uint8), DOTS)
+    assert told.value.code == "IMAGE_INVALID"

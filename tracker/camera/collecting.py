@@ -1,0 +1,255 @@
+"""Which images of a moved board are worth keeping for a calibration, and what is still missing."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import hypot, log
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+
+CELLS_WH = (6, 4)
+# An ordinary lens; only tilts and likeness are judged by it, and those forgive much.
+NOMINAL_FOCAL_BY_WIDTH = 1.2
+# How far apart two views are that count as different: in the image, in tilt, in size.
+APART_BY_WIDTH, APART_TILT_DEG, APART_LOG_SIZE = 0.15, 8.0, 0.2
+# Beyond this the board was seen too long ago to say whether it holds still.
+STILL_WITHIN_S = 2.5
+LEAST_POINTS = 6
+
+
+class Judgement(StrEnum):
+    """What became of one image of the board."""
+
+    TAKEN = "taken"
+    TOO_FEW_POINTS = "too_few_points"  # too little of the board is seen
+    FIRST_SIGHT = "first_sight"  # nothing to compare with: the next image tells whether it holds still
+    MOVING = "moving"  # what moves is smeared
+    NOTHING_NEW = "nothing_new"  # a view like this one has been taken
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CollectingSettings:
+    """When a view is taken, and when there are enough.
+
+    Attributes:
+        most_speed_px_s: how fast the board's points may move in an image of 1280 px; wider images allow more.
+        most_moved_px: how far, at most, between two looks.
+        least_views: how many there must be.
+        least_coverage_ratio: how much of the image the board must have been in.
+        least_tilt_deg: how far it must have been tilted to every side.
+    """
+
+    most_speed_px_s: float = 25.0
+    most_moved_px: float = 4.0
+    least_views: int = 12
+    least_coverage_ratio: float = 0.75
+    least_tilt_deg: float = 20.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CollectingProgress:
+    """How far it has come.
+
+    Attributes:
+        views: how many are taken.
+        covered: (rows, columns) bool, which parts of the image the board has been in.
+        tilt_deg: least and most lean of the board (upper edge away from the camera is above 0), then least
+            and most turn (left edge away is above 0); zeros before the first.
+        missing: what to do next, in sentences; empty when there is enough.
+    """
+
+    views: int
+    covered: npt.NDArray[np.bool_]
+    tilt_deg: tuple[float, float, float, float]
+    missing: tuple[str, ...]
+
+    @property
+    def coverage_ratio(self) -> float:
+        """How much of the image the board has been in."""
+        return float(self.covered.mean())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _View:
+    """What makes a view like another one or not."""
+
+    centre_px: Array
+    tilt_deg: tuple[float, float]
+    log_size: float
+    cells: npt.NDArray[np.bool_]
+
+
+class BoardCollector:
+    """Says of each image of a board whether it shall be kept; remembers what was kept.
+
+    Args:
+        size_wh_px: of the images.
+        settings: when a view is taken, and when there are enough.
+    """
+
+    def __init__(self, size_wh_px: tuple[int, int], settings: CollectingSettings | None = None) -> None:
+        self.size_wh_px = size_wh_px
+        self.settings = settings or CollectingSettings()
+        self._taken: list[_View] = []
+        self._before: tuple[float, dict[int, Array]] | None = None
+
+    def judge(
+        self,
+        *,
+        ids: npt.NDArray[np.int64],
+        object_points_mm: Array,
+        image_points_px: Array,
+        captured_at_s: float,
+    ) -> Judgement:
+        """Whether this view is kept; if so, it counts from now on.
+
+        Args:
+            ids: (n,) which points of the board were seen.
+            object_points_mm: (n, 3), on the board.
+            image_points_px: (n, 2).
+            captured_at_s: monotonic time of the image.
+        """
+        if len(ids) < LEAST_POINTS:
+            return Judgement.TOO_FEW_POINTS
+        moved = self._moved(ids, image_points_px, captured_at_s)
+        if moved is None:
+            return Judgement.FIRST_SIGHT
+        moved_px, since_s = moved
+        wider = max(1.0, self.size_wh_px[0] / 1280.0)
+        # Two looks far apart say little of the speed in between: then it must be where it was.
+        if moved_px > wider * min(self.settings.most_speed_px_s * since_s, self.settings.most_moved_px):
+            return Judgement.MOVING
+        view = self._view(object_points_mm, image_points_px)
+        if not self._new(view):
+            return Judgement.NOTHING_NEW
+        self._taken.append(view)
+        return Judgement.TAKEN
+
+    def keep(self, object_points_mm: Array, image_points_px: Array) -> None:
+        """Count a view that was chosen by somebody, as it is: points (n, 3) of the board and (n, 2) px."""
+        self._taken.append(self._view(object_points_mm, image_points_px))
+
+    def lose(self) -> None:
+        """The board was not seen: whether it holds still has to be seen anew."""
+        self._before = None
+
+    @property
+    def progress(self) -> CollectingProgress:
+        """How far it has come, and what is missing."""
+        covered = self._covered()
+        tilts = np.array([view.tilt_deg for view in self._taken]).reshape(-1, 2)
+        least = tilts.min(axis=0) if len(tilts) else np.zeros(2)
+        most = tilts.max(axis=0) if len(tilts) else np.zeros(2)
+        return CollectingProgress(
+            views=len(self._taken),
+            covered=covered,
+            tilt_deg=(float(least[0]), float(most[0]), float(least[1]), float(most[1])),
+            missing=tuple(self._missing(covered, least, most)),
+        )
+
+    def _moved(
+        self, ids: npt.NDArray[np.int64], image_points_px: Array, captured_at_s: float
+    ) -> tuple[float, float] | None:
+        """How far the points moved since the image before, px and s; None where there is none to compare."""
+        now = {int(point): px for point, px in zip(ids, image_points_px, strict=True)}
+        before, self._before = self._before, (captured_at_s, now)
+        if before is None or not 0.0 < captured_at_s - before[0] <= STILL_WITHIN_S:
+            return None
+        moved_px = [hypot(*(px - before[1][point])) for point, px in now.items() if point in before[1]]
+        if len(moved_px) < LEAST_POINTS:
+            return None
+        # Nearly the farthest: a board that is tilted in place moves at its rim alone.
+        return float(np.quantile(moved_px, 0.9)), captured_at_s - before[0]
+
+    def _view(self, object_points_mm: Array, image_points_px: Array) -> _View:
+        width, height = self.size_wh_px
+        spread = np.linalg.eigvalsh(np.cov(image_points_px.T))
+        columns, rows = CELLS_WH
+        cells = np.zeros((rows, columns), dtype=np.bool_)
+        column = np.clip((image_points_px[:, 0] * columns / width).astype(int), 0, columns - 1)
+        row = np.clip((image_points_px[:, 1] * rows / height).astype(int), 0, rows - 1)
+        cells[row, column] = True
+        return _View(
+            centre_px=np.asarray(image_points_px.mean(axis=0)),
+            tilt_deg=self._tilt_deg(object_points_mm, image_points_px),
+            log_size=0.25 * log(max(float(spread[0] * spread[1]), 1e-9)),
+            cells=cells,
+        )
+
+    def _tilt_deg(self, object_points_mm: Array, image_points_px: Array) -> tuple[float, float]:
+        """Lean (upper edge away) and turn (left edge away) of the board, as through an ordinary lens."""
+        width, height = self.size_wh_px
+        focal = NOMINAL_FOCAL_BY_WIDTH * width
+        matrix = np.array([[focal, 0, (width - 1) / 2], [0, focal, (height - 1) / 2], [0, 0, 1.0]])
+        found, turn, _ = cv2.solvePnP(
+            object_points_mm, image_points_px, matrix, np.zeros(5), flags=cv2.SOLVEPNP_IPPE
+        )
+        if not found:
+            return 0.0, 0.0
+        normal = cv2.Rodrigues(turn)[0][:, 2]
+        normal = normal * np.sign(normal[2] or 1.0)
+        lean, turned = np.degrees(np.arcsin(np.clip(normal[[1, 0]], -1.0, 1.0)))
+        return float(lean), float(turned)
+
+    def _new(self, view: _View) -> bool:
+        if (view.cells & ~self._covered()).sum() >= 2:
+            return True
+        width = self.size_wh_px[0]
+        return all(
+            hypot(
+                hypot(*(view.centre_px - one.centre_px)) / (APART_BY_WIDTH * width),
+                hypot(view.tilt_deg[0] - one.tilt_deg[0], view.tilt_deg[1] - one.tilt_deg[1])
+                / APART_TILT_DEG,
+                (view.log_size - one.log_size) / APART_LOG_SIZE,
+            )
+            > 1.0
+            for one in self._taken
+        )
+
+    def _covered(self) -> npt.NDArray[np.bool_]:
+        columns, rows = CELLS_WH
+        covered = np.zeros((rows, columns), dtype=np.bool_)
+        for view in self._taken:
+            covered |= view.cells
+        return covered
+
+    def _missing(self, covered: npt.NDArray[np.bool_], least: Array, most: Array) -> list[str]:
+        wanted = self.settings
+        missing = []
+        open_corners = [
+            name
+            for name, seen in (
+                ("top left", covered[0, 0]),
+                ("top right", covered[0, -1]),
+                ("bottom left", covered[-1, 0]),
+                ("bottom right", covered[-1, -1]),
+            )
+            if not seen
+        ]
+        if open_corners:
+            missing.append(f"Hold the board into the {', '.join(open_corners)} of the image.")
+        elif covered.mean() < wanted.least_coverage_ratio:
+            missing.append(
+                f"The board was in {covered.mean():.0%} of the image, needed "
+                f"{wanted.least_coverage_ratio:.0%}: move it along the rim."
+            )
+        ways = (
+            ("its upper edge away from you", most[0]),
+            ("its upper edge towards you", -least[0]),
+            ("its left edge away from you", most[1]),
+            ("its right edge away from you", -least[1]),
+        )
+        missing += [
+            f"Tilt the board by {wanted.least_tilt_deg:g} degrees or more, {way} "
+            f"({max(float(reached), 0.0):.0f} so far)."
+            for way, reached in ways
+            if reached < wanted.least_tilt_deg
+        ]
+        if not missing and len(self._taken) < wanted.least_views:
+            missing.append(
+                f"{len(self._taken)} of {wanted.least_views} views: hold it still in more places and tilts."
+            )
+        return missing

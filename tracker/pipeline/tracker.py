@@ -1,0 +1,144 @@
+"""The tracker of one camera: what each image says of each marker."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.appearance import textures_of
+from tracker.camera import CameraModel
+from tracker.geometry import Camera, Marker, Rigid
+from tracker.marker import (
+    MarkerModel,
+    ScoreSettings,
+    candidate_rounds,
+    pictures_of,
+    refuse_alike,
+    templates_of,
+)
+from tracker.pipeline.fitter import Fitter
+from tracker.pipeline.image import grey_of, pixels_of
+from tracker.pipeline.look_out import LookOut
+from tracker.pipeline.practice import practice_picture
+from tracker.pipeline.search import Search
+from tracker.pose import Pixels, Prior, Seen, Sighting, one_for_each_place
+from tracker.stages import Stages
+
+
+class Tracker:
+    """Finds any number of markers in images of one camera.
+
+    `step` uses what it knows from the images before; `search` is stateless. Not to be called from two
+    threads at once.
+
+    Attributes:
+        stage_ms: time of each stage of the last image, by name; empty where no clock was given.
+
+    The first tracker of a process loads the compiled loops, so that no image has to wait for them.
+
+    Raises:
+        InvalidInput: MARKER_NAMES_NOT_UNIQUE, or MARKERS_ALIKE.
+    """
+
+    _has_loaded: ClassVar[bool] = False
+
+    def __init__(
+        self,
+        *,
+        camera: CameraModel,
+        models: Sequence[MarkerModel],
+        settings: ScoreSettings | None = None,
+        clock: Callable[[], float] | None = None,
+    ) -> None:
+        refuse_alike(models)
+        self.camera = camera
+        self.models = tuple(models)
+        self.settings = settings or ScoreSettings()
+        self.stage_ms: Mapping[str, float] = {}
+        self._templates = templates_of(self.models)
+        self._textures = {model.name: textures_of(model.square) for model in self.models}
+        self._priors = {model.name: Prior() for model in models}
+        for model in self.models:
+            # Made when they are first asked for: now, not when the marker is first in doubt.
+            pictures_of(model.square)
+        self._stages = Stages(clock)
+        self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
+        self._look_out = LookOut(self._search_of)
+        if self.models and not Tracker._has_loaded:
+            Tracker._has_loaded = True
+            self._practise()
+
+    def _practise(self) -> None:
+        """Run the loops of a search once: they are made, or read, when they are first called."""
+        image = practice_picture(self.models[0].square, size_wh_px=self.camera.size_wh_px).image
+        pixels, templates = pixels_of(image, self._textures), self._templates[[0]]
+        # No image has come: the caller's clock is not asked.
+        fitter = Fitter(camera=self.camera, settings=self.settings, stages=Stages(None))
+        Search(pixels, self.models[:1], templates, fitter=fitter).to_the_end()
+        for _ in candidate_rounds(image, templates):
+            pass
+
+    def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
+        """What this image says of each marker, using what is known from the images before it.
+
+        A marker that was seen is looked for where it is expected; one that is not there is searched for in
+        the whole of the same image. A marker that was not seen while others are costs a part of a search:
+        it may come into view for a fraction of a second before it is found.
+
+        Args:
+            image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
+            captured_at_s: time of the image; an image that is older than the last one clears what is known.
+
+        Raises:
+            InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
+        """
+        pixels = self._pixels(image)
+        seen: dict[str, Sighting] = {}
+        for model in self.models:
+            sighting = self._track(pixels, model, captured_at_s)
+            if isinstance(sighting, Seen):
+                seen[model.name] = sighting
+        missing = [model for model in self.models if model.name not in seen]
+        # Where none is in view there is time to look for all.
+        lost = [model for model in missing if not seen or self._expected(model, captured_at_s) is not None]
+        if lost:
+            said = self._search_of(pixels, lost).to_the_end()
+            self._look_out.hear(said)
+            seen |= said
+        lost_names = {model.name for model in lost}
+        seen |= self._look_out.look(pixels, [model for model in missing if model.name not in lost_names])
+        seen = one_for_each_place(seen)
+        for name, prior in self._priors.items():
+            prior.learn(seen[name], captured_at_s)
+        self.stage_ms = self._stages.taken_ms
+        return {model.name: seen[model.name] for model in self.models}
+
+    def search(self, image: npt.NDArray[np.uint8]) -> dict[str, Sighting]:
+        """What this image says of each marker: the whole image, no prior, stateless.
+
+        Raises:
+            InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
+        """
+        seen = one_for_each_place(self._search_of(self._pixels(image), self.models).to_the_end())
+        self.stage_ms = self._stages.taken_ms
+        return seen
+
+    def _pixels(self, image: npt.NDArray[np.uint8]) -> Pixels:
+        self._stages.start()
+        grey = grey_of(image, size_wh_px=self.camera.size_wh_px)
+        self._stages.end("grey")
+        return pixels_of(grey, self._textures)
+
+    def _track(self, pixels: Pixels, model: MarkerModel, captured_at_s: float) -> Sighting | None:
+        """The marker where it is expected; None when nothing is expected there."""
+        expected = self._expected(model, captured_at_s)
+        return None if expected is None else self._fitter.near(pixels, model, expected, found_by="track")
+
+    def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:
+        return self._priors[model.name].expected(captured_at_s)
+
+    def _search_of(self, pixels: Pixels, models: Sequence[MarkerModel]) -> Search:
+        """A search that has not begun."""
+        which = [self.models.index(model) for model in models]
+        return Search(pixels, models, self._templates[which], fitter=self._fitter)

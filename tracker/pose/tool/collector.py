@@ -1,0 +1,258 @@
+"""Gathers poses for a calibration: takes those that add something, and says what is missing."""
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TypeAlias
+
+import numpy as np
+
+from tracker.errors import CalibrationError
+from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.pose.sighting import Seen, Sighting
+from tracker.pose.tool.gate import ToolGate
+from tracker.pose.tool.pivot import PivotCalibration, pivot_calibration, provisional_tip_mm
+from tracker.pose.tool.poses import Poses
+from tracker.pose.tool.spin import SpinCalibration, spin_calibration, stillest_direction
+from tracker.pose.tool.tip_check import TipCheck, check_tip
+from tracker.pose.tool.turning import Turning, turning_of
+
+Outcome: TypeAlias = PivotCalibration | SpinCalibration | TipCheck
+
+
+class Purpose(StrEnum):
+    """What poses are gathered for."""
+
+    PIVOT = "PIVOT"
+    SPIN = "SPIN"
+    TIP_CHECK = "TIP_CHECK"
+
+
+class Taking(StrEnum):
+    """What became of an image."""
+
+    TAKEN = "TAKEN"
+    NOT_SEEN = "NOT_SEEN"  # the marker is not seen in it
+    TOO_UNCERTAIN = "TOO_UNCERTAIN"  # its pose is too unsure
+    ALONE = "ALONE"  # no image shortly before shows whether the pose is one that a hand can reach
+    JUMPED = "JUMPED"  # farther from the image before than a hand moves: one of both is wrong
+    NOTHING_NEW = "NOTHING_NEW"  # the tool is turned as in a pose that was taken
+    FULL = "FULL"  # enough for any calibration
+
+
+class Need(StrEnum):
+    """What is still missing."""
+
+    MORE_POSES = "MORE_POSES"
+    TILT_MORE = "TILT_MORE"  # to both sides
+    TILT_ACROSS = "TILT_ACROSS"  # at right angles to the way in which it was tilted most
+    SPIN_MORE = "SPIN_MORE"
+    BETTER_RESULT = "BETTER_RESULT"  # all was done, and the result is not good enough
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Missing:
+    """One thing that is missing, with how much there is and how much is wanted (poses or degrees)."""
+
+    need: Need
+    there: float
+    wanted: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CollectorSettings:
+    """Which images are taken, and how many are wanted.
+
+    Attributes:
+        wanted_poses, wanted_tilt_deg, wanted_spin_deg: until these are there, more is asked for; above what
+            the gate asks, because a tip is surer the farther the tool was tilted.
+        most_turn_sd_deg, most_shift_sd_mm: how unsure a pose may be, in its worst direction.
+        most_speed_mm_s, most_turn_rate_deg_s: what a hand does at most.
+        most_gap_s: how long before an image the one may be with which it is compared.
+        least_new_deg: how far a pose must be turned from each one that was taken.
+        most_poses: how many are kept.
+    """
+
+    wanted_poses: int = 40
+    wanted_tilt_deg: float = 30.0
+    wanted_spin_deg: float = 90.0
+    most_turn_sd_deg: float = 1.0
+    most_shift_sd_mm: float = 3.0
+    most_speed_mm_s: float = 1500.0
+    most_turn_rate_deg_s: float = 360.0
+    most_gap_s: float = 0.25
+    least_new_deg: float = 2.0
+    most_poses: int = 400
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Progress:
+    """How far a calibration has come.
+
+    Attributes:
+        taken: how many poses there are.
+        passed_over: how many images were not taken, by reason.
+        turning: how far the tool was tilted and spun; an error tells why that is not known.
+        outcome: what the poses give now, or the error that says why they give nothing yet.
+        missing: what is still wanted; empty when it is enough.
+    """
+
+    taken: int
+    passed_over: Mapping[Taking, int]
+    turning: Turning | CalibrationError
+    outcome: Outcome | CalibrationError
+    missing: tuple[Missing, ...]
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether the calibration may be ended."""
+        return not self.missing
+
+
+@dataclass(frozen=True, slots=True)
+class _Last:
+    at_s: float
+    pose: Rigid[Camera, Marker]
+
+
+class PoseCollector:
+    """Gathers the poses of one marker. Mutable: holds what was taken. Time arrives as a number."""
+
+    def __init__(
+        self,
+        purpose: Purpose,
+        *,
+        tip_in_marker_mm: Array | None = None,
+        gate: ToolGate | None = None,
+        settings: CollectorSettings | None = None,
+    ) -> None:
+        """For this purpose; a tip check needs the tip, and a spin takes its sign from it."""
+        if purpose is Purpose.TIP_CHECK and tip_in_marker_mm is None:
+            raise CalibrationError(
+                "TOOL_TIP_MISSING", "there is no tip to check", "Calibrate the tip by pivoting first."
+            )
+        self._purpose = purpose
+        self._tip = tip_in_marker_mm
+        self._gate = gate or ToolGate()
+        self._settings = settings or CollectorSettings()
+        self._poses: list[Rigid[Camera, Marker]] = []
+        self._covariances: list[Array] = []
+        self._passed_over: Counter[Taking] = Counter()
+        self._last: _Last | None = None
+
+    def take(self, sighting: Sighting, *, at_s: float) -> Taking:
+        """Take what one image says of the marker, or say why not."""
+        if not isinstance(sighting, Seen):
+            return self._counted(Taking.NOT_SEEN)
+        return self.take_pose(sighting.camera_from_marker, sighting.pose_covariance, at_s=at_s)
+
+    def take_pose(self, pose: Rigid[Camera, Marker], covariance: Array, *, at_s: float) -> Taking:
+        """Take a pose with its covariance (6, 6), or say why not."""
+        last, self._last = self._last, _Last(at_s, pose)
+        taking = self._judged(pose, covariance, last, at_s)
+        if taking is Taking.TAKEN:
+            self._poses.append(pose)
+            self._covariances.append(covariance)
+        return self._counted(taking)
+
+    @property
+    def poses(self) -> Poses:
+        """All that was taken, in the order of time.
+
+        Raises:
+            InvalidInput: POSE_UNIT_SUSPECT or POSE_COVARIANCE_INVALID.
+        """
+        return Poses.from_rigids(self._poses, self._covariances)
+
+    def progress(self) -> Progress:
+        """How far it has come; a fit to all that was taken, so not for every image of a fast camera."""
+        poses = self.poses
+        outcome = self._outcome(poses)
+        turning = self._turning(poses, outcome)
+        return Progress(
+            taken=len(poses),
+            passed_over=dict(self._passed_over),
+            turning=turning,
+            outcome=outcome,
+            missing=tuple(self._missing(len(poses), turning, outcome)),
+        )
+
+    def _counted(self, taking: Taking) -> Taking:
+        if taking is not Taking.TAKEN:
+            self._passed_over[taking] += 1
+        return taking
+
+    def _judged(
+        self, pose: Rigid[Camera, Marker], covariance: Array, last: _Last | None, at_s: float
+    ) -> Taking:
+        limits = self._settings
+        shift_sd_mm = float(np.sqrt(np.linalg.eigvalsh(covariance[:3, :3])[-1]))
+        turn_sd_deg = float(np.degrees(np.sqrt(np.linalg.eigvalsh(covariance[3:, 3:])[-1])))
+        if not (shift_sd_mm <= limits.most_shift_sd_mm and turn_sd_deg <= limits.most_turn_sd_deg):
+            return Taking.TOO_UNCERTAIN
+        if last is None or not 0.0 < at_s - last.at_s <= limits.most_gap_s:
+            return Taking.ALONE
+        gap_s = at_s - last.at_s
+        shift_mm = float(np.linalg.norm(pose.translation_mm - last.pose.translation_mm))
+        turn_deg = float(_turns_deg(pose.rotation, last.pose.rotation[None])[0])
+        if shift_mm > limits.most_speed_mm_s * gap_s or turn_deg > limits.most_turn_rate_deg_s * gap_s:
+            return Taking.JUMPED
+        if len(self._poses) >= limits.most_poses:
+            return Taking.FULL
+        taken = np.array([one.rotation for one in self._poses]).reshape(-1, 3, 3)
+        if len(taken) and float(_turns_deg(pose.rotation, taken).min()) < limits.least_new_deg:
+            return Taking.NOTHING_NEW
+        return Taking.TAKEN
+
+    def _outcome(self, poses: Poses) -> Outcome | CalibrationError:
+        try:
+            if self._purpose is Purpose.PIVOT:
+                return pivot_calibration(poses, self._gate)
+            if self._purpose is Purpose.SPIN:
+                return spin_calibration(poses, tip_in_marker_mm=self._tip, gate=self._gate)
+            return check_tip(poses, np.asarray(self._tip), self._gate)
+        except CalibrationError as error:
+            return error
+
+    def _turning(self, poses: Poses, outcome: Outcome | CalibrationError) -> Turning | CalibrationError:
+        if isinstance(outcome, PivotCalibration | TipCheck):
+            return outcome.turning
+        if len(poses) < 3:
+            return CalibrationError(
+                "TOOL_TOO_FEW_POSES", f"there are {len(poses)} poses", "Move the tool, its tip in the divot."
+            )
+        if self._purpose is Purpose.SPIN:
+            # Any length will do: it is only a direction.
+            return turning_of(poses, 100.0 * stillest_direction(poses))
+        return turning_of(poses, provisional_tip_mm(poses) if self._tip is None else self._tip)
+
+    def _missing(
+        self, count: int, turning: Turning | CalibrationError, outcome: Outcome | CalibrationError
+    ) -> list[Missing]:
+        wanted = self._settings
+        missing = []
+        if count < wanted.wanted_poses:
+            missing.append(Missing(need=Need.MORE_POSES, there=count, wanted=wanted.wanted_poses))
+        if isinstance(turning, CalibrationError):
+            return missing or [Missing(need=Need.MORE_POSES, there=count, wanted=wanted.wanted_poses)]
+        ways = {
+            Need.TILT_MORE: (turning.tilt_range_deg, wanted.wanted_tilt_deg),
+            Need.TILT_ACROSS: (turning.tilt_range_across_deg, wanted.wanted_tilt_deg),
+        }
+        if self._purpose is Purpose.SPIN:
+            ways = {Need.SPIN_MORE: (turning.spin_range_deg, wanted.wanted_spin_deg)}
+        missing += [
+            Missing(need=need, there=there, wanted=enough)
+            for need, (there, enough) in ways.items()
+            if there < enough
+        ]
+        if not missing and (isinstance(outcome, CalibrationError) or outcome.failures(self._gate)):
+            missing.append(Missing(need=Need.BETTER_RESULT, there=count, wanted=count))
+        return missing
+
+
+def _turns_deg(rotation: Array, others: Array) -> Array:
+    """Angles (n,) between one rotation and others (n, 3, 3), from the chord, which keeps small angles."""
+    chord = np.linalg.norm(others - rotation, axis=(1, 2)) / np.sqrt(8.0)
+    return np.asarray(np.degrees(2.0 * np.arcsin(np.minimum(chord, 1.0))))

@@ -1,0 +1,114 @@
+"""The poses that a calibration of the tool is made from, checked before any number is drawn from them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array, Camera, Marker, Rigid
+
+# No camera sees a marker whole from nearer than this; a camera's distance in metres is always less.
+NEAREST_MM = 10.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Poses:
+    """Where one marker was in several images.
+
+    Attributes:
+        rotations: (n, 3, 3), camera from marker.
+        translations_mm: (n, 3), the marker's centre in the camera's frame.
+        covariances: (n, 6, 6) [mm, rad] as in `Seen.pose_covariance`, or None where nobody states them.
+    """
+
+    rotations: Array
+    translations_mm: Array
+    covariances: Array | None = None
+
+    @classmethod
+    def from_rigids(
+        cls, poses: Sequence[Rigid[Camera, Marker]], covariances: Sequence[npt.ArrayLike] | None = None
+    ) -> "Poses":
+        """From poses, and their covariances if they are known.
+
+        Raises:
+            InvalidInput: POSE_COVARIANCE_INVALID, or POSE_UNIT_SUSPECT where translations seem to be metres.
+        """
+        rotations = np.array([pose.rotation for pose in poses]).reshape(-1, 3, 3)
+        translations = np.array([pose.translation_mm for pose in poses]).reshape(-1, 3)
+        _refuse_metres(translations)
+        return cls(
+            rotations=_read_only(rotations),
+            translations_mm=_read_only(translations),
+            covariances=None if covariances is None else _checked(covariances, len(poses)),
+        )
+
+    def __len__(self) -> int:
+        return len(self.rotations)
+
+    def of(self, chosen: npt.NDArray[np.bool_] | npt.NDArray[np.int_]) -> "Poses":
+        """Some of them, by a mask or by their indices."""
+        covariances = None if self.covariances is None else self.covariances[chosen]
+        return Poses(
+            rotations=self.rotations[chosen],
+            translations_mm=self.translations_mm[chosen],
+            covariances=covariances,
+        )
+
+    def points_mm(self, point_in_marker_mm: npt.ArrayLike) -> Array:
+        """A point (3,) of the marker in the camera's frame, in each pose (n, 3)."""
+        turned = self.rotations @ np.asarray(point_in_marker_mm, dtype=np.float64)
+        return np.asarray(turned + self.translations_mm)
+
+    @property
+    def repeats(self) -> npt.NDArray[np.bool_]:
+        """Which ones are an earlier one to the last digit: what trackers tell that lost the marker."""
+        flat = np.hstack([self.rotations.reshape(-1, 9), self.translations_mm])
+        _, first = np.unique(flat, axis=0, return_index=True)
+        repeated = np.ones(len(self), dtype=np.bool_)
+        repeated[first] = False
+        return repeated
+
+
+def _read_only(array: Array) -> Array:
+    array.setflags(write=False)
+    return array
+
+
+def _refuse_metres(translations_mm: Array) -> None:
+    distances = np.linalg.norm(translations_mm, axis=1)
+    near = int((distances < NEAREST_MM).sum())
+    if not near:
+        return
+    shown = float(np.median(distances))
+    which = "all" if near == len(distances) else f"{near} of {len(distances)}"
+    raise InvalidInput(
+        "POSE_UNIT_SUSPECT",
+        f"in {which} poses the marker is nearer than {NEAREST_MM:g} mm to the camera (median {shown:.3g} "
+        "mm), which no camera can see; these seem to be metres",
+        "Give all translations in one unit, and say which if it is not mm (m: --unit m).",
+        {"near": near, "poses": len(distances), "median_distance_mm": shown},
+    )
+
+
+def _checked(covariances: Sequence[npt.ArrayLike], count: int) -> Array:
+    stated = np.array([np.asarray(one, dtype=np.float64) for one in covariances])
+    stated = stated if count else np.zeros((0, 6, 6))
+    is_sound = stated.shape == (count, 6, 6) and bool(np.isfinite(stated).all())
+    if is_sound:
+        # mm and radians differ by orders of magnitude: what is positive is seen on a unit diagonal.
+        sd = np.sqrt(np.abs(np.diagonal(stated, axis1=1, axis2=2)))
+        is_sound = bool((sd > 0.0).all())
+        scaled = stated / np.where(sd > 0.0, sd, 1.0)[:, :, None] / np.where(sd > 0.0, sd, 1.0)[:, None, :]
+        is_sound = is_sound and bool((np.linalg.eigvalsh(scaled) > -1e-6).all())
+    if not is_sound:
+        raise InvalidInput(
+            "POSE_COVARIANCE_INVALID",
+            f"the covariances of {count} poses have the shape {stated.shape} or are not positive, "
+            f"needed {(count, 6, 6)}",
+            "Give each pose its covariance (6, 6) in mm and radians, translation first, or give none.",
+            {"shape": list(stated.shape), "poses": count},
+        )
+    return _read_only(stated)

@@ -1,0 +1,205 @@
+"""Spin calibration: the tool is turned about its own axis, and its marker tells where that axis points."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import CalibrationError, InvalidInput
+from tracker.geometry import Array, angle_between_deg
+from tracker.pose.tool.equations import (
+    Equations,
+    Mask,
+    covariance_of,
+    half_that_fits,
+    most_allowed,
+)
+from tracker.pose.tool.gate import ToolGate
+from tracker.pose.tool.pivot import RejectedPose, RejectedReason, refuse_too_few, rejected_poses
+from tracker.pose.tool.poses import Poses
+from tracker.pose.tool.turning import spin_range_deg
+
+# The tip lies on the axis: an axis that is farther than this off the way to the tip is another motion's.
+MOST_OFF_TIP_DEG = 60.0
+MOST_ROUNDS = 30
+REWEIGHTINGS = 30
+SPIN_REMEDY = (
+    "Keep the tip in the divot and the handle still, turn the tool about its own axis by a half turn or as "
+    "far as the marker stays in view, and calibrate again."
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpinCalibration:
+    """Which way the tool's axis points in its marker's frame.
+
+    Attributes:
+        axis_in_marker: (3,), unit; from the marker towards the tip where the tip is known.
+        points_to_tip: whether the tip decided its sign; if not, the axis may as well point backwards.
+        axis_covariance_rad2: (3, 3) in the marker's frame, flat along the axis.
+        axis_sd_deg: standard deviation in the direction in which it is known least.
+        spin_range_deg: how far the tool was turned about it.
+        wobble_deg: RMS angle of the axis from its mean direction in the camera's frame, over poses in use.
+        used: (n,) which poses agree.
+        rejected: the others, with the reason; `off` in degrees.
+    """
+
+    axis_in_marker: Array
+    points_to_tip: bool
+    axis_covariance_rad2: Array
+    axis_sd_deg: float
+    spin_range_deg: float
+    wobble_deg: float
+    used: Mask
+    rejected: tuple[RejectedPose, ...]
+
+    def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
+        """What keeps this axis from being used; nothing where it passes."""
+        if self.axis_sd_deg <= gate.most_axis_sd_deg:
+            return ()
+        return (
+            CalibrationError(
+                "SPIN_AXIS_UNCERTAIN",
+                f"the axis is known to {self.axis_sd_deg:.2f} degrees (standard deviation), "
+                f"allowed {gate.most_axis_sd_deg:.2f}",
+                SPIN_REMEDY,
+                {"axis_sd_deg": self.axis_sd_deg, "allowed_deg": gate.most_axis_sd_deg},
+            ),
+        )
+
+
+def spin_calibration(
+    poses: Poses, *, tip_in_marker_mm: npt.ArrayLike | None = None, gate: ToolGate | None = None
+) -> SpinCalibration:
+    """The axis of a tool that was turned about it: the marker's direction that stayed where it was.
+
+    The tip (3,), if it is known, decides the sign: drilling goes from the marker towards the tip.
+
+    Raises:
+        CalibrationError: TOOL_TOO_FEW_POSES, SPIN_TOO_SMALL, SPIN_WOBBLES, or SPIN_NOT_ABOUT_TOOL.
+    """
+    gate = gate or ToolGate()
+    fresh = ~poses.repeats
+    different = poses.of(fresh)
+    refuse_too_few(different, len(poses), gate)
+    axis, agree = _fitted(different)
+    if tip_in_marker_mm is not None:
+        axis = _towards_tip(axis, np.asarray(tip_in_marker_mm, dtype=np.float64))
+    spun = different.of(agree)
+    spin_deg = spin_range_deg(spun, axis)
+    off_deg = _off_deg(different, axis, agree)
+    wobble_deg = float(np.sqrt((off_deg[agree] ** 2).mean()))
+    _refuse_other_motions(spin_deg, wobble_deg, gate)
+    equations, across = _around(spun, axis)
+    covariance = covariance_of(equations, np.concatenate([np.zeros(2), _mean_direction(spun, axis)]))[:2, :2]
+    used = np.zeros(len(poses), dtype=np.bool_)
+    used[fresh] = agree
+    return SpinCalibration(
+        axis_in_marker=_fixed(axis),
+        points_to_tip=tip_in_marker_mm is not None,
+        axis_covariance_rad2=_fixed(across @ covariance @ across.T),
+        axis_sd_deg=float(np.degrees(np.sqrt(np.linalg.eigvalsh(covariance)[-1]))),
+        spin_range_deg=spin_deg,
+        wobble_deg=wobble_deg,
+        used=used,
+        rejected=rejected_poses(fresh, agree, off_deg, RejectedReason.OFF_THE_AXIS),
+    )
+
+
+def stillest_direction(poses: Poses) -> Array:
+    """The unit direction (3,) of the marker that moved least in these poses."""
+    return _stillest(poses, np.ones(len(poses)))
+
+
+def _fitted(poses: Poses) -> tuple[Array, Mask]:
+    """The direction (3,) of the marker that moved least, and the poses in which it did."""
+    axis = _stillest(poses, np.ones(len(poses)))
+    for _ in range(REWEIGHTINGS):
+        # Each pose by the inverse of its distance: the middle that outliers hardly move.
+        off = np.linalg.norm(poses.rotations @ axis - _middle(poses.rotations @ axis), axis=1)
+        axis = _stillest(poses, 1.0 / np.maximum(off, 1e-4))
+    residuals = poses.rotations @ axis - _middle(poses.rotations @ axis)
+    agree = half_that_fits(residuals)
+    for _ in range(MOST_ROUNDS):
+        residuals = poses.rotations @ axis - (poses.rotations[agree] @ axis).mean(axis=0)
+        now = np.linalg.norm(residuals, axis=1) <= most_allowed(residuals, agree)
+        axis = _stillest(poses.of(now), np.ones(int(now.sum())))
+        if (now == agree).all():
+            break
+        agree = now
+    return axis, agree
+
+
+def _stillest(poses: Poses, weights: Array) -> Array:
+    """The unit direction (3,) of the marker whose ends in the camera's frame lie closest together."""
+    share = weights / weights.sum()
+    off = poses.rotations - np.tensordot(share, poses.rotations, 1)
+    moved = np.einsum("n,nij,nik->jk", share, off, off)
+    return np.asarray(np.linalg.eigh(moved)[1][:, 0])
+
+
+def _middle(directions: Array) -> Array:
+    return np.asarray(np.median(directions, axis=0))
+
+
+def _mean_direction(poses: Poses, axis: Array) -> Array:
+    return np.asarray((poses.rotations @ axis).mean(axis=0))
+
+
+def _off_deg(poses: Poses, axis: Array, agree: Mask) -> Array:
+    mean = _mean_direction(poses.of(agree), axis)
+    return np.array([angle_between_deg(direction, mean) for direction in poses.rotations @ axis])
+
+
+def _around(poses: Poses, axis: Array) -> tuple[Equations, Array]:
+    """Equations of two small tilts of the axis and its mean direction (5,); the tilts' ways (3, 2)."""
+    across = np.linalg.svd(axis[None, :])[2][1:].T
+    mean = np.broadcast_to(-np.eye(3), (len(poses), 3, 3))
+    design = np.concatenate([poses.rotations @ across, mean], axis=2)
+    return Equations(design=design, offset=poses.rotations @ axis), across
+
+
+def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
+    length = float(np.linalg.norm(tip_in_marker_mm))
+    if tip_in_marker_mm.shape != (3,) or not np.isfinite(tip_in_marker_mm).all() or length < 1.0:
+        raise InvalidInput(
+            "TOOL_TIP_INVALID",
+            f"the tip is {tip_in_marker_mm.tolist()}, which tells no direction from the marker",
+            "Give the tip as three numbers in mm in the marker's frame, as pivot calibration says it.",
+        )
+    off_deg = angle_between_deg(axis, tip_in_marker_mm)
+    nearer_deg = min(off_deg, 180.0 - off_deg)
+    if nearer_deg > MOST_OFF_TIP_DEG:
+        raise CalibrationError(
+            "SPIN_NOT_ABOUT_TOOL",
+            f"the axis of this motion is {nearer_deg:.0f} degrees off the direction to the tip, "
+            f"allowed {MOST_OFF_TIP_DEG:g}: the tool was tilted, not spun",
+            SPIN_REMEDY,
+            {"off_deg": nearer_deg, "allowed_deg": MOST_OFF_TIP_DEG},
+        )
+    return axis if off_deg < 90.0 else -axis
+
+
+def _refuse_other_motions(spin_deg: float, wobble_deg: float, gate: ToolGate) -> None:
+    context: dict[str, object] = {"spin_range_deg": spin_deg, "wobble_deg": wobble_deg}
+    if not wobble_deg <= gate.most_wobble_deg:
+        raise CalibrationError(
+            "SPIN_WOBBLES",
+            f"the axis moved by {wobble_deg:.1f} degrees (RMS) while the tool was spun by {spin_deg:.0f}, "
+            f"allowed {gate.most_wobble_deg:g}",
+            SPIN_REMEDY,
+            context,
+        )
+    if not spin_deg >= gate.least_spin_deg:
+        raise CalibrationError(
+            "SPIN_TOO_SMALL",
+            f"the tool was spun by {spin_deg:.0f} degrees, needed {gate.least_spin_deg:g}",
+            SPIN_REMEDY,
+            context,
+        )
+
+
+def _fixed(array: Array) -> Array:
+    copied = np.array(array)
+    copied.setflags(write=False)
+    return copied

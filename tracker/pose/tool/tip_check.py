@@ -1,0 +1,92 @@
+"""Tip check: the tip is held in one divot while the tool is tilted, and must not seem to move."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import CalibrationError, InvalidInput
+from tracker.geometry import Array
+from tracker.pose.tool.gate import ToolGate
+from tracker.pose.tool.pivot import refuse_too_few, rms_3d_mm
+from tracker.pose.tool.poses import Poses
+from tracker.pose.tool.turning import Turning, turning_of
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TipCheck:
+    """How far a calibrated tip seems to wander while it is held still.
+
+    Attributes:
+        pivot_in_camera_mm: (3,), the mean place of the tip.
+        rms_3d_mm: root of its mean squared distance from there; no pose is left out of it.
+        most_mm: the largest distance.
+        rms_by_axis_mm: (3,), along x, y, z of the camera.
+        poses: how many different ones.
+        turning: how far the tool was tilted and spun.
+    """
+
+    pivot_in_camera_mm: Array
+    rms_3d_mm: float
+    most_mm: float
+    rms_by_axis_mm: Array
+    poses: int
+    turning: Turning
+
+    def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
+        """What keeps this tip from being trusted; nothing where it passes."""
+        if self.rms_3d_mm <= gate.most_rms_3d_mm:
+            return ()
+        return (
+            CalibrationError(
+                "TIP_CHECK_FAILED",
+                f"the tip seems to wander by {self.rms_3d_mm:.2f} mm (3-D RMS) and by {self.most_mm:.2f} mm "
+                f"at most, allowed {gate.most_rms_3d_mm:.2f} mm (3-D RMS)",
+                "See that neither the tool nor its marker is bent or loose, and calibrate the tip again.",
+                {"rms_3d_mm": self.rms_3d_mm, "most_mm": self.most_mm, "allowed_mm": gate.most_rms_3d_mm},
+            ),
+        )
+
+
+def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | None = None) -> TipCheck:
+    """The spread of a tip (3,) over poses in which it was held in one place.
+
+    A tool that is not tilted shows the same place even for a wrong tip, so that such a check says nothing and
+    is refused.
+
+    Raises:
+        InvalidInput: TOOL_TIP_INVALID.
+        CalibrationError: TOOL_TOO_FEW_POSES, or TIP_CHECK_TILT_TOO_SMALL.
+    """
+    gate = gate or ToolGate()
+    tip = np.asarray(tip_in_marker_mm, dtype=np.float64)
+    if tip.shape != (3,) or not np.isfinite(tip).all():
+        raise InvalidInput(
+            "TOOL_TIP_INVALID",
+            f"the tip is {tip.tolist()}, needed three numbers in mm",
+            "Give the tip in the marker's frame, as pivot calibration says it.",
+        )
+    different = poses.of(~poses.repeats)
+    refuse_too_few(different, len(poses), gate)
+    turning = turning_of(different, tip)
+    if not turning.least_turn_deg >= gate.least_tilt_deg:
+        raise CalibrationError(
+            "TIP_CHECK_TILT_TOO_SMALL",
+            f"about one direction the tool was turned by only {turning.least_turn_deg:.1f} degrees from end "
+            f"to end, needed {gate.least_tilt_deg:g}: a wrong tip would not have shown",
+            "Keep the tip in the divot, tilt the tool to all sides, and check again.",
+            {"turned_deg": turning.least_turn_deg, "needed_deg": gate.least_tilt_deg},
+        )
+    tips = different.points_mm(tip)
+    pivot = tips.mean(axis=0)
+    by_axis = np.sqrt(((tips - pivot) ** 2).mean(axis=0))
+    for array in (pivot, by_axis):
+        array.setflags(write=False)
+    return TipCheck(
+        pivot_in_camera_mm=pivot,
+        rms_3d_mm=rms_3d_mm(tips, pivot),
+        most_mm=float(np.linalg.norm(tips - pivot, axis=1).max()),
+        rms_by_axis_mm=by_axis,
+        poses=len(different),
+        turning=turning,
+    )
