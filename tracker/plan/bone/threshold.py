@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
-from skimage.filters import threshold_otsu
+from skimage.filters import threshold_isodata
 
 LOWEST_HU, HIGHEST_HU = -1024, 1500
 # Muscle, blood and discs; contrast and scanners move it.
@@ -13,7 +13,7 @@ SOFT_TISSUE_HU = (-20, 120)
 # As wide as noise makes a peak jagged.
 SMOOTHED_OVER_HU = 8.0
 SOFT_TISSUE_NEEDED_RATIO = 0.05
-LEAST_ABOVE_SOFT_TISSUE_HU, HIGHEST_PROPOSED_HU = 60.0, 400.0
+LEAST_ABOVE_SURROUNDINGS_HU, HIGHEST_PROPOSED_HU = 60.0, 400.0
 MOST_VOXELS = 4_000_000
 
 
@@ -35,9 +35,10 @@ class ThresholdProposal:
 def proposed_threshold(hu: npt.NDArray[np.int16]) -> ThresholdProposal:
     """The value that best parts bone from what surrounds it, from the histogram of a CT or a part of it.
 
-    Otsu's threshold (1979) of all voxels brighter than the peak of soft tissue: fat and air are left out, as
-    they would make two groups by themselves, and metal counts as dense bone. A dry bone scanned in air has no
-    soft tissue; there it is Otsu's threshold of all voxels. Large arrays are read in steps.
+    Half-way between the means of what is darker and what is brighter (Ridler and Calvard 1978), of all voxels
+    from the peak of soft tissue on: fat and air are left out, as they would make a group by themselves, and
+    metal counts as dense bone. A dry bone scanned in air has no soft tissue; there it is air that it is
+    parted from. Large arrays are read in steps.
 
     Args:
         hu: (slices, rows, columns) int16.
@@ -50,16 +51,14 @@ def proposed_threshold(hu: npt.NDArray[np.int16]) -> ThresholdProposal:
     soft = (levels >= SOFT_TISSUE_HU[0]) & (levels <= SOFT_TISSUE_HU[1])
     if counts[soft].sum() >= SOFT_TISSUE_NEEDED_RATIO * values.size:
         surroundings = float(levels[soft][smooth[soft].argmax()])
-        least = surroundings + LEAST_ABOVE_SOFT_TISSUE_HU
     else:
         surroundings = float(levels[smooth.argmax()])
-        least = float(SOFT_TISSUE_HU[1])
-        surroundings = min(surroundings, least)
-    brighter = levels > surroundings
+    least = surroundings + LEAST_ABOVE_SURROUNDINGS_HU
+    brighter = levels >= surroundings
     threshold = least
     if np.count_nonzero(counts[brighter]) > 1:
         histogram = (counts[brighter], levels[brighter])
-        found = float(threshold_otsu(hist=histogram))  # type: ignore[no-untyped-call]  # it has no types
+        found = float(threshold_isodata(hist=histogram))  # type: ignore[no-untyped-call]  # it has no types
         threshold = float(np.clip(found, least, max(least, HIGHEST_PROPOSED_HU)))
     return ThresholdProposal(
         threshold_hu=threshold,

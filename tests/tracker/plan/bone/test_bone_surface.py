@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.tracker.plan.bone.ellipsoids import BONE_HU, HALF_HU, Ellipsoid, affine_of, scanned
+from tests.tracker.plan.bone.ellipsoids import HALF_HU, Ellipsoid, affine_of, scanned
 from tracker.errors import PlanError
 from tracker.plan import Volume
 from tracker.plan.bone import BoneSettings, BoneSurface, Region, bone_surface
@@ -42,9 +42,8 @@ def test_the_surface_lies_where_the_bone_ends_and_is_wound_outwards(scan: Volume
 
 def test_the_proposed_threshold_serves_too(scan: Volume) -> None:
     made = bone_surface(scan)
-    assert 100.0 < made.threshold_hu < BONE_HU
-    assert made.threshold_hu == made.proposal.threshold_hu
-    assert np.abs(BODY.distances_mm(made.surface.vertices_mm)).max() < 0.3 * scan.spacing_mm.max()
+    assert made.threshold_hu == made.proposal.threshold_hu == pytest.approx(HALF_HU, abs=25.0)
+    assert np.abs(BODY.distances_mm(made.surface.vertices_mm)).max() < 0.3 * float(np.cbrt(scan.voxel_mm3))
 
 
 def test_in_noise_smoothing_brings_the_surface_nearer_to_the_truth() -> None:
