@@ -1,6 +1,6 @@
 """Benchmarks: how true and how fast the tracker is beside its peers and the bound, as Markdown tables.
 
-python -m tests.benchmarks [limits | rehearsal | overlay | server] [--write]
+python -m tests.benchmarks [limits | rehearsal | overlay | server | tools] [--write]
 """
 
 import argparse
@@ -33,6 +33,7 @@ def main(arguments: list[str] | None = None) -> None:
         conditions=given.conditions,
         images=given.n,
         seed=given.seed,
+        runs=given.runs,
     )
     written = read_figures()
     for name in SECTIONS if given.what == "all" else (given.what,):
@@ -41,7 +42,9 @@ def main(arguments: list[str] | None = None) -> None:
         except NavigationError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(2)
-        said = asked.said_of_limits if name == "limits" else asked.said_of_theatres
+        said = {"limits": asked.said_of_limits, "tools": asked.said_of_tools}.get(
+            name, asked.said_of_theatres
+        )
         content = "\n".join([f"{machine_line()} {said}\n", *(table.markdown for table in measured.tables)])
         sys.stdout.write(f"## {name}\n\n{content}\n{_compared(written.get(name, {}), measured)}\n")
         sys.stdout.flush()
@@ -65,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
         "--n", type=int, default=default.images, help="scenes of each condition of the limits"
     )
     parser.add_argument("--seed", type=int, default=default.seed, help="of the first scene of the limits")
+    parser.add_argument("--runs", type=int, default=default.runs, help="calibrations of each kind of tool")
     parser.add_argument("--write", action="store_true", help="write the tables into the README")
     return parser
 

@@ -19,6 +19,7 @@ class Asked:
         conditions: of the limits, by name; none for all, and for hands, pace and empty images too.
         images: of each condition of the limits.
         seed: of their first image.
+        runs: simulated calibrations of each kind of tool.
     """
 
     seeds: tuple[int, ...] = (1, 2, 3)
@@ -33,6 +34,7 @@ class Asked:
     conditions: tuple[str, ...] = ()
     images: int = 18
     seed: int = 0
+    runs: int = 200
 
     @property
     def is_usual_theatre(self) -> bool:
@@ -54,6 +56,11 @@ class Asked:
         """Which scenes are measured, in a sentence."""
         which = ", ".join(self.conditions) or "all conditions"
         return f"Cameras {self.rigs}; {which}; {self.images} scenes of each from seed {self.seed} on."
+
+    @property
+    def said_of_tools(self) -> str:
+        """Which calibrations are measured, in a sentence."""
+        return f"{self.runs} simulated calibrations of each kind, of 60 poses where nothing else is said."
 
     def settings_of(self, seed: int, size_wh_px: tuple[int, int] = (1280, 720)) -> TheatreSettings:
         """The theatre of a seed, as hard as was asked."""

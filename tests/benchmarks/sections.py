@@ -16,6 +16,7 @@ from tests.benchmarks.overlay import measure_overlay
 from tests.benchmarks.running_server import running_server
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.tables import Table
+from tests.benchmarks.tools import measure_tools
 from tests.benchmarks.viewer import measure_viewer
 from tracker.rehearsal import Theatre
 
@@ -122,4 +123,5 @@ SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "rehearsal": measure_rehearsal,
     "overlay": measure_drawing,
     "server": measure_server,
+    "tools": measure_tools,
 }

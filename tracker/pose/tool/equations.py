@@ -17,6 +17,7 @@ AGREED_SHARE = 0.999
 # Numbers in a file are rounded; what is nearer than this always agrees.
 LEAST_ALLOWED = 1e-3
 MOST_LEVERAGE = 0.95
+FREEDOM_BY_POSE = 0.6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,12 +101,12 @@ def most_allowed(residuals: Array, used: Mask) -> float:
     return max(float(np.sqrt(few * median * by_median)), LEAST_ALLOWED)
 
 
-def covariance_of(equations: Equations, x: Array) -> Array:
-    """Covariance (k, k) of the solution x, from what the residuals themselves show.
+def covariance_of(equations: Equations, x: Array, *, numbers: int) -> Array:
+    """Covariance (k, k) of the solution x, of which so many numbers are wanted, from the residuals alone.
 
     The sandwich of White (1980) in its leave-one-out form (HC3, MacKinnon and White 1985), a pose for a
     block, since the noise of a pose has no known shape. Two things are added, so that the 95 % ellipsoid by
-    the chi-square of three numbers holds the truth as often as it says: few poses know their own spread badly
+    the chi-square of these numbers holds the truth as often as it says: few poses know their own spread badly
     (by the F distribution), and neighbouring images that err alike count as one.
     """
     design, residuals = equations.design, equations.residuals(x)
@@ -116,7 +117,7 @@ def covariance_of(equations: Equations, x: Array) -> Array:
     unseen = np.einsum("nij,nj,nkj,nk->ni", ways, left, ways, residuals)
     scores = np.einsum("nij,ni->nj", design, unseen)
     sandwich = inverse @ (scores.T @ scores) @ inverse
-    return np.asarray(sandwich * _few_poses(len(design)) * alike_neighbours(residuals))
+    return np.asarray(sandwich * _few_poses(len(design), numbers) * alike_neighbours(residuals))
 
 
 def alike_neighbours(residuals: Array) -> float:
@@ -136,6 +137,7 @@ def alike_neighbours(residuals: Array) -> float:
     return grown
 
 
-def _few_poses(count: int) -> float:
-    freedom = max((count - 3) / 2.0, 1.0)
-    return float(3.0 * stats.f.ppf(0.95, 3, freedom) / stats.chi2.ppf(0.95, 3))
+def _few_poses(count: int, numbers: int) -> float:
+    # How many degrees of freedom a sandwich of so many poses has: found by simulation of many kinds of noise.
+    freedom = max(FREEDOM_BY_POSE * (count - 3), 1.0)
+    return float(numbers * stats.f.ppf(0.95, numbers, freedom) / stats.chi2.ppf(0.95, numbers))

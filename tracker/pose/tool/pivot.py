@@ -143,14 +143,14 @@ def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibr
     different = poses.of(fresh)
     refuse_too_few(different, len(poses), gate)
     _refuse_too_little_tilt(least_turn_deg(different), gate)
-    x, agree, allowed_by = _fitted(different)
+    x, agree, weighed = _fitted(different)
     tips = different.points_mm(x[:3])
     used = np.zeros(len(poses), dtype=np.bool_)
     used[fresh] = agree
     off_mm = np.linalg.norm(tips - x[3:], axis=1)
     turning = turning_of(different.of(agree), x[:3])
     _refuse_too_little_tilt(turning.least_turn_deg, gate)
-    covariance = covariance_of(allowed_by.of(agree), x)
+    covariance = covariance_of(weighed.of(agree), x, numbers=3)
     covariance.setflags(write=False)
     return PivotCalibration(
         tip_in_marker_mm=_fixed(x[:3]),

@@ -91,7 +91,8 @@ def spin_calibration(
     wobble_deg = float(np.sqrt((off_deg[agree] ** 2).mean()))
     _refuse_other_motions(spin_deg, wobble_deg, gate)
     equations, across = _around(spun, axis)
-    covariance = covariance_of(equations, np.concatenate([np.zeros(2), _mean_direction(spun, axis)]))[:2, :2]
+    x = np.concatenate([np.zeros(2), _mean_direction(spun, axis)])
+    covariance = covariance_of(equations, x, numbers=2)[:2, :2]
     used = np.zeros(len(poses), dtype=np.bool_)
     used[fresh] = agree
     return SpinCalibration(
