@@ -47,7 +47,7 @@ def measure_ct_reading() -> list[Table]:
             columns=["slices", "first slice s", "all s", "sagittal slice ms", "memory / volume"],
             rows=rows,
             note="Memory is the most that the reading process held over the 200 MiB of the voxels, Python "
-            "and its libraries (160 MiB) included; each decoding process holds 75 MiB more while it runs. Times "
+            "and libraries (160 MiB) included; a decoding process holds 75 MiB more while it runs. Times "
             "begin with the call.",
         )
     ]

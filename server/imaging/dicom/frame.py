@@ -6,14 +6,9 @@ from pydicom.dataset import Dataset
 from pydicom.uid import ImplicitVRLittleEndian
 
 from server.imaging.container import Entry
-from server.imaging.dicom.header import BAD_DICOM, NotUsed, number, numbers, text, words
+from server.imaging.dicom.header import BAD_DICOM, CT_CLASSES, NotUsed, number, numbers, text, words
 
 SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
-CT_CLASSES = {
-    "1.2.840.10008.5.1.4.1.1.2",
-    "1.2.840.10008.5.1.4.1.1.2.1",
-    "1.2.840.10008.5.1.4.1.1.2.2",
-}
 MOST_FRAMES = 20_000
 
 
