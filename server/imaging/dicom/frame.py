@@ -107,7 +107,7 @@ def _shared(entry: Entry, header: Dataset) -> Shared:
     return Shared(
         entry=entry,
         owner=Owner(
-            name=_plain(text(header, "PatientName")),
+            name=_plain(text(header, "PatientName").partition("=")[0]),
             identifier=_plain(text(header, "PatientID")),
             born=_plain(text(header, "PatientBirthDate")),
         ),
@@ -133,7 +133,7 @@ def _shared(entry: Entry, header: Dataset) -> Shared:
 
 def _plain(value: str) -> str:
     """Without what differs between two ways to write one name."""
-    return " ".join(value.replace("^", " ").replace("=", " ").split()).casefold()
+    return " ".join(value.replace("^", " ").split()).casefold()
 
 
 def _padding(header: Dataset) -> tuple[int, int] | None:

@@ -14,6 +14,7 @@ from pydicom.dataset import Dataset
 from pydicom.errors import BytesLengthException, InvalidDicomError
 
 from server.imaging.container import MOST_BYTES, Entry
+from server.imaging.nifti import is_nifti
 
 # pydicom's words may quote what a file holds, and that may be the patient's name.
 logging.getLogger("pydicom").setLevel(logging.CRITICAL + 1)
@@ -105,7 +106,7 @@ def read_header(entry: Entry) -> Dataset | NotUsed:
     try:
         head = entry.head()
         if not _is_dicom(head):
-            return NotUsed(reason="files that are no DICOM")
+            return NotUsed(reason="NIfTI files" if is_nifti(head) else "files that are no DICOM")
         with entry.open() as file:
             if DEFLATED in head and not _inflates(file):
                 return NotUsed(reason="files that would unpack to more than is allowed")
