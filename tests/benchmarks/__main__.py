@@ -1,6 +1,6 @@
 """Benchmarks: how true and how fast the tracker is beside its peers and the bound, as Markdown tables.
 
-python -m tests.benchmarks [limits | rehearsal | overlay | server | tools] [--write]
+python -m tests.benchmarks [limits | rehearsal | overlay | server | tools | ct] [--write]
 """
 
 import argparse
@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> None:
         except NavigationError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(2)
-        said = {"limits": asked.said_of_limits, "tools": asked.said_of_tools}.get(
+        said = {"limits": asked.said_of_limits, "tools": asked.said_of_tools, "ct": ""}.get(
             name, asked.said_of_theatres
         )
         content = "\n".join([f"{machine_line()} {said}\n", *(table.markdown for table in measured.tables)])

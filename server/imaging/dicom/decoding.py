@@ -19,7 +19,8 @@ from server.imaging.dicom import worker
 
 # Whole numbers of any size, with or without sign, as the file holds them.
 Stored: TypeAlias = npt.NDArray[np.integer[Any]]
-MOST_PROCESSES = 4
+# Each holds 75 MiB while it runs.
+MOST_PROCESSES = 2
 # A decoder that is silent for so long is stuck.
 MOST_SECONDS = 60.0
 

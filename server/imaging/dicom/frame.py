@@ -6,14 +6,9 @@ from pydicom.dataset import Dataset
 from pydicom.uid import ImplicitVRLittleEndian
 
 from server.imaging.container import Entry
-from server.imaging.dicom.header import BAD_DICOM, NotUsed, number, numbers, text, words
+from server.imaging.dicom.header import BAD_DICOM, CT_CLASSES, NotUsed, number, numbers, text, words
 
 SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
-CT_CLASSES = {
-    "1.2.840.10008.5.1.4.1.1.2",
-    "1.2.840.10008.5.1.4.1.1.2.1",
-    "1.2.840.10008.5.1.4.1.1.2.2",
-}
 MOST_FRAMES = 20_000
 
 
@@ -112,7 +107,7 @@ def _shared(entry: Entry, header: Dataset) -> Shared:
     return Shared(
         entry=entry,
         owner=Owner(
-            name=_plain(text(header, "PatientName")),
+            name=_plain(text(header, "PatientName").partition("=")[0]),
             identifier=_plain(text(header, "PatientID")),
             born=_plain(text(header, "PatientBirthDate")),
         ),
@@ -138,7 +133,7 @@ def _shared(entry: Entry, header: Dataset) -> Shared:
 
 def _plain(value: str) -> str:
     """Without what differs between two ways to write one name."""
-    return " ".join(value.replace("^", " ").replace("=", " ").split()).casefold()
+    return " ".join(value.replace("^", " ").split()).casefold()
 
 
 def _padding(header: Dataset) -> tuple[int, int] | None:

@@ -1,6 +1,7 @@
 """What a DICOM file says of itself, without its pixels and without ever being believed blindly."""
 
 import logging
+import struct
 import warnings
 import zlib
 from collections.abc import Iterator
@@ -10,9 +11,10 @@ from typing import BinaryIO
 
 import pydicom
 from pydicom.dataset import Dataset
-from pydicom.errors import InvalidDicomError
+from pydicom.errors import BytesLengthException, InvalidDicomError
 
 from server.imaging.container import MOST_BYTES, Entry
+from server.imaging.nifti import is_nifti
 
 # pydicom's words may quote what a file holds, and that may be the patient's name.
 logging.getLogger("pydicom").setLevel(logging.CRITICAL + 1)
@@ -60,13 +62,15 @@ IMAGE = [
 # What pydicom raises on values and files that are not as they should be.
 BAD_DICOM = (
     InvalidDicomError,
+    BytesLengthException,
+    struct.error,
+    LookupError,
+    ArithmeticError,
+    AssertionError,
     ValueError,
     TypeError,
-    KeyError,
-    IndexError,
     AttributeError,
     NotImplementedError,
-    OverflowError,
     RuntimeError,
     EOFError,
     OSError,
@@ -74,6 +78,11 @@ BAD_DICOM = (
     MemoryError,
     RecursionError,
 )
+CT_CLASSES = {
+    "1.2.840.10008.5.1.4.1.1.2",
+    "1.2.840.10008.5.1.4.1.1.2.1",
+    "1.2.840.10008.5.1.4.1.1.2.2",
+}
 DEFLATED = b"1.2.840.10008.1.2.1.99"
 
 
@@ -97,7 +106,7 @@ def read_header(entry: Entry) -> Dataset | NotUsed:
     try:
         head = entry.head()
         if not _is_dicom(head):
-            return NotUsed(reason="files that are no DICOM")
+            return NotUsed(reason="NIfTI files" if is_nifti(head) else "files that are no DICOM")
         with entry.open() as file:
             if DEFLATED in head and not _inflates(file):
                 return NotUsed(reason="files that would unpack to more than is allowed")
@@ -120,7 +129,11 @@ def _is_dicom(head: bytes) -> bool:
 
 
 def _is_complete(header: Dataset) -> bool:
-    return "SOPClassUID" in header or "Rows" in header
+    """Whether it is an image, or something that need not be one; a CT slice without its size is cut off."""
+    if "Rows" in header and "Columns" in header:
+        return True
+    kind = text(header, "SOPClassUID") or text(header.file_meta, "MediaStorageSOPClassUID")
+    return kind != "" and kind not in CT_CLASSES
 
 
 def _inflates(file: BinaryIO) -> bool:

@@ -1,6 +1,8 @@
 """What a NIfTI file says of itself: its size, its place in the patient, and what its numbers mean."""
 
 import gzip
+import logging
+import struct
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,14 +20,17 @@ from server.imaging.nifti.place import Placed, placed
 from server.imaging.voxels import check_voxels
 from tracker.errors import InvalidInput
 
+# nibabel's words may quote what a file holds.
+logging.getLogger("nibabel.global").setLevel(logging.CRITICAL + 1)
 BAD_NIFTI = (
     HeaderDataError,
     WrapStructError,
     nib.filebasedimages.ImageFileError,
     ValueError,
     TypeError,
-    KeyError,
-    OverflowError,
+    LookupError,
+    ArithmeticError,
+    struct.error,
     EOFError,
     OSError,
     zlib.error,

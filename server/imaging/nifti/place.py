@@ -9,7 +9,7 @@ from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
-MM_PER_UNIT = {"unknown": 1.0, "mm": 1.0, "meter": 1000.0, "micron": 0.001}
+UNITS = {0: ("unknown", 1.0), 1: ("metres", 1000.0), 2: ("mm", 1.0), 3: ("micrometres", 0.001)}
 LEAST_VOXEL_MM, MOST_VOXEL_MM = 0.02, 20.0
 # Talairach and MNI: stretched onto an atlas, so that their millimetres are not the patient's.
 ATLAS_CODES = {3, 4, 5}
@@ -37,10 +37,10 @@ def placed(header: nib.Nifti1Header, shape_ijk: tuple[int, ...]) -> Placed:
             CT_VOXEL_SIZE_ODD.
     """
     ras, warnings = _ras(header, shape_ijk)
-    unit = header.get_xyzt_units()[0]
-    scale = MM_PER_UNIT.get(unit, 1.0)
+    # Read here, because nibabel stumbles over an unknown unit of time in the same byte.
+    unit, scale = UNITS.get(int(header["xyzt_units"]) % 8, ("unknown", 1.0))
     if scale != 1.0:
-        warnings.append(f"The file gives its geometry in {unit}s; it was taken times {scale:g} into mm.")
+        warnings.append(f"The file gives its geometry in {unit}; it was taken times {scale:g} into mm.")
     affine = LPS_FROM_RAS @ ras
     affine[:3] *= scale
     _check_size(affine, unit)

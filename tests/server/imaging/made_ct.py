@@ -85,16 +85,18 @@ def made_ct(
     return made
 
 
-def file_of(slice_: Dataset, syntax: str = ExplicitVRLittleEndian) -> bytes:
-    """The bytes of the file that holds this slice."""
+def file_of(slice_: Dataset, syntax: str = ExplicitVRLittleEndian, *, content: bytes = b"") -> bytes:
+    """The bytes of the file that holds this slice, with pixels that are compressed already if given."""
     one = copy.deepcopy(slice_)
     one.file_meta = FileMetaDataset()
     one.file_meta.MediaStorageSOPClassUID = one.get("SOPClassUID", CTImageStorage)
     one.file_meta.MediaStorageSOPInstanceUID = one.get("SOPInstanceUID", generate_uid())
     one.file_meta.TransferSyntaxUID = UID(syntax)
     if one.file_meta.TransferSyntaxUID.is_encapsulated:
-        one.PixelData = encapsulate([compressed(one, syntax)])
+        one.PixelData = encapsulate([content or compressed(one, syntax)])
         one["PixelData"].VR = "OB"
+    elif content:
+        one.PixelData = content
     elif syntax == ExplicitVRBigEndian:
         one.PixelData = np.frombuffer(one.PixelData, "<u2").astype(">u2").tobytes()
     file = io.BytesIO()

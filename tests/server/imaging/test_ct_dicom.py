@@ -146,6 +146,15 @@ def test_bits_above_those_stored_are_not_hounsfield_units(tmp_path: Path) -> Non
     assert_whole(made, made.write(tmp_path))
 
 
+def test_one_name_written_in_two_ways_is_one_patient(tmp_path: Path) -> None:
+    made = made_ct()
+    made.slices[1].PatientName = "QUIBBLE^HORTENSIA^^"
+    made.slices[2].PatientName = "Quibble^Hortensia=\u7530\u4e2d"
+    for one in made.slices:
+        one.SpecificCharacterSet = "ISO_IR 192"
+    assert_whole(made, made.write(tmp_path))
+
+
 def test_slices_that_are_there_twice_are_used_once(tmp_path: Path) -> None:
     made = made_ct()
     folder = made.write(tmp_path)

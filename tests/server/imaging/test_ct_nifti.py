@@ -83,7 +83,7 @@ def test_metres_become_millimetres_and_are_told(tmp_path: Path) -> None:
     )
     ct = read_ct(kept(tmp_path / "ct.nii", content))
     assert ct.volume.spacing_mm == pytest.approx([1.0, 1.0, 2.0])
-    assert any("meters" in said for said in ct.warnings)
+    assert any("metres" in said for said in ct.warnings)
 
 
 def test_what_is_no_number_is_air_and_told(tmp_path: Path) -> None:

@@ -183,6 +183,7 @@ TABLE: dict[str, tuple[str, Case]] = {
     "mark-of-dicom-and-nothing-else": ("CT_FILE_DAMAGED", lone_file(bytes(128) + b"DICM")),
     "mark-of-dicom-and-rubbish": ("CT_FILE_DAMAGED", lone_file(bytes(128) + b"DICM" + b"\xff" * 900)),
     "header-cut-off": ("CT_FILE_DAMAGED", truncated(0.3)),
+    **{f"cut-off-at-{at}": ("CT_FILE_DAMAGED", truncated(at / 100)) for at in (18, 25, 40)},
     "pixels-cut-off": ("CT_SLICE_TRUNCATED", truncated(0.9)),
     "jpeg-2000-cut-off": ("CT_SLICE_TRUNCATED", truncated(0.85, uid.JPEG2000Lossless)),
     "jpeg-ls-cut-off": ("CT_SLICE_TRUNCATED", truncated(0.85, uid.JPEGLSLossless)),
@@ -315,3 +316,29 @@ def test_a_missing_slice_is_told_in_numbers(tmp_path: Path) -> None:
 
 def test_what_cannot_be_planned_on_can_still_be_listed(tmp_path: Path) -> None:
     assert [series.patient for series in list_series(two_patients(tmp_path))] == [1, 2]
+
+
+@pytest.mark.parametrize("kind", ["slice", "enhanced", "nifti"])
+def test_wrong_bytes_in_a_header_never_end_in_a_traceback(kind: str, tmp_path: Path) -> None:
+    made = made_ct(count=3)
+    whole = {
+        "slice": file_of(made.slices[1]),
+        "enhanced": file_of(enhanced_of(made)),
+        "nifti": nifti_of(HU, np.eye(4)),
+    }[kind]
+    folder = made.write(tmp_path) if kind == "slice" else tmp_path
+    path = folder / "IM0001"
+    outcomes = set()
+    for seed in range(60):
+        chance = np.random.default_rng(seed)
+        content = bytearray(whole)
+        for at in chance.integers(0, min(len(content), 1500 if kind != "nifti" else 400), 3):
+            content[at] = chance.integers(256)
+        path.write_bytes(bytes(content))
+        try:
+            read_ct(folder if kind == "slice" else path)
+            outcomes.add("read")
+        except InvalidInput as error:
+            outcomes.add(error.code)
+    assert "read" in outcomes
+    assert len(outcomes) > 3
