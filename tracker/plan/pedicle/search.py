@@ -1,0 +1,240 @@
+"""From a click to the bar of bone that holds it: the coarse centre line, by sections in all likely directions."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import Outlines, outlines_of, planes_across
+
+TRANSVERSE_DEG = np.arange(-24.0, 49.0, 12.0)
+SAGITTAL_DEG = np.arange(-36.0, 37.0, 12.0)
+ALONG_MM = (0.0, -7.0, 7.0)
+ASIDE_MM = (-3.0, -1.5, 0.0, 1.5, 3.0)
+LEAST_MM2 = 12.0
+LEAST_FOUND, LEAST_FOUND_ALONG = 0.8, 0.72
+SHORT_MM = 5.0
+MOST_GAP_DEG = 75.0
+WALK_MM, WALK_STEP_MM = 16.0, 1.0
+# A section that is so much larger than the narrowest one belongs to body or arch already.
+GROWN = 1.4
+MOST_ROUNDS = 6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bar:
+    """A bar of bone around a straight line, between where it opens into body and arch.
+
+    Attributes:
+        centre_mm: (3,), middle of its narrowest part.
+        axis: unit (3,), forwards.
+        behind_mm: how far it reaches back from the centre.
+        ahead_mm: how far it reaches forwards.
+        opens_ahead: whether it opens into something larger in front.
+        opens_behind: whether it opens into something larger behind.
+        sections: outlines along it, at `along_mm` from the centre.
+        along_mm: (n,).
+    """
+
+    centre_mm: Array
+    axis: Array
+    behind_mm: float
+    ahead_mm: float
+    opens_ahead: bool
+    opens_behind: bool
+    sections: Outlines
+    along_mm: Array
+
+    @property
+    def length_mm(self) -> float:
+        """From where it opens behind to where it opens in front."""
+        return self.behind_mm + self.ahead_mm
+
+    def holds(self, point_mm: Array) -> bool:
+        """Whether a point lies inside the outlines, or less than half a millimetre outside."""
+        along = float((point_mm - self.centre_mm) @ self.axis)
+        row = int(np.argmin(np.abs(self.along_mm - along)))
+        one = self.sections.only(row)
+        return bool(_around(one, point_mm, self.axis[None])[0]) and abs(along - self.along_mm[row]) < 1.0
+
+
+def forward_directions(side: str) -> Array:
+    """Unit directions (n, 3) that pedicles can have, forwards, by side."""
+    mirror = 1.0 if side == "left" else -1.0
+    transverse, sagittal = np.meshgrid(np.radians(TRANSVERSE_DEG), np.radians(SAGITTAL_DEG), indexing="ij")
+    ways = np.stack([-mirror * np.tan(transverse), -np.ones_like(transverse), np.tan(sagittal)], axis=-1)
+    flat = ways.reshape(-1, 3)
+    return np.asarray(flat / np.linalg.norm(flat, axis=1, keepdims=True))
+
+
+def find_bar(near: Neighbourhood, seed_mm: Array, side: str) -> Bar | None:
+    """The bar of bone around a click, or None where no section around it is closed.
+
+    The section through the click itself tells most; those before and behind it are looked at where that one
+    leads to nothing that opens at both ends, as a click near the body does.
+    """
+    bars: list[Bar] = []
+    for along_mm in ALONG_MM:
+        start = _best_start(near, seed_mm, side, along_mm)
+        bar = None if start is None else _settled(near, *start)
+        if bar is None:
+            continue
+        if bar.opens_ahead and bar.opens_behind and bar.length_mm >= SHORT_MM and bar.holds(seed_mm):
+            return bar
+        bars.append(bar)
+    return max(bars, key=lambda bar: (bar.holds(seed_mm), bar.length_mm)) if bars else None
+
+
+def _settled(near: Neighbourhood, centre: Array, axis: Array) -> Bar | None:
+    """The bar, with its line fitted until it stays."""
+    bar = None
+    for _ in range(MOST_ROUNDS):
+        bar = _walk(near, centre, axis)
+        if bar is None:
+            return None
+        moved = float(np.linalg.norm(bar.centre_mm - centre))
+        turned = float(np.degrees(np.arccos(np.clip(bar.axis @ axis, -1.0, 1.0))))
+        centre, axis = bar.centre_mm, bar.axis
+        if moved < 0.15 and turned < 0.3:
+            break
+    return bar
+
+
+def _best_start(
+    near: Neighbourhood, seed_mm: Array, side: str, along_mm: float
+) -> tuple[Array, Array] | None:
+    """Centre and direction of the smallest closed section around the click, of nested ones the outer."""
+    directions = forward_directions(side)
+    areas, centres = _largest_around(near, seed_mm, directions, along_mm)
+    if not np.isfinite(areas).any():
+        return None
+    # Much smaller than what closes in most directions is a piece of a wall.
+    areas = np.where(np.isfinite(areas) & (areas >= 0.4 * np.nanmedian(areas)), areas, np.inf)
+    way = int(np.argmin(areas))
+    return centres[way], directions[way]
+
+
+def _largest_around(
+    near: Neighbourhood, seed_mm: Array, directions: Array, along_mm: float
+) -> tuple[Array, Array]:
+    """For each direction (n, 3) the largest closed outline around the click: its area (n,), NaN, and centre.
+
+    A start inside a wall closes around a piece of that wall; a start between the walls around both.
+    """
+    across, up = planes_across(directions)
+    offsets = [(x, y) for x in ASIDE_MM for y in ASIDE_MM]
+    starts = [seed_mm + along_mm * directions + x * across + y * up for x, y in offsets]
+    axis = np.tile(directions, (len(offsets), 1))
+    cut = outlines_of(near, np.concatenate(starts), axis, rays=20)
+    closed = (cut.found_ratio >= LEAST_FOUND) & _around(cut, seed_mm, axis) & (cut.area_mm2 >= LEAST_MM2)
+    area = np.where(closed, cut.area_mm2, -1.0).reshape(len(offsets), -1)
+    best = np.argmax(area, axis=0)
+    way = np.arange(len(directions))
+    largest = area[best, way]
+    centres = cut.centroid_mm.reshape(len(offsets), -1, 3)[best, way]
+    return np.where(largest > 0.0, largest, np.nan), centres
+
+
+def _around(cut: Outlines, seed_mm: Array, axis: Array) -> Array:
+    """Which outlines (m,) have the click inside, looked at along their axis."""
+    away = seed_mm - cut.centre_mm
+    away = away - (away * axis).sum(axis=1, keepdims=True) * axis
+    x, y = (away * cut.across).sum(axis=1), (away * cut.up).sum(axis=1)
+    rays = cut.smooth_mm.shape[1]
+    ray = np.round(np.arctan2(y, x) / (2.0 * np.pi) * rays).astype(int) % rays
+    wall = np.take_along_axis(cut.smooth_mm, ray[:, None], axis=1)[:, 0]
+    return np.asarray(np.hypot(x, y) <= wall + 0.5)
+
+
+def _walk(near: Neighbourhood, centre: Array, axis: Array) -> Bar | None:
+    """Sections along the line, each begun where the one before had its centre, and the line through them."""
+    count = int(WALK_MM / WALK_STEP_MM)
+    rows = {0: _section(near, centre, axis)}
+    for way in (1, -1):
+        at = rows[0].centroid_mm[0]
+        for n in range(1, count + 1):
+            cut = _section(near, at + way * WALK_STEP_MM * axis, axis)
+            rows[way * n] = cut
+            moved = cut.centroid_mm[0] - cut.centre_mm[0]
+            closed = _is_closed(cut) and np.linalg.norm(moved) < 1.5
+            at = cut.centroid_mm[0] if closed else at + way * WALK_STEP_MM * axis
+    order = sorted(rows)
+    sections = _stacked([rows[n] for n in order])
+    along = np.array(order) * WALK_STEP_MM
+    return _line(sections, along, centre, axis)
+
+
+def _is_closed(cut: Outlines) -> bool:
+    return bool(cut.found_ratio[0] >= LEAST_FOUND_ALONG and cut.gap_deg[0] <= MOST_GAP_DEG)
+
+
+def _section(near: Neighbourhood, at: Array, axis: Array) -> Outlines:
+    return outlines_of(near, at[None], axis[None], rays=40, recentred=1)
+
+
+def _line(sections: Outlines, along: Array, centre: Array, axis: Array) -> Bar | None:
+    closed = (sections.found_ratio >= LEAST_FOUND_ALONG) & (sections.gap_deg <= MOST_GAP_DEG)
+    if not closed.any():
+        return None
+    area = np.where(closed, sections.area_mm2, np.inf)
+    # The narrowest section that is met going downhill from the middle.
+    lowest = _downhill(_running_median(area), len(area) // 2)
+    least = float(area[max(lowest - 1, 0) : lowest + 2].min())
+    within = area <= GROWN * least
+    first, last = lowest, lowest
+    while first > 0 and within[first - 1]:
+        first -= 1
+    while last < len(area) - 1 and within[last + 1]:
+        last += 1
+    rows = np.arange(first, last + 1)
+    if len(rows) < 3:
+        rows = np.arange(max(lowest - 1, 0), min(lowest + 2, len(area)))
+    points = sections.centroid_mm[rows]
+    middle = points.mean(axis=0)
+    direction = np.linalg.svd(points - middle)[2][0]
+    direction *= np.sign(direction @ axis)
+    # A short bar says little about its direction: it keeps what was there before.
+    keep = 1.5 / len(rows)
+    turned = direction * (1.0 - keep) + axis * keep if direction @ axis > 0.5 else axis
+    turned /= np.linalg.norm(turned)
+    half = 0.5 * WALK_STEP_MM
+    at = middle + turned * ((sections.centroid_mm[lowest] - middle) @ turned)
+    return Bar(
+        centre_mm=at,
+        axis=turned,
+        behind_mm=float(along[lowest] - along[first] + half),
+        ahead_mm=float(along[last] - along[lowest] + half),
+        opens_ahead=last < len(area) - 1,
+        opens_behind=first > 0,
+        sections=sections,
+        along_mm=along - along[lowest],
+    )
+
+
+def _running_median(area: Array) -> Array:
+    padded = np.concatenate([area[:1], area, area[-1:]])
+    return np.asarray(np.median(np.stack([padded[:-2], padded[1:-1], padded[2:]]), axis=0))
+
+
+def _downhill(area: Array, start: int) -> int:
+    finite = np.flatnonzero(np.isfinite(area))
+    at = int(finite[np.argmin(np.abs(finite - start))]) if len(finite) else start
+    while True:
+        beside = [n for n in (at - 2, at - 1, at + 1, at + 2) if 0 <= n < len(area)]
+        best = min(beside, key=lambda n: area[n])
+        if area[best] >= area[at]:
+            return at
+        at = best
+
+
+def _stacked(cuts: list[Outlines]) -> Outlines:
+    return Outlines(
+        centre_mm=np.concatenate([cut.centre_mm for cut in cuts]),
+        across=np.concatenate([cut.across for cut in cuts]),
+        up=np.concatenate([cut.up for cut in cuts]),
+        radius_mm=np.concatenate([cut.radius_mm for cut in cuts]),
+        smooth_mm=np.concatenate([cut.smooth_mm for cut in cuts]),
+        found_ratio=np.concatenate([cut.found_ratio for cut in cuts]),
+        gap_deg=np.concatenate([cut.gap_deg for cut in cuts]),
+    )
