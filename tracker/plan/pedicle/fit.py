@@ -222,7 +222,7 @@ def _solve(
 def _expected(near: Neighbourhood, start: Array) -> tuple[Array, Array]:
     """What is expected before looking, and how far each parameter may be from it."""
     centre, width = np.zeros(tube.COUNT), np.full(tube.COUNT, 1e3)
-    width[tube.CENTRE] = [5.0, 5.0, 1.0, 5.0, 5.0, 1.0]
+    width[tube.CENTRE] = [5.0, 5.0, 0.6, 5.0, 5.0, 0.6]
     centre[tube.AXES], width[tube.AXES] = start[tube.AXES], [1.0, 1.0, 1.0]
     width[tube.GROWTH] = [0.15, 0.2, 0.15, 0.2]
     width[tube.SHAPE] = 0.04

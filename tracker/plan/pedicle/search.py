@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import ndimage
 
 from tracker.geometry import Array
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
@@ -10,7 +11,9 @@ from tracker.plan.pedicle.outlines import Outlines, outlines_of, planes_across
 
 TRANSVERSE_DEG = np.arange(-24.0, 49.0, 12.0)
 SAGITTAL_DEG = np.arange(-36.0, 37.0, 12.0)
-ALONG_MM = (0.0, -7.0, 7.0)
+# First around the click itself, then further away.
+ALONG_MM = ((0.0, -3.5, 3.5), (-7.0, 7.0))
+USUAL_DEG, UNUSUAL_SD_DEG = 20.0, 25.0
 ASIDE_MM = (-3.0, -1.5, 0.0, 1.5, 3.0)
 LEAST_MM2 = 12.0
 LEAST_FOUND, LEAST_FOUND_ALONG = 0.8, 0.72
@@ -19,6 +22,9 @@ MOST_GAP_DEG = 75.0
 WALK_MM, WALK_STEP_MM = 16.0, 1.0
 # A section that is so much larger than the narrowest one belongs to body or arch already.
 GROWN = 1.4
+GROWTH_SD = 0.3
+# How far a section's centre may lie off the axis, and how far the first direction may.
+CENTRE_SD_MM, FIRST_SD_DEG = 0.3, 6.0
 MOST_ROUNDS = 6
 
 
@@ -75,8 +81,8 @@ def find_bar(near: Neighbourhood, seed_mm: Array, side: str) -> Bar | None:
     leads to nothing that opens at both ends, as a click near the body does.
     """
     bars: list[Bar] = []
-    for along_mm in ALONG_MM:
-        start = _best_start(near, seed_mm, side, along_mm)
+    for some_mm in ALONG_MM:
+        start = _best_start(near, seed_mm, side, some_mm)
         bar = None if start is None else _settled(near, *start)
         if bar is None:
             continue
@@ -86,11 +92,11 @@ def find_bar(near: Neighbourhood, seed_mm: Array, side: str) -> Bar | None:
     return max(bars, key=lambda bar: (bar.holds(seed_mm), bar.length_mm)) if bars else None
 
 
-def _settled(near: Neighbourhood, centre: Array, axis: Array) -> Bar | None:
+def _settled(near: Neighbourhood, centre: Array, first_axis: Array) -> Bar | None:
     """The bar, with its line fitted until it stays."""
-    bar = None
+    bar, axis = None, first_axis
     for _ in range(MOST_ROUNDS):
-        bar = _walk(near, centre, axis)
+        bar = _walk(near, centre, axis, first_axis)
         if bar is None:
             return None
         moved = float(np.linalg.norm(bar.centre_mm - centre))
@@ -102,17 +108,30 @@ def _settled(near: Neighbourhood, centre: Array, axis: Array) -> Bar | None:
 
 
 def _best_start(
-    near: Neighbourhood, seed_mm: Array, side: str, along_mm: float
+    near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...]
 ) -> tuple[Array, Array] | None:
     """Centre and direction of the smallest closed section around the click, of nested ones the outer."""
     directions = forward_directions(side)
-    areas, centres = _largest_around(near, seed_mm, directions, along_mm)
-    if not np.isfinite(areas).any():
-        return None
-    # Much smaller than what closes in most directions is a piece of a wall.
-    areas = np.where(np.isfinite(areas) & (areas >= 0.4 * np.nanmedian(areas)), areas, np.inf)
-    way = int(np.argmin(areas))
-    return centres[way], directions[way]
+    grid = (len(TRANSVERSE_DEG), len(SAGITTAL_DEG))
+    unusual = 0.5 * (np.maximum(_away_from_usual_deg(directions, side) - USUAL_DEG, 0.0) / UNUSUAL_SD_DEG) ** 2
+    best: tuple[float, Array, Array] | None = None
+    for along_mm in some_mm:
+        areas, centres = _largest_around(near, seed_mm, directions, along_mm)
+        known = np.where(np.isfinite(areas), areas, 1e6)
+        # The area changes slowly with direction; one that stands out has closed around something else.
+        steady = ndimage.median_filter(known.reshape(grid), size=3, mode="nearest").ravel()
+        score = np.log(steady) + unusual + 0.03 * abs(along_mm)
+        score = np.where(np.abs(np.log(known / steady)) < 0.25, score, np.inf)
+        way = int(np.argmin(score))
+        if known[way] < 1e6 and np.isfinite(score[way]) and (best is None or score[way] < best[0]):
+            best = (float(score[way]), centres[way], directions[way])
+    return None if best is None else best[1:]
+
+
+def _away_from_usual_deg(directions: Array, side: str) -> Array:
+    """Angle (n,) from where pedicles usually point: forwards and a little to the middle."""
+    usual = np.array([-0.21 if side == "left" else 0.21, -0.978, 0.0])
+    return np.asarray(np.degrees(np.arccos(np.clip(directions @ usual, -1.0, 1.0))))
 
 
 def _largest_around(
@@ -147,7 +166,7 @@ def _around(cut: Outlines, seed_mm: Array, axis: Array) -> Array:
     return np.asarray(np.hypot(x, y) <= wall + 0.5)
 
 
-def _walk(near: Neighbourhood, centre: Array, axis: Array) -> Bar | None:
+def _walk(near: Neighbourhood, centre: Array, axis: Array, first_axis: Array) -> Bar | None:
     """Sections along the line, each begun where the one before had its centre, and the line through them."""
     count = int(WALK_MM / WALK_STEP_MM)
     rows = {0: _section(near, centre, axis)}
@@ -162,7 +181,7 @@ def _walk(near: Neighbourhood, centre: Array, axis: Array) -> Bar | None:
     order = sorted(rows)
     sections = _stacked([rows[n] for n in order])
     along = np.array(order) * WALK_STEP_MM
-    return _line(sections, along, centre, axis)
+    return _line(sections, along, axis, first_axis)
 
 
 def _is_closed(cut: Outlines) -> bool:
@@ -173,7 +192,7 @@ def _section(near: Neighbourhood, at: Array, axis: Array) -> Outlines:
     return outlines_of(near, at[None], axis[None], rays=40, recentred=1)
 
 
-def _line(sections: Outlines, along: Array, centre: Array, axis: Array) -> Bar | None:
+def _line(sections: Outlines, along: Array, axis: Array, first_axis: Array) -> Bar | None:
     closed = (sections.found_ratio >= LEAST_FOUND_ALONG) & (sections.gap_deg <= MOST_GAP_DEG)
     if not closed.any():
         return None
@@ -187,19 +206,10 @@ def _line(sections: Outlines, along: Array, centre: Array, axis: Array) -> Bar |
         first -= 1
     while last < len(area) - 1 and within[last + 1]:
         last += 1
-    rows = np.arange(first, last + 1)
-    if len(rows) < 3:
-        rows = np.arange(max(lowest - 1, 0), min(lowest + 2, len(area)))
-    points = sections.centroid_mm[rows]
-    middle = points.mean(axis=0)
-    direction = np.linalg.svd(points - middle)[2][0]
-    direction *= np.sign(direction @ axis)
-    # A short bar says little about its direction: it keeps what was there before.
-    keep = 1.5 / len(rows)
-    turned = direction * (1.0 - keep) + axis * keep if direction @ axis > 0.5 else axis
-    turned /= np.linalg.norm(turned)
+    reach = slice(max(first - 2, 0), last + 3)
+    weight = np.exp(-(np.maximum(area[reach] / least - 1.0, 0.0) ** 2) / (2.0 * GROWTH_SD**2))
+    at, turned = _line_through(sections.centroid_mm[reach], weight, along[lowest], axis, first_axis, along[reach])
     half = 0.5 * WALK_STEP_MM
-    at = middle + turned * ((sections.centroid_mm[lowest] - middle) @ turned)
     return Bar(
         centre_mm=at,
         axis=turned,
@@ -210,6 +220,23 @@ def _line(sections: Outlines, along: Array, centre: Array, axis: Array) -> Bar |
         sections=sections,
         along_mm=along - along[lowest],
     )
+
+
+def _line_through(
+    points: Array, weight: Array, lowest: float, axis: Array, first_axis: Array, along: Array
+) -> tuple[Array, Array]:
+    """Point and direction of the line through centres (n, 3); where they are few, the first direction holds."""
+    mean = (weight[:, None] * points).sum(axis=0) / weight.sum()
+    from_mean = (points - mean) @ axis
+    across = points - mean - from_mean[:, None] * axis
+    wanted = first_axis / (first_axis @ axis) - axis
+    hold = (CENTRE_SD_MM / np.tan(np.radians(FIRST_SD_DEG))) ** 2
+    pull = (weight * from_mean**2).sum() + hold
+    slope = ((weight * from_mean)[:, None] * across).sum(axis=0) / pull + wanted * (hold / pull)
+    turned = axis + slope
+    length = np.linalg.norm(turned)
+    row = int(np.argmin(np.abs(along - lowest)))
+    return mean + turned * from_mean[row], turned / length
 
 
 def _running_median(area: Array) -> Array:

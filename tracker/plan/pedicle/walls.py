@@ -6,15 +6,18 @@ import numpy as np
 
 from tracker.geometry import Array
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
-from tracker.plan.pedicle.outlines import planes_across
+from tracker.plan.pedicle.outlines import angles, planes_across
 
 STEP_MM = 0.2
 FARTHEST_MM = 64.0
-BEFORE_MM, BEHIND_MM = 4.0, 2.6
-# Nearer to the isthmus no front wall lies; an inner end of dense bone may.
-FRONT_FROM_MM, FRONT_USUALLY_FROM_MM = 8.0, 15.0
-ENTRY_FROM_MM = 2.0
+BEHIND_MM = 2.6
+# Nearer to the isthmus no front wall lies.
+FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
+# From here on a wall may border on something that is not soft, as a vessel with contrast.
+VESSEL_FROM_MM = 20.0
 DISC_MM = 0.9
+# Behind a true outer wall most directions across the axis meet no bone soon.
+LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.7
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,51 +38,74 @@ def outside_limit_hu(near: Neighbourhood) -> float:
     return near.tissue_hu + max(60.0, 0.12 * (near.cortex_hu - near.tissue_hu))
 
 
+def bone_limit_hu(near: Neighbourhood) -> float:
+    """Above this number lies what is surely bone, where metal and contrast are left aside."""
+    return near.tissue_hu + max(120.0, 0.3 * (near.cortex_hu - near.tissue_hu))
+
+
 def front_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
     """Where the axis leaves the body in front."""
-    falls, reached = _falls(near, isthmus_mm, axis)
-    for least in (FRONT_USUALLY_FROM_MM, FRONT_FROM_MM):
-        beyond = falls[falls >= least]
-        if len(beyond):
-            return WallAhead(distance_mm=float(beyond[0]), found=True)
-    return WallAhead(distance_mm=reached, found=False)
+    return _outer_wall(near, isthmus_mm, axis, FRONT_FROM_MM)
 
 
 def back_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
     """Where the axis, followed backwards, leaves the arch: the entry."""
-    falls, reached = _falls(near, isthmus_mm, -axis)
-    beyond = falls[falls >= ENTRY_FROM_MM]
-    if len(beyond):
-        return WallAhead(distance_mm=float(beyond[0]), found=True)
-    return WallAhead(distance_mm=reached, found=False)
+    return _outer_wall(near, isthmus_mm, -axis, ENTRY_FROM_MM)
 
 
-def _falls(near: Neighbourhood, isthmus_mm: Array, direction: Array) -> tuple[Array, float]:
-    """Distances at which bone ends in something soft, and how far the CT reaches."""
+def _outer_wall(near: Neighbourhood, isthmus_mm: Array, direction: Array, from_mm: float) -> WallAhead:
+    """The first fall behind which the line is no longer enclosed by bone.
+
+    Dense layers inside the bone fall to marrow, which can be as dark as muscle; but there walls stand around.
+    """
+    profile = _profile(near, isthmus_mm, direction)
+    limit = outside_limit_hu(near)
+    slice_mm = float(near.voxel_width_mm(direction).max())
+    for distance_mm, trough in _falls(profile, near.least_fall_hu, int(max(BEHIND_MM, slice_mm) / STEP_MM)):
+        if distance_mm < from_mm or (trough > limit and distance_mm < VESSEL_FROM_MM):
+            continue
+        if not _is_enclosed(near, isthmus_mm + (distance_mm + LOOK_BEYOND_MM) * direction, direction):
+            return WallAhead(distance_mm=distance_mm, found=True)
+    return WallAhead(distance_mm=max(len(profile) - 1, 0) * STEP_MM, found=False)
+
+
+def _profile(near: Neighbourhood, isthmus_mm: Array, direction: Array) -> Array:
+    """Mean HU over a small disc along the line, as far as the CT reaches."""
     steps = np.arange(0.0, FARTHEST_MM, STEP_MM)
     line = isthmus_mm + steps[:, None] * direction
     inside = near.holds(line)
     count = len(steps) if inside.all() else int(np.argmin(inside))
-    (across,), (up,) = planes_across(direction[None] if abs(direction[2]) < 0.99 else np.array([[0.0, -1.0, 0.0]]))
+    (across,), (up,) = planes_across(direction[None])
     offsets = DISC_MM * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
     shifted = line[None] + (offsets[:, :1] * across + offsets[:, 1:] * up)[:, None, :]
-    profile = near.smooth_hu(shifted).mean(axis=0)[:count]
-    limit = outside_limit_hu(near)
-    slice_mm = float(near.voxel_width_mm(direction).max())
-    before = int(BEFORE_MM / STEP_MM)
-    behind = int(max(BEHIND_MM, slice_mm) / STEP_MM)
-    found = []
-    for at in np.flatnonzero((profile[:-1] >= limit) & (profile[1:] < limit)) if count > 1 else ():
-        first = max(at - before, 0)
-        peak = float(profile[first : at + 1].max())
-        trough = float(profile[at + 1 : at + 1 + behind].min())
-        if peak - trough < near.least_fall_hu:
-            continue
-        half = 0.5 * (peak + trough)
-        top = first + int(np.argmax(profile[first : at + 1]))
-        below = np.flatnonzero(profile[top:] < half)
-        if len(below) and below[0] > 0:
-            after = top + int(below[0])
+    return np.asarray(near.smooth_hu(shifted).mean(axis=0)[:count])
+
+
+def _falls(profile: Array, least_fall_hu: float, behind: int) -> list[tuple[float, float]]:
+    """Where the profile falls by so much: distance in mm of half the fall, and the number behind it."""
+    found: list[tuple[float, float]] = []
+    top = 0
+    at = 1
+    while at < len(profile):
+        if profile[at] > profile[top]:
+            top = at
+        elif profile[top] - profile[at] >= least_fall_hu:
+            end = at + int(np.argmin(profile[at : at + behind + 1]))
+            half = 0.5 * (profile[top] + profile[end])
+            after = top + int(np.argmax(profile[top : end + 1] < half))
             share = (profile[after - 1] - half) / max(profile[after - 1] - profile[after], 1e-9)
-            found.append((after - 1 + share) * STEP_MM)
-    return np.array(found), float(steps[max(count - 1, 0)])
+            found.append(((after - 1 + float(share)) * STEP_MM, float(profile[end])))
+            top = at = end
+        at += 1
+    return found
+
+
+def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool:
+    """Whether bone is met in most directions across the line."""
+    (across,), (up,) = planes_across(direction[None])
+    angle = angles(LOOK_RAYS)
+    rays = np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * up
+    steps = np.arange(0.0, LOOK_ACROSS_MM, 0.5)
+    points = point_mm + steps[:, None] * rays[:, None, :]
+    bone = (near.smooth_hu(points) > bone_limit_hu(near)) & near.holds(points)
+    return bool(bone.any(axis=1).mean() >= ENCLOSED_RATIO)

@@ -39,7 +39,7 @@ class EllipticTube:
     widening_per_mm2: float = 0.0
     bend_per_mm: float = 0.0
     start_mm: float = -15.0
-    end_mm: float = 15.0
+    end_mm: float = 24.0
 
     def distance_mm(self, points_mm: Array) -> Array:
         """See `Part`."""
