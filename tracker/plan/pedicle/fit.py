@@ -17,6 +17,7 @@ MOST_VOXELS = 6000
 ROUNDS = 3
 OUTSIDE_BAND_MM = 1.2
 LEAST_VOXELS = 60
+COARSE_SD_DEG = 4.0
 # Bone is not made of even layers: what a voxel may differ by before it counts less.
 LEAST_SCALE_HU, SCALE_RATIO = 12.0, 0.06
 
@@ -56,7 +57,7 @@ def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
         samples = _samples(near, bar, parameters, origin, np.stack([axis, left, up]), half)
         if len(samples.hu) < LEAST_VOXELS:
             break
-        parameters, covariance, residual, done = _solve(near, samples, parameters)
+        parameters, covariance, residual, done = _solve(near, samples, parameters, _coarse_slopes(bar, axis, left, up, half))
         fitted = FittedBar(
             origin_mm=origin,
             axis=axis,
@@ -133,6 +134,13 @@ def _first_parameters(near: Neighbourhood, bar: Bar) -> Array:
     return out
 
 
+def _coarse_slopes(bar: Bar, axis: Array, left: Array, up: Array, half: float) -> Array:
+    """How the coarse line runs against this axis over the window, and how far the fit may leave it, in mm."""
+    forwards = bar.axis @ axis
+    to_left, to_up = bar.axis @ left / forwards, bar.axis @ up / forwards
+    return np.array([to_left * half, to_up * half, np.tan(np.radians(COARSE_SD_DEG)) * half])
+
+
 def _usual_blur_mm(near: Neighbourhood) -> float:
     inside = float(np.linalg.norm(near.lps_from_index[:3, :2], axis=0).mean())
     return float(np.clip(0.35 * inside, 0.1, 0.5))
@@ -192,10 +200,10 @@ def _open(bar: Bar, points: Array) -> npt.NDArray[np.bool_]:
 
 
 def _solve(
-    near: Neighbourhood, samples: tube.Samples, start: Array
+    near: Neighbourhood, samples: tube.Samples, start: Array, slopes: Array
 ) -> tuple[Array, Array, float, bool]:
     scale = max(LEAST_SCALE_HU, near.noise_hu, SCALE_RATIO * (near.cortex_hu - near.tissue_hu))
-    centre, width = _expected(near, start)
+    centre, width = _expected(near, start, slopes)
 
     def residuals(parameters: Array) -> Array:
         fit = (tube.model_hu(parameters, samples) - samples.hu) / scale
@@ -219,10 +227,14 @@ def _solve(
     return result.x, covariance, residual, bool(result.status >= 0)
 
 
-def _expected(near: Neighbourhood, start: Array) -> tuple[Array, Array]:
-    """What is expected before looking, and how far each parameter may be from it."""
+def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, Array]:
+    """What is expected before looking, and how far each parameter may be from it.
+
+    `slopes` are those of the coarse line over the window, and how far the fit may leave them: left, up, sd.
+    """
     centre, width = np.zeros(tube.COUNT), np.full(tube.COUNT, 1e3)
-    width[tube.CENTRE] = [5.0, 5.0, 0.6, 5.0, 5.0, 0.6]
+    centre[tube.CENTRE] = [0.0, slopes[0], 0.0, 0.0, slopes[1], 0.0]
+    width[tube.CENTRE] = [5.0, slopes[2], 0.6, 5.0, slopes[2], 0.6]
     centre[tube.AXES], width[tube.AXES] = start[tube.AXES], [1.0, 1.0, 1.0]
     width[tube.GROWTH] = [0.15, 0.2, 0.15, 0.2]
     width[tube.SHAPE] = 0.04

@@ -17,7 +17,7 @@ FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
 VESSEL_FROM_MM = 20.0
 DISC_MM = 0.9
 # Behind a true outer wall most directions across the axis meet no bone soon.
-LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.7
+LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,7 +40,7 @@ def outside_limit_hu(near: Neighbourhood) -> float:
 
 def bone_limit_hu(near: Neighbourhood) -> float:
     """Above this number lies what is surely bone, where metal and contrast are left aside."""
-    return near.tissue_hu + max(120.0, 0.3 * (near.cortex_hu - near.tissue_hu))
+    return near.tissue_hu + max(120.0, 0.4 * (near.cortex_hu - near.tissue_hu))
 
 
 def front_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:

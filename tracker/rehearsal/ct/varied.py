@@ -49,7 +49,7 @@ def random_grid(phantom: VertebraPhantom, seed: int) -> ScanGrid:
     oblique = random.choice([0.0, 1.0]) * np.radians(random.uniform(-20.0, 20.0, 3))
     return ScanGrid.around(
         phantom.rotation @ np.array([0.0, -8.0, 0.0]) + phantom.place_mm,
-        size_mm=(64.0, 92.0, 44.0),
+        size_mm=(72.0, 104.0, 54.0),
         spacing_mm=(inside, inside, slices),
         rotation=rotation_from_vector(oblique),
         gantry_tilt_deg=random.choice([0.0, random.uniform(-15.0, 15.0)]),
