@@ -14,7 +14,7 @@ BEHIND_MM = 2.6
 # Nearer to the isthmus no front wall lies.
 FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
 # From here on a wall may border on something that is not soft, as a vessel with contrast.
-VESSEL_FROM_MM = 20.0
+VESSEL_FROM_MM = 24.0
 DISC_MM = 0.9
 # Behind a true outer wall most directions across the axis meet no bone soon.
 LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
@@ -44,28 +44,33 @@ def bone_limit_hu(near: Neighbourhood) -> float:
 
 
 def front_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
-    """Where the axis leaves the body in front."""
-    return _outer_wall(near, isthmus_mm, axis, FRONT_FROM_MM)
+    """Where the axis leaves the body in front, perhaps towards a vessel with contrast."""
+    return _outer_wall(near, isthmus_mm, axis, FRONT_FROM_MM, VESSEL_FROM_MM)
 
 
 def back_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
     """Where the axis, followed backwards, leaves the arch: the entry."""
-    return _outer_wall(near, isthmus_mm, -axis, ENTRY_FROM_MM)
+    return _outer_wall(near, isthmus_mm, -axis, ENTRY_FROM_MM, np.inf)
 
 
-def _outer_wall(near: Neighbourhood, isthmus_mm: Array, direction: Array, from_mm: float) -> WallAhead:
+def _outer_wall(
+    near: Neighbourhood, isthmus_mm: Array, direction: Array, from_mm: float, vessel_from_mm: float
+) -> WallAhead:
     """The first fall behind which the line is no longer enclosed by bone.
 
     Dense layers inside the bone fall to marrow, which can be as dark as muscle; but there walls stand around.
+    Where no fall is as deep as a wall's, half of that is taken: bone without a shell.
     """
     profile = _profile(near, isthmus_mm, direction)
     limit = outside_limit_hu(near)
-    slice_mm = float(near.voxel_width_mm(direction).max())
-    for distance_mm, trough in _falls(profile, near.least_fall_hu, int(max(BEHIND_MM, slice_mm) / STEP_MM)):
-        if distance_mm < from_mm or (trough > limit and distance_mm < VESSEL_FROM_MM):
-            continue
-        if not _is_enclosed(near, isthmus_mm + (distance_mm + LOOK_BEYOND_MM) * direction, direction):
-            return WallAhead(distance_mm=distance_mm, found=True)
+    behind = int(max(BEHIND_MM, float(near.voxel_width_mm(direction).max())) / STEP_MM)
+    for share in (1.0, 0.5):
+        for distance_mm, trough in _falls(profile, share * near.least_fall_hu, behind):
+            if distance_mm < from_mm or (trough > limit and distance_mm < vessel_from_mm):
+                continue
+            beyond = isthmus_mm + (distance_mm + LOOK_BEYOND_MM) * direction
+            if not _is_enclosed(near, beyond, direction):
+                return WallAhead(distance_mm=distance_mm, found=True)
     return WallAhead(distance_mm=max(len(profile) - 1, 0) * STEP_MM, found=False)
 
 
