@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from tests.benchmarks import accuracy, live, timing
 from tests.benchmarks.asked import Asked
+from tests.benchmarks.ct_reading import measure_ct_reading
 from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import condition_tables
 from tests.benchmarks.limits.limit_figures import limit_figures
@@ -117,9 +118,15 @@ def measure_server(asked: Asked) -> Measured:
         return Measured(tables=measure_viewer(server))
 
 
+def measure_ct(_asked: Asked) -> Measured:
+    """Reading a large CT."""
+    return Measured(tables=measure_ct_reading())
+
+
 SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "limits": measure_limits,
     "rehearsal": measure_rehearsal,
     "overlay": measure_drawing,
     "server": measure_server,
+    "ct": measure_ct,
 }

@@ -11,6 +11,7 @@ from tracker.geometry import Array
 
 # Outside the scanned block there is nothing known; air keeps it from being taken for bone.
 OUTSIDE_HU = -1024.0
+BORDER_VOXELS = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,6 +88,9 @@ class Volume:
         if flat.shape[0] == 0:
             return np.zeros(shape)
         size = np.array(self.hu.shape)
+        # A point on the outermost voxels is inside, whichever way its index was rounded.
+        bordering = np.clip(flat, 0.0, size - 1.0)
+        flat = np.where(np.abs(flat - bordering) <= BORDER_VOXELS, bordering, flat)
         low = np.clip(np.floor(flat.min(axis=0)).astype(np.int64), 0, size - 1)
         high = np.clip(np.ceil(flat.max(axis=0)).astype(np.int64) + 1, low + 1, size)
         part = self.hu[low[0] : high[0], low[1] : high[1], low[2] : high[2]]

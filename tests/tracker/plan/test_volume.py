@@ -37,6 +37,13 @@ def test_outside_there_is_air() -> None:
     assert volume.holds(points).tolist() == [False, False, True]
 
 
+def test_the_outermost_voxels_are_inside_however_they_are_rounded() -> None:
+    volume = ramp(np.eye(4))
+    assert volume.sample_hu([[-1e-12, 0.0, 4.0 + 1e-12], [6.0 + 1e-12, 5.0, 0.0]]) == pytest.approx(
+        [400.0, 56.0]
+    )
+
+
 def test_a_tilted_gantry_keeps_its_voxel_size() -> None:
     volume = ramp(SHEARED)
     assert volume.spacing_mm == pytest.approx([0.5, 0.5, np.hypot(0.6, 2.0)])

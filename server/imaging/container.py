@@ -1,0 +1,215 @@
+"""What a surgeon hands in: a folder, a zip or a single file, opened as a list of entries.
+
+Nothing is ever unpacked onto the disk, and no name inside is used as a path or told to anybody: folders on
+discs from a hospital are often named after the patient.
+"""
+
+import os
+import stat
+import zipfile
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import BinaryIO, cast
+
+from server.imaging.ct import LeftOut
+from tracker.errors import InvalidInput
+
+MOST_FILES = 50_000
+MOST_BYTES = 8 * 2**30
+GIVE = "Give a folder or zip of DICOM slices, a DICOM file of many frames, or a NIfTI file."
+HEAD_BYTES = 4096
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry:
+    """One file, wherever it lies.
+
+    Attributes:
+        size: in bytes.
+        open: opens it for reading from its beginning.
+    """
+
+    size: int
+    open: Callable[[], BinaryIO]
+
+    def head(self) -> bytes:
+        """Its first bytes, by which its kind is known."""
+        with self.open() as file:
+            return file.read(HEAD_BYTES)
+
+
+@dataclass(slots=True, kw_only=True)
+class Container:
+    """The files that were handed in, and what was left out of them so far."""
+
+    entries: list[Entry]
+    reasons: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def left_out(self) -> tuple[LeftOut, ...]:
+        """What takes no part, the most frequent reason first."""
+        return tuple(LeftOut(count=count, reason=reason) for reason, count in self.reasons.most_common())
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Container]:
+    """The files in a folder or zip, or a single file; closed when the block ends.
+
+    Raises:
+        InvalidInput: CT_NOT_THERE, CT_UNREADABLE, CT_EMPTY, CT_TOO_MANY_FILES, or what `zip_entries` raises.
+    """
+    if not path.exists():
+        raise InvalidInput("CT_NOT_THERE", "there is no file or folder of this name", GIVE)
+    if path.is_dir():
+        yield _checked(_folder(path))
+        return
+    try:
+        with path.open("rb") as file:
+            is_zip = file.read(4) in {b"PK\x03\x04", b"PK\x05\x06"}
+    except OSError as error:
+        raise _unreadable(error) from None
+    if not is_zip:
+        yield _checked(Container(entries=[_file(path, path.stat().st_size)]))
+        return
+    try:
+        archive = zipfile.ZipFile(path)
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
+        raise InvalidInput(
+            "CT_ARCHIVE_BROKEN",
+            f"the zip of {path.stat().st_size} bytes cannot be read: its list of files is damaged or cut off",
+            "Copy or upload the archive again.",
+            {"bytes": path.stat().st_size},
+        ) from None
+    with archive:
+        yield _checked(_zip(archive))
+
+
+def _checked(container: Container) -> Container:
+    if not container.entries:
+        found = sum(container.reasons.values())
+        raise InvalidInput(
+            "CT_EMPTY",
+            f"there are no files to read: {found} were found, and left out as "
+            f"{', '.join(container.reasons) or 'none'}"
+            if found
+            else "there are no files to read: 0 were found",
+            GIVE,
+            {"files": found},
+        )
+    return container
+
+
+def _file(path: Path, size: int) -> Entry:
+    return Entry(size=size, open=lambda: path.open("rb"))
+
+
+def _folder(path: Path) -> Container:
+    container = Container(entries=[])
+    try:
+        for folder, folders, names in os.walk(path):
+            folders[:] = sorted(name for name in folders if not _is_hidden(name))
+            for name in sorted(names):
+                _keep_file(container, Path(folder) / name)
+    except OSError as error:
+        raise _unreadable(error) from None
+    return container
+
+
+def _keep_file(container: Container, path: Path) -> None:
+    if _is_hidden(path.name) or path.name.upper() == "DICOMDIR":
+        return
+    try:
+        status = path.stat()
+    except OSError:
+        container.reasons["files that cannot be opened"] += 1
+        return
+    if not stat.S_ISREG(status.st_mode):
+        container.reasons["no ordinary files"] += 1
+    elif status.st_size == 0:
+        container.reasons["empty files"] += 1
+    else:
+        container.entries.append(_file(path, status.st_size))
+        _check_count(len(container.entries))
+
+
+def _is_hidden(name: str) -> bool:
+    return name.startswith(".") or name == "__MACOSX"
+
+
+def _check_count(count: int) -> None:
+    if count > MOST_FILES:
+        raise InvalidInput(
+            "CT_TOO_MANY_FILES",
+            f"there are {count} files or more, allowed {MOST_FILES}",
+            "Give the folder of the one series alone.",
+            {"files": count, "most_files": MOST_FILES},
+        )
+
+
+def _zip(archive: zipfile.ZipFile) -> Container:
+    """The members of an archive that can be read one by one.
+
+    Raises:
+        InvalidInput: CT_ARCHIVE_UNSAFE, CT_ARCHIVE_ENCRYPTED, CT_ARCHIVE_TOO_LARGE.
+    """
+    members = [member for member in archive.infolist() if not member.is_dir()]
+    _check_count(len(members))
+    _check_archive(members)
+    container = Container(entries=[])
+    for member in sorted(members, key=lambda one: one.filename):
+        parts = PurePosixPath(member.filename).parts
+        if any(_is_hidden(part) for part in parts) or parts[-1].upper() == "DICOMDIR":
+            continue
+        if member.file_size == 0:
+            container.reasons["empty files"] += 1
+        elif parts[-1].lower().endswith((".zip", ".7z", ".rar", ".tar", ".tgz", ".iso")):
+            container.reasons["archives inside the archive"] += 1
+        else:
+            container.entries.append(_member(archive, member))
+    return container
+
+
+def _member(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> Entry:
+    return Entry(size=member.file_size, open=lambda: cast("BinaryIO", archive.open(member)))
+
+
+def _check_archive(members: list[zipfile.ZipInfo]) -> None:
+    unsafe = sum(_leaves(member.filename) for member in members)
+    if unsafe:
+        raise InvalidInput(
+            "CT_ARCHIVE_UNSAFE",
+            f"{unsafe} of {len(members)} files in the zip have names that lead out of it",
+            "Make the archive again from the folder of slices; do not use one from an unknown source.",
+            {"files": unsafe, "of": len(members)},
+        )
+    encrypted = sum(bool(member.flag_bits & 1) for member in members)
+    if encrypted:
+        raise InvalidInput(
+            "CT_ARCHIVE_ENCRYPTED",
+            f"{encrypted} of {len(members)} files in the zip are encrypted",
+            "Unpack it with its password, and give the folder or a zip without one.",
+            {"files": encrypted, "of": len(members)},
+        )
+    size = sum(member.file_size for member in members)
+    if size > MOST_BYTES:
+        raise InvalidInput(
+            "CT_ARCHIVE_TOO_LARGE",
+            f"the zip would unpack to {size / 2**30:.1f} GiB, allowed {MOST_BYTES / 2**30:.0f} GiB",
+            "Give the one series alone.",
+            {"bytes": size, "most_bytes": MOST_BYTES},
+        )
+
+
+def _leaves(name: str) -> bool:
+    """Whether a name would lie outside of the folder into which it is unpacked."""
+    parts = PurePosixPath(name.replace("\\", "/")).parts
+    return ".." in parts or name.startswith(("/", "\\")) or (len(name) > 1 and name[1] == ":")
+
+
+def _unreadable(error: OSError) -> InvalidInput:
+    return InvalidInput(
+        "CT_UNREADABLE", f"the file or folder cannot be read: {error.strerror}", "Check who may read it."
+    )

@@ -1,0 +1,93 @@
+"""What a CT is told as: its voxels, what it is, what to know about it, and what was left out."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+from tracker.plan import Volume
+from tracker.plan.slices import Slice
+
+# Called with how much is done and of how much, as often as something was done.
+Progress: TypeAlias = Callable[[int, int], None]
+
+
+# Called once with a slice from the middle of the CT, as soon as it is read and long before the others are.
+FirstSlice: TypeAlias = Callable[[Slice], None]
+
+
+def unheard(_done: int, _of: int) -> None:
+    """The progress that nobody asked for."""
+
+
+def unseen(_slice: Slice) -> None:
+    """The first slice that nobody asked for."""
+
+
+def scanned_slice(hu: npt.NDArray[np.int16], lps_from_ijk: Array, k: int) -> Slice:
+    """A slice as it was scanned, hu (rows, columns), before the volume is complete."""
+    affine = np.column_stack([lps_from_ijk[:3, 0], lps_from_ijk[:3, 1], (lps_from_ijk @ [0, 0, k, 1])[:3]])
+    return Slice(hu=hu.copy(), lps_from_px=affine)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeriesDescription:
+    """One series that was found, without anything that names the patient.
+
+    Attributes:
+        series: its identifier: the SeriesInstanceUID, or "nifti".
+        kind: "dicom" or "nifti".
+        modality: as in DICOM ("CT", "MR"); empty if it is not known.
+        words: the scanner's description of the series; empty where it holds a part of the patient's name.
+        number: the series' number in its study, 0 if it has none.
+        patient: 1 for the first patient that was found, 2 for the second.
+        images: how many slices there are.
+        size_wh_px: columns and rows of a slice; zeros where the slices differ.
+        pixel_mm: distance between columns and between rows; zeros if unknown.
+        thickness_mm: as told by the scanner, 0 if unknown.
+        kernel: the filter with which it was computed ("Br38f"); empty if unknown.
+        compression: the name of its transfer syntax.
+        trouble: why this series cannot be planned on; empty if nothing is known against it.
+    """
+
+    series: str
+    kind: str
+    modality: str
+    words: str
+    number: int
+    patient: int
+    images: int
+    size_wh_px: tuple[int, int]
+    pixel_mm: tuple[float, float]
+    thickness_mm: float
+    kernel: str
+    compression: str
+    trouble: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeftOut:
+    """Files or images that take no part, and why."""
+
+    count: int
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ct:
+    """A CT that was read whole.
+
+    Attributes:
+        volume: Hounsfield units and their place in LPS mm.
+        series: what it is, without the patient's name.
+        warnings: what to know before planning on it, each a sentence.
+        left_out: what lay beside it and takes no part.
+    """
+
+    volume: Volume
+    series: SeriesDescription
+    warnings: tuple[str, ...]
+    left_out: tuple[LeftOut, ...]

@@ -1,0 +1,126 @@
+"""Compressed images decoded on several cores, in processes that may die of a damaged one."""
+
+import os
+import queue
+import subprocess
+import sys
+import threading
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from server.imaging.dicom import worker
+
+# Whole numbers of any size, with or without sign, as the file holds them.
+Stored: TypeAlias = npt.NDArray[np.integer[Any]]
+MOST_PROCESSES = 4
+# A decoder that is silent for so long is stuck.
+MOST_SECONDS = 60.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Encoded:
+    """One compressed image.
+
+    Attributes:
+        index: by which it is known to whoever asks.
+        options: what its file says of its pixels, by pydicom's names.
+        content: encapsulated, as in the file.
+    """
+
+    index: int
+    options: dict[str, object]
+    content: bytes
+
+
+class DecoderEnded(Exception):
+    """The process that decoded an image has died of it, or hangs."""
+
+
+@dataclass(slots=True)
+class _Process:
+    """One decoding process, and who talks to it."""
+
+    process: subprocess.Popen[bytes]
+
+    def decode(self, one: Encoded) -> Stored | None:
+        """The pixels (rows, columns), or None where they cannot be decoded."""
+        timer = threading.Timer(MOST_SECONDS, self.process.kill)
+        timer.start()
+        try:
+            worker.write_message(cast("Any", self.process.stdin), one.options, one.content)
+            answer = worker.read_message(cast("Any", self.process.stdout))
+        except OSError:
+            answer = None
+        finally:
+            timer.cancel()
+        if answer is None:
+            raise DecoderEnded
+        header, content = answer
+        if not header:
+            return None
+        shape = cast("list[int]", header["shape"])
+        return np.frombuffer(content, dtype=str(header["dtype"])).reshape(shape)
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.communicate()
+
+
+@dataclass(slots=True)
+class _Decoders:
+    """Processes that are started when they are first needed."""
+
+    idle: queue.SimpleQueue[_Process] = field(default_factory=queue.SimpleQueue)
+    started: list[_Process] = field(default_factory=list)
+
+    def decode(self, one: Encoded) -> tuple[int, Stored | None]:
+        """Decodes one image in a process that has nothing else to do."""
+        try:
+            process = self.idle.get_nowait()
+        except queue.Empty:
+            process = _Process(
+                subprocess.Popen(  # noqa: S603  our own file, run by the Python that runs us
+                    [sys.executable, "-P", worker.__file__],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.DEVNULL,
+                )
+            )
+            self.started.append(process)
+        try:
+            return one.index, process.decode(one)
+        except DecoderEnded:
+            return one.index, None
+        finally:
+            if process.process.poll() is None:
+                self.idle.put(process)
+
+
+@contextmanager
+def _decoders() -> Iterator[_Decoders]:
+    decoders = _Decoders()
+    try:
+        yield decoders
+    finally:
+        for process in decoders.started:
+            process.end()
+
+
+def decoded(images: Iterable[Encoded]) -> Iterator[tuple[int, Stored | None]]:
+    """Each image's index and its pixels (rows, columns), in their order; None where one cannot be decoded."""
+    count = max(1, min(MOST_PROCESSES, os.cpu_count() or 1))
+    waiting: deque[Future[tuple[int, Stored | None]]] = deque()
+    with _decoders() as decoders, ThreadPoolExecutor(count, thread_name_prefix="decode") as threads:
+        for one in images:
+            waiting.append(threads.submit(decoders.decode, one))
+            if len(waiting) > 2 * count:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()

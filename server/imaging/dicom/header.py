@@ -1,0 +1,194 @@
+"""What a DICOM file says of itself, without its pixels and without ever being believed blindly."""
+
+import logging
+import struct
+import warnings
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import BinaryIO
+
+import pydicom
+from pydicom.dataset import Dataset
+from pydicom.errors import BytesLengthException, InvalidDicomError
+
+from server.imaging.container import MOST_BYTES, Entry
+
+# pydicom's words may quote what a file holds, and that may be the patient's name.
+logging.getLogger("pydicom").setLevel(logging.CRITICAL + 1)
+pydicom.config.settings.reading_validation_mode = pydicom.config.IGNORE
+
+IMAGE = [
+    "SpecificCharacterSet",
+    "ImageType",
+    "SOPClassUID",
+    "SOPInstanceUID",
+    "Modality",
+    "SeriesDescription",
+    "PatientName",
+    "PatientID",
+    "PatientBirthDate",
+    "SliceThickness",
+    "ConvolutionKernel",
+    "GantryDetectorTilt",
+    "SeriesInstanceUID",
+    "SeriesNumber",
+    "InstanceNumber",
+    "ImagePositionPatient",
+    "ImageOrientationPatient",
+    "FrameOfReferenceUID",
+    "SamplesPerPixel",
+    "PhotometricInterpretation",
+    "NumberOfFrames",
+    "Rows",
+    "Columns",
+    "PixelSpacing",
+    "BitsAllocated",
+    "BitsStored",
+    "HighBit",
+    "PixelRepresentation",
+    "PixelPaddingValue",
+    "PixelPaddingRangeLimit",
+    "RescaleIntercept",
+    "RescaleSlope",
+    "RescaleType",
+    "ModalityLUTSequence",
+    "LossyImageCompression",
+    "SharedFunctionalGroupsSequence",
+    "PerFrameFunctionalGroupsSequence",
+]
+# What pydicom raises on values and files that are not as they should be.
+BAD_DICOM = (
+    InvalidDicomError,
+    BytesLengthException,
+    struct.error,
+    LookupError,
+    ArithmeticError,
+    AssertionError,
+    ValueError,
+    TypeError,
+    AttributeError,
+    NotImplementedError,
+    RuntimeError,
+    EOFError,
+    OSError,
+    zlib.error,
+    MemoryError,
+    RecursionError,
+)
+CT_CLASSES = {
+    "1.2.840.10008.5.1.4.1.1.2",
+    "1.2.840.10008.5.1.4.1.1.2.1",
+    "1.2.840.10008.5.1.4.1.1.2.2",
+}
+DEFLATED = b"1.2.840.10008.1.2.1.99"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NotUsed:
+    """A file that is no slice, and what it is instead."""
+
+    reason: str
+
+
+@contextmanager
+def quietly() -> Iterator[None]:
+    """What pydicom would warn of is judged here by what it leads to."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+def read_header(entry: Entry) -> Dataset | NotUsed:
+    """The attributes of a slice that are needed here, or why this file is none."""
+    try:
+        head = entry.head()
+        if not _is_dicom(head):
+            return NotUsed(reason="files that are no DICOM")
+        with entry.open() as file:
+            if DEFLATED in head and not _inflates(file):
+                return NotUsed(reason="files that would unpack to more than is allowed")
+            file.seek(0)
+            header = pydicom.dcmread(file, stop_before_pixels=True, specific_tags=IMAGE, force=True)
+            return header if _is_complete(header) else NotUsed(reason=BROKEN)
+    except BAD_DICOM:
+        return NotUsed(reason=BROKEN)
+
+
+BROKEN = "DICOM files that break off or are damaged"
+
+
+def _is_dicom(head: bytes) -> bool:
+    """With the mark that such files carry since 1993, or beginning at once with a plausible attribute."""
+    if head[128:132] == b"DICM":
+        return True
+    group, element = int.from_bytes(head[:2], "little"), int.from_bytes(head[2:4], "little")
+    return len(head) > 64 and group in {0x0002, 0x0008} and element <= 0x0070
+
+
+def _is_complete(header: Dataset) -> bool:
+    """Whether it is an image, or something that need not be one; a CT slice without its size is cut off."""
+    if "Rows" in header and "Columns" in header:
+        return True
+    kind = text(header, "SOPClassUID") or text(header.file_meta, "MediaStorageSOPClassUID")
+    return kind != "" and kind not in CT_CLASSES
+
+
+def _inflates(file: BinaryIO) -> bool:
+    """Whether a deflated file stays within bounds; pydicom would unpack it whole to find out."""
+    file.seek(128 + 4)
+    group_length = file.read(12)
+    file.seek(128 + 4 + 12 + int.from_bytes(group_length[8:12], "little"))
+    unpack = zlib.decompressobj(-zlib.MAX_WBITS)
+    unpacked = 0
+    while block := file.read(2**20):
+        while block:
+            unpacked += len(unpack.decompress(block, 2**24))
+            block = unpack.unconsumed_tail
+            if unpacked > MOST_BYTES // 8:
+                return False
+    return True
+
+
+def text(dataset: Dataset, keyword: str) -> str:
+    """An attribute as text, empty where it is missing or cannot be read."""
+    try:
+        value = dataset.get(keyword)
+        return "" if value is None else str(value).strip().strip("\0")
+    except BAD_DICOM:
+        return ""
+
+
+def numbers(dataset: Dataset, keyword: str, count: int) -> tuple[float, ...]:
+    """An attribute of so many numbers; empty where it is missing, has another count, or cannot be read."""
+    try:
+        value = dataset.get(keyword)
+        if value is None or value == "":
+            return ()
+        several = tuple(float(one) for one in ([value] if count == 1 and not _is_several(value) else value))
+    except BAD_DICOM:
+        return ()
+    return several if len(several) == count else ()
+
+
+def _is_several(value: object) -> bool:
+    return hasattr(value, "__len__") and not isinstance(value, str | bytes)
+
+
+def number(dataset: Dataset, keyword: str, otherwise: float) -> float:
+    """An attribute that is one number."""
+    found = numbers(dataset, keyword, 1)
+    return found[0] if found else otherwise
+
+
+def words(dataset: Dataset, keyword: str) -> tuple[str, ...]:
+    """An attribute of several words."""
+    try:
+        value = dataset.get(keyword)
+        if value is None:
+            return ()
+        several = [value] if isinstance(value, str) else list(value)
+        return tuple(str(one).strip() for one in several)
+    except BAD_DICOM:
+        return ()

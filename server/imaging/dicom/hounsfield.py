@@ -1,0 +1,36 @@
+"""From stored numbers to Hounsfield units."""
+
+import numpy as np
+import numpy.typing as npt
+
+from server.imaging.dicom.decoding import Stored
+from server.imaging.dicom.frame import Frame, Shared
+from server.imaging.dicom.pixels import is_encoded
+from server.imaging.voxels import LEAST_HU, MOST_HU, NOTHING_HU
+
+
+def hounsfield(stored: Stored, frame: Frame) -> tuple[npt.NDArray[np.int16], int]:
+    """HU (rows, columns) int16 of the stored numbers, and how many lay beyond what int16 holds."""
+    shared = frame.shared
+    padded = None
+    if shared.padding is not None:
+        low, high = shared.padding
+        padded = (stored >= low) & (stored <= high)
+    values = _without_unused_bits(stored, shared)
+    slope, intercept = frame.slope[0], frame.intercept[0]
+    if slope == 1.0 and intercept == int(intercept) and abs(intercept) < 2**30 and shared.bits[1] <= 16:
+        hu: npt.NDArray[np.int32 | np.float64] = values.astype(np.int32) + np.int32(intercept)
+    else:
+        hu = np.rint(values.astype(np.float64) * slope + intercept)
+    if padded is not None:
+        hu = np.where(padded, np.asarray(NOTHING_HU, dtype=hu.dtype), hu)
+    beyond = int(np.count_nonzero((hu < LEAST_HU) | (hu > MOST_HU)))
+    return np.clip(hu, LEAST_HU, MOST_HU).astype(np.int16), beyond
+
+
+def _without_unused_bits(stored: Stored, shared: Shared) -> Stored:
+    """The bits above those stored may hold anything: overlays, or nothing."""
+    unused = stored.dtype.itemsize * 8 - shared.bits[1]
+    if unused <= 0 or is_encoded(shared):
+        return stored
+    return np.asarray(np.right_shift(np.left_shift(stored, unused), unused))

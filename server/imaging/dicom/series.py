@@ -1,0 +1,176 @@
+"""Which slices belong together, whose they are, and which series is the CT that was meant."""
+
+import re
+from collections import Counter
+
+from pydicom.uid import UID
+
+from server.imaging.container import Container
+from server.imaging.ct import Progress, SeriesDescription
+from server.imaging.dicom.frame import Frame, Owner, frames_of
+from server.imaging.dicom.header import BROKEN, NotUsed, quietly, read_header
+from tracker.errors import InvalidInput
+
+# Fewer slices than this are a scout or a sample, where there is a series with more.
+FEW_SLICES = 4
+GIVE_ONE = "Give the folder of one patient alone."
+
+
+def frames_by_series(container: Container, progress: Progress) -> dict[str, list[Frame]]:
+    """All slices that were found, by series; what takes no part is noted in the container.
+
+    Raises:
+        InvalidInput: CT_FILE_DAMAGED, CT_NO_DICOM.
+    """
+    series: dict[str, list[Frame]] = {}
+    for done, entry in enumerate(container.entries, start=1):
+        with quietly():
+            header = read_header(entry)
+            frames = header if isinstance(header, NotUsed) else frames_of(entry, header)
+        if isinstance(frames, NotUsed):
+            container.reasons[frames.reason] += 1
+        else:
+            series.setdefault(frames[0].shared.series, []).extend(frames)
+        progress(done, len(container.entries))
+    damaged = container.reasons[BROKEN]
+    if damaged:
+        raise InvalidInput(
+            "CT_FILE_DAMAGED",
+            f"{damaged} of {len(container.entries)} files are DICOM, but break off or are damaged",
+            "Copy or export the series again; a slice that is damaged cannot be repaired.",
+            {"damaged": damaged, "files": len(container.entries)},
+        )
+    if not series:
+        why = ", ".join(f"{one.count} {one.reason}" for one in container.left_out)
+        raise InvalidInput(
+            "CT_NO_DICOM",
+            f"no DICOM slice among {len(container.entries) + _beforehand(container)} files: {why}",
+            "Give a folder or zip of the CT's DICOM slices, or a NIfTI file.",
+            {one.reason.replace(" ", "_"): one.count for one in container.left_out},
+        )
+    return series
+
+
+def _beforehand(container: Container) -> int:
+    """Files that were left out before any was opened."""
+    return max(0, sum(container.reasons.values()) - len(container.entries))
+
+
+def check_one_patient(frames: list[Frame], *, what: str) -> None:
+    """Refuses images of more than one patient, without telling who they are.
+
+    Raises:
+        InvalidInput: CT_PATIENTS_MIXED.
+    """
+    owners = {frame.shared.owner for frame in frames}
+    for field, told in (("identifier", "patient IDs"), ("name", "patient names"), ("born", "dates of birth")):
+        different = {getattr(owner, field) for owner in owners} - {""}
+        if len(different) > 1:
+            raise InvalidInput(
+                "CT_PATIENTS_MIXED",
+                f"{what} holds images with {len(different)} different {told}, allowed 1",
+                GIVE_ONE,
+                {"patients": len(different), "images": len(frames)},
+            )
+
+
+def describe(series: dict[str, list[Frame]]) -> tuple[SeriesDescription, ...]:
+    """Every series that was found, by its number, without anything that names the patient."""
+    owners: list[Owner] = []
+    described = []
+    for identifier, frames in sorted(series.items(), key=lambda one: (one[1][0].shared.number, one[0])):
+        first = frames[0].shared
+        if first.owner not in owners:
+            owners.append(first.owner)
+        sizes = {frame.shared.size_wh_px for frame in frames}
+        pixel = frames[0].pixel_mm
+        described.append(
+            SeriesDescription(
+                series=identifier,
+                kind="dicom",
+                modality=first.modality,
+                words=_without_names(first.words, [frame.shared.owner for frame in frames]),
+                number=first.number,
+                patient=owners.index(first.owner) + 1,
+                images=len(frames),
+                size_wh_px=first.size_wh_px if len(sizes) == 1 else (0, 0),
+                pixel_mm=(pixel[1], pixel[0]) if pixel else (0.0, 0.0),
+                thickness_mm=first.thickness_mm,
+                kernel=first.kernel,
+                compression=UID(first.compression).name,
+                trouble=_trouble(frames),
+            )
+        )
+    return tuple(described)
+
+
+def _without_names(words: str, owners: list[Owner]) -> str:
+    """The scanner's description, or nothing where somebody wrote who it is."""
+    parts = {
+        part
+        for owner in owners
+        for field in (owner.name, owner.identifier, owner.born)
+        for part in re.split(r"[\s,^]+", field)
+        if len(part) >= 3
+    }
+    return "" if any(part in words.casefold() for part in parts) else words
+
+
+def _trouble(frames: list[Frame]) -> str:
+    modality = frames[0].shared.modality
+    if modality != "CT":
+        return f"it is {modality or 'of unknown kind'}, not CT"
+    if len(frames) < 2:
+        return "it has 1 slice, needed at least 2"
+    if not all(frame.position_lps_mm and frame.directions and frame.pixel_mm for frame in frames):
+        return "its slices do not tell where they lie"
+    return ""
+
+
+def choose(series: dict[str, list[Frame]], asked: str | None) -> list[Frame]:
+    """The slices of the series that was asked for, or of the only CT.
+
+    Raises:
+        InvalidInput: CT_SERIES_UNKNOWN, CT_NOT_CT, CT_SERIES_UNCLEAR.
+    """
+    if asked is not None:
+        if asked not in series:
+            raise InvalidInput(
+                "CT_SERIES_UNKNOWN",
+                f"none of the {len(series)} series has this identifier",
+                "List the series, and give the identifier of one of them.",
+                {"series": sorted(series)},
+            )
+        _check_modality(series[asked])
+        return series[asked]
+    found = [frames for frames in series.values() if frames[0].shared.modality == "CT" and len(frames) > 1]
+    many = [frames for frames in found if len(frames) >= FEW_SLICES]
+    if len(many or found) == 1:
+        return (many or found)[0]
+    if not found:
+        only = max(series.values(), key=len)
+        _check_modality(only)
+        raise InvalidInput(
+            "CT_TOO_FEW_SLICES",
+            f"the CT has {len(only)} slice, needed at least 2",
+            "Export the whole series again.",
+            {"slices": len(only)},
+        )
+    raise InvalidInput(
+        "CT_SERIES_UNCLEAR",
+        f"there are {len(found)} CT series, of {', '.join(str(len(frames)) for frames in found)} slices",
+        "List the series, and name the one to plan on.",
+        {"series": {one.series: one.words for one in describe(series) if not one.trouble}},
+    )
+
+
+def _check_modality(frames: list[Frame]) -> None:
+    kinds = Counter(frame.shared.modality for frame in frames)
+    if set(kinds) != {"CT"}:
+        told = ", ".join(f"{count} of {kind or 'unknown kind'}" for kind, count in kinds.most_common())
+        raise InvalidInput(
+            "CT_NOT_CT",
+            f"the images are no CT: {told}",
+            "Give a CT; MR, PET and others have no Hounsfield units.",
+            {"modalities": dict(kinds)},
+        )

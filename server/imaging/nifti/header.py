@@ -1,0 +1,153 @@
+"""What a NIfTI file says of itself: its size, its place in the patient, and what its numbers mean."""
+
+import gzip
+import logging
+import struct
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import IO, cast
+
+import nibabel as nib
+import numpy as np
+import numpy.typing as npt
+from nibabel.spatialimages import HeaderDataError
+from nibabel.wrapstruct import WrapStructError
+
+from server.imaging.container import Entry
+from server.imaging.nifti.place import Placed, placed
+from server.imaging.voxels import check_voxels
+from tracker.errors import InvalidInput
+
+# nibabel's words may quote what a file holds.
+logging.getLogger("nibabel.global").setLevel(logging.CRITICAL + 1)
+BAD_NIFTI = (
+    HeaderDataError,
+    WrapStructError,
+    nib.filebasedimages.ImageFileError,
+    ValueError,
+    TypeError,
+    LookupError,
+    ArithmeticError,
+    struct.error,
+    EOFError,
+    OSError,
+    zlib.error,
+    MemoryError,
+)
+CONVERT_AGAIN = "Convert or export the CT again as NIfTI, or give its DICOM slices."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NiftiHeader:
+    """A NIfTI file that can be read.
+
+    Attributes:
+        shape_ijk: number of voxels along its three axes.
+        stored: the type of its numbers, with their byte order.
+        offset: of the first number, in bytes.
+        slope, intercept: take stored numbers to HU.
+        place: where its voxels lie, and what to know about that.
+    """
+
+    shape_ijk: tuple[int, int, int]
+    stored: np.dtype[np.generic]
+    offset: int
+    slope: float
+    intercept: float
+    place: Placed
+
+
+def is_nifti(head: bytes) -> bool:
+    """Whether a file beginning with these bytes is NIfTI, packed by gzip or not."""
+    if head[:2] == b"\x1f\x8b":
+        try:
+            head = zlib.decompressobj(16 + zlib.MAX_WBITS).decompress(head, 1024)
+        except zlib.error:
+            return False
+    return head[344:348] in {b"n+1\0", b"ni1\0"} or head[4:8] in {b"n+2\0", b"ni2\0"}
+
+
+@contextmanager
+def unpacked(entry: Entry) -> Iterator[IO[bytes]]:
+    """The file's bytes from the beginning, unpacked on the way."""
+    is_packed = entry.head()[:2] == b"\x1f\x8b"
+    with entry.open() as file:
+        if not is_packed:
+            yield file
+            return
+        with gzip.GzipFile(fileobj=file) as inside:
+            yield cast("IO[bytes]", inside)
+
+
+def read_nifti_header(entry: Entry) -> NiftiHeader:
+    """What the file says of itself, checked.
+
+    Raises:
+        InvalidInput: CT_FILE_DAMAGED, CT_NIFTI_PAIR, CT_NOT_ONE_VOLUME, CT_PIXELS_UNKNOWN, CT_TOO_LARGE, or
+            what `placed` raises.
+    """
+    try:
+        with unpacked(entry) as file:
+            start = file.read(540)
+        header = (
+            nib.Nifti2Header(start[:540]) if start[4:7] in {b"n+2", b"ni2"} else nib.Nifti1Header(start[:348])
+        )
+        pair = header.get("magic", b"").item()[:3] in {b"ni1", b"ni2"}
+        shape = tuple(int(size) for size in header.get_data_shape())
+        stored = header.get_data_dtype()
+        slope, intercept = header.get_slope_inter()
+        offset = int(header.get_data_offset())
+    except BAD_NIFTI:
+        raise damaged(entry, "its header cannot be read") from None
+    if pair:
+        raise InvalidInput(
+            "CT_NIFTI_PAIR",
+            "this is the header of a NIfTI pair, its voxels are in a second file",
+            "Convert it into a single .nii or .nii.gz.",
+        )
+    _check_shape(shape)
+    _check_kind(stored)
+    place = placed(header, shape[:3])
+    return NiftiHeader(
+        shape_ijk=(shape[0], shape[1], shape[2]),
+        stored=stored,
+        offset=offset,
+        slope=1.0 if slope is None else float(slope),
+        intercept=0.0 if intercept is None else float(intercept),
+        place=place,
+    )
+
+
+def _check_shape(shape: tuple[int, ...]) -> None:
+    if len(shape) < 3 or any(size != 1 for size in shape[3:]) or min(shape[:3]) < 2:
+        raise InvalidInput(
+            "CT_NOT_ONE_VOLUME",
+            f"the NIfTI has {' x '.join(str(size) for size in shape) or 'no'} voxels, needed one volume of "
+            "three axes with at least 2 each",
+            "Export one volume of the CT; a series over time holds several.",
+            {"shape": list(shape)},
+        )
+    check_voxels((shape[2], shape[1], shape[0]))
+
+
+def _check_kind(stored: npt.DTypeLike) -> None:
+    kind = np.dtype(stored)
+    if kind.names or kind.kind not in "iuf":
+        raise InvalidInput(
+            "CT_PIXELS_UNKNOWN",
+            f"the NIfTI stores {'colours' if kind.names else kind.name}, which are no Hounsfield units",
+            CONVERT_AGAIN,
+            {"stored": "colours" if kind.names else kind.name},
+        )
+
+
+def damaged(entry: Entry, why: str) -> InvalidInput:
+    """A file that is NIfTI, and cannot be read to its end."""
+    return InvalidInput(
+        "CT_FILE_DAMAGED",
+        f"the NIfTI file of {entry.size} bytes breaks off or is damaged: {why}",
+        "Copy or convert the file again.",
+        {"bytes": entry.size},
+    )

@@ -1,0 +1,79 @@
+"""Where the voxels are written: into memory, or into a file that is there whole or not at all."""
+
+import os
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import InvalidInput
+
+MOST_VOXELS = 2**30
+# What stands where the scanner measured nothing: air.
+NOTHING_HU = -1024
+LEAST_HU, MOST_HU = -32768, 32767
+
+
+@dataclass(slots=True, kw_only=True)
+class Voxels:
+    """An array (slices, rows, columns) int16 that is being filled; read-only once it is complete."""
+
+    hu: npt.NDArray[np.int16]
+
+
+def check_voxels(shape: tuple[int, int, int]) -> None:
+    """Refuses a volume before any memory is taken for it.
+
+    Raises:
+        InvalidInput: CT_TOO_LARGE.
+    """
+    voxels = shape[0] * shape[1] * shape[2]
+    if voxels > MOST_VOXELS:
+        raise InvalidInput(
+            "CT_TOO_LARGE",
+            f"the CT has {shape[2]} x {shape[1]} x {shape[0]} voxels, {voxels / 1e6:.0f} million, allowed "
+            f"{MOST_VOXELS / 1e6:.0f} million",
+            "Export the part around the vertebrae alone, or a series with fewer pixels.",
+            {"voxels": voxels, "most_voxels": MOST_VOXELS},
+        )
+
+
+@contextmanager
+def voxels_to_fill(shape: tuple[int, int, int], into: Path | None) -> Iterator[Voxels]:
+    """An array to fill; when the block ends without an error it is complete, and mapped from `into` if given.
+
+    Args:
+        shape: slices, rows, columns.
+        into: a `.npy` that appears under its name when every voxel is on the disk, and not before.
+    """
+    check_voxels(shape)
+    if into is None:
+        voxels = Voxels(hu=np.empty(shape, dtype=np.int16))
+        yield voxels
+        voxels.hu.setflags(write=False)
+        return
+    partial = into.with_name(f".{into.name}.{uuid.uuid4().hex}.partial")
+    try:
+        mapped = np.lib.format.open_memmap(partial, mode="w+", dtype=np.int16, shape=shape)
+        voxels = Voxels(hu=mapped)
+        yield voxels
+        mapped.flush()
+        _sync(partial)
+        partial.replace(into)
+        _sync(into.parent)
+        voxels.hu = np.load(into, mmap_mode="r")
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _sync(path: Path) -> None:
+    """What was written to this file or folder is on the disk."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

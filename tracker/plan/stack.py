@@ -1,0 +1,217 @@
+"""The slices of a CT put in order: one affine for all of them, or a sentence why there is none."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+
+# Two slices nearer than this lie at the same place.
+SAME_PLACE_MM = 0.01
+# How far a voxel may lie from where the affine puts it: in mm, and as a share of the spacing.
+MOST_JITTER_MM = 0.2
+MOST_JITTER_RATIO = 0.1
+MOST_TILT_DEG = 45.0
+EXPORT_AGAIN = "Export the whole series again as original axial slices, and give that folder alone."
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stack:
+    """Where the slices of a series lie in the patient.
+
+    Attributes:
+        lps_from_ijk: (4, 4), takes column, row and slice to LPS in mm; slices run along rows x columns.
+        slices: for each slice of the volume which of the given ones lie there; more than one are duplicates.
+        spacing_mm: between neighbouring slices, along their normal.
+        tilt_deg: between the normal and the way from slice to slice; above 0 for a tilted gantry.
+        jitter_mm: how far a corner of a slice lies at most from where the affine puts it.
+    """
+
+    lps_from_ijk: Array
+    slices: tuple[tuple[int, ...], ...]
+    spacing_mm: float
+    tilt_deg: float
+    jitter_mm: float
+
+
+def stack_slices(
+    *, positions_lps_mm: Array, directions: Array, pixels_mm: Array, size_wh_px: tuple[int, int]
+) -> Stack:
+    """One affine for all slices of a series, in whatever order they are given.
+
+    Args:
+        positions_lps_mm: (n, 3), the centre of the first pixel of each slice.
+        directions: (n, 2, 3), unit directions in which columns (first) and rows (second) are counted.
+        pixels_mm: (n, 2), distance between neighbouring columns (first) and rows (second).
+        size_wh_px: columns and rows of each slice.
+
+    Raises:
+        InvalidInput: CT_DIRECTIONS_INVALID, CT_DIRECTIONS_DIFFER, CT_PIXELS_DIFFER, CT_TOO_FEW_SLICES,
+            CT_SLICES_MISSING, CT_SPACING_UNEVEN, CT_SLICES_SHIFTED or CT_TILT_TOO_LARGE.
+    """
+    positions = np.asarray(positions_lps_mm, dtype=np.float64)
+    axes = _checked_axes(np.asarray(directions, dtype=np.float64), np.asarray(pixels_mm, dtype=np.float64))
+    extent = np.array(size_wh_px, dtype=np.float64) - 1.0
+    _check_alike(axes, extent)
+    normal = np.cross(axes[0, 0], axes[0, 1])
+    normal /= np.linalg.norm(normal)
+    slices = _grouped(positions, positions @ normal)
+    if len(slices) < 2:
+        raise InvalidInput(
+            "CT_TOO_FEW_SLICES",
+            f"the series has slices at {len(slices)} place, needed at least 2",
+            EXPORT_AGAIN,
+            {"places": len(slices), "slices": int(positions.shape[0])},
+        )
+    starts = positions[[members[0] for members in slices]]
+    gaps = np.diff(starts @ normal)
+    _check_gaps(gaps)
+    step = (starts[-1] - starts[0]) / (len(slices) - 1)
+    affine = np.eye(4)
+    affine[:3, :3] = np.column_stack([axes[0, 0], axes[0, 1], step])
+    affine[:3, 3] = starts[0]
+    jitter = _jitter_mm(affine, starts, axes[[members[0] for members in slices]], extent)
+    spacing = float(step @ normal)
+    _check_jitter(jitter, gaps, spacing)
+    tilt = float(np.degrees(np.arctan2(np.linalg.norm(step - spacing * normal), spacing)))
+    if tilt > MOST_TILT_DEG:
+        raise InvalidInput(
+            "CT_TILT_TOO_LARGE",
+            f"the slices are tilted by {tilt:.1f} deg against the way from one to the next, allowed "
+            f"{MOST_TILT_DEG:.0f} deg",
+            EXPORT_AGAIN,
+            {"tilt_deg": tilt, "most_tilt_deg": MOST_TILT_DEG},
+        )
+    affine.setflags(write=False)
+    return Stack(lps_from_ijk=affine, slices=slices, spacing_mm=spacing, tilt_deg=tilt, jitter_mm=jitter)
+
+
+def _checked_axes(directions: Array, pixels_mm: Array) -> Array:
+    """The step (n, 2, 3) in mm from column to column and from row to row of each slice."""
+    finite = np.isfinite(directions).all() and np.isfinite(pixels_mm).all()
+    lengths = np.linalg.norm(directions, axis=2)
+    across = np.einsum("ni,ni->n", directions[:, 0], directions[:, 1])
+    bad = ~((np.abs(lengths - 1.0) < 1e-3).all(axis=1) & (np.abs(across) < 1e-3))
+    if not finite or bad.any():
+        raise InvalidInput(
+            "CT_DIRECTIONS_INVALID",
+            f"{int(bad.sum())} of {len(bad)} slices have directions that are not at right angles, or not of "
+            "length 1",
+            EXPORT_AGAIN,
+            {"slices": int(bad.sum()), "of": len(bad)},
+        )
+    return np.asarray(directions / lengths[:, :, None] * pixels_mm[:, :, None])
+
+
+def _check_alike(axes: Array, extent: Array) -> None:
+    """Refuses slices that are turned, or have larger pixels, than the others."""
+    usual = np.median(axes, axis=0)
+    lengths = np.linalg.norm(axes, axis=2)
+    usual_lengths = np.median(lengths, axis=0)
+    stretched = (np.abs(lengths - usual_lengths) * extent).max(axis=1) > MOST_JITTER_MM
+    if stretched.any():
+        low, high = float(lengths.min()), float(lengths.max())
+        raise InvalidInput(
+            "CT_PIXELS_DIFFER",
+            f"{int(stretched.sum())} of {len(axes)} slices have pixels of another size: they go from "
+            f"{low:.4f} to {high:.4f} mm",
+            EXPORT_AGAIN,
+            {"slices": int(stretched.sum()), "of": len(axes), "least_mm": low, "most_mm": high},
+        )
+    turned = (np.linalg.norm(axes - usual, axis=2) * extent).max(axis=1) > MOST_JITTER_MM
+    if turned.any():
+        normals = np.cross(axes[:, 0], axes[:, 1])
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        worst = float(np.degrees(np.arccos(np.clip((normals @ normals[0]).min(), -1.0, 1.0))))
+        raise InvalidInput(
+            "CT_DIRECTIONS_DIFFER",
+            f"{int(turned.sum())} of {len(axes)} slices lie in another direction (planes up to {worst:.2f} "
+            "deg apart)",
+            EXPORT_AGAIN,
+            {"slices": int(turned.sum()), "of": len(axes), "worst_deg": worst},
+        )
+
+
+def _grouped(positions: Array, heights: Array) -> tuple[tuple[int, ...], ...]:
+    """The slices from the lowest to the highest; those at the same height together."""
+    groups: list[list[int]] = []
+    for index in np.argsort(heights, kind="stable").tolist():
+        if groups and heights[index] - heights[groups[-1][0]] <= SAME_PLACE_MM:
+            shift = float(np.linalg.norm(positions[index] - positions[groups[-1][0]]))
+            if shift > MOST_JITTER_MM:
+                raise InvalidInput(
+                    "CT_SLICES_SHIFTED",
+                    f"two slices lie in one plane, {shift:.2f} mm apart, allowed {MOST_JITTER_MM:.2f} mm",
+                    EXPORT_AGAIN,
+                    {"shift_mm": shift, "most_shift_mm": MOST_JITTER_MM},
+                )
+            groups[-1].append(index)
+        else:
+            groups.append([index])
+    return tuple(tuple(group) for group in groups)
+
+
+def _check_gaps(gaps: Array) -> None:
+    """Refuses a series in which the distance between neighbours is not one and the same."""
+    usual = float(np.sort(gaps)[(len(gaps) - 1) // 2])
+    steps = gaps / usual
+    if np.abs(steps - 1.0).max() <= 2.0 * MOST_JITTER_RATIO:
+        return
+    first = int(np.argmax(np.abs(steps - 1.0) > 2.0 * MOST_JITTER_RATIO))
+    where = f"after slice {first + 1} of {len(gaps) + 1}, in the order of their places, the next is"
+    missing = int((np.rint(steps) - 1.0).sum())
+    if missing > 0 and np.abs(steps - np.rint(steps)).max() <= 2.0 * MOST_JITTER_RATIO:
+        raise InvalidInput(
+            "CT_SLICES_MISSING",
+            f"{missing} of {len(gaps) + 1 + missing} slices are missing: {where} {gaps[first]:.3f} mm away, "
+            f"the others lie {usual:.3f} mm apart",
+            EXPORT_AGAIN,
+            {"missing": missing, "gap_mm": float(gaps[first]), "spacing_mm": usual},
+        )
+    raise InvalidInput(
+        "CT_SPACING_UNEVEN",
+        f"the slices lie between {gaps.min():.3f} and {gaps.max():.3f} mm apart, mostly {usual:.3f} mm: "
+        f"{where} {gaps[first]:.3f} mm away",
+        EXPORT_AGAIN,
+        {"least_mm": float(gaps.min()), "most_mm": float(gaps.max()), "spacing_mm": usual},
+    )
+
+
+def _jitter_mm(affine: Array, starts: Array, axes: Array, extent: Array) -> float:
+    """How far a corner of any slice lies at most from where the affine puts it."""
+    count = len(starts)
+    worst = 0.0
+    for column in (0.0, extent[0]):
+        for row in (0.0, extent[1]):
+            told = starts + axes[:, 0] * column + axes[:, 1] * row
+            index = np.column_stack([np.full(count, column), np.full(count, row), np.arange(count)])
+            worst = max(
+                worst,
+                float(np.linalg.norm(told - index @ affine[:3, :3].T - affine[:3, 3], axis=1).max()),
+            )
+    return worst
+
+
+def _check_jitter(jitter: float, gaps: Array, spacing: float) -> None:
+    """Refuses slices that lie too far from where the affine puts them."""
+    allowed = min(MOST_JITTER_MM, MOST_JITTER_RATIO * spacing)
+    if jitter <= allowed:
+        return
+    uneven = float(np.abs(gaps - spacing).max()) > 0.1 * allowed
+    how = (
+        f"the slices lie between {gaps.min():.3f} and {gaps.max():.3f} mm apart"
+        if uneven
+        else "the slices are shifted against each other within their planes"
+    )
+    raise InvalidInput(
+        "CT_SPACING_UNEVEN" if uneven else "CT_SLICES_SHIFTED",
+        f"{how}: one lies {jitter:.3f} mm from its even place, allowed {allowed:.3f} mm",
+        EXPORT_AGAIN,
+        {
+            "off_mm": jitter,
+            "allowed_mm": allowed,
+            "least_mm": float(gaps.min()),
+            "most_mm": float(gaps.max()),
+        },
+    )
