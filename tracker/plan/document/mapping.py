@@ -1,0 +1,132 @@
+"""A plan to and from plain mappings, lists, numbers and words, which JSON can hold."""
+
+import dataclasses
+import typing
+from collections.abc import Mapping
+from enum import Enum
+from typing import Any
+
+import numpy as np
+
+from tracker.errors import NavigationError, PlanError
+from tracker.plan.document.records import FORMAT_VERSION, PlanDocument
+
+
+def plan_to_mapping(plan: PlanDocument) -> dict[str, Any]:
+    """The plan as JSON can hold it; `plan_from_mapping` gives the same plan back."""
+    mapped = plain(plan)
+    assert isinstance(mapped, dict)  # noqa: S101  a record becomes a mapping; said for the type checker
+    return mapped
+
+
+def plain(value: object) -> Any:  # noqa: ANN401  what JSON holds has no narrower type
+    """Records as mappings, arrays and tuples as lists, names as words."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {field.name: plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, Mapping):
+        return {str(key): plain(one) for key, one in value.items()}
+    if isinstance(value, tuple | list):
+        return [plain(one) for one in value]
+    return value
+
+
+def plan_from_mapping(mapped: object) -> PlanDocument:
+    """The plan of a mapping; every record checks itself again.
+
+    Raises:
+        PlanError: PLAN_INVALID, a key is missing, unknown or of a wrong kind; PLAN_VERSION_UNKNOWN; or what
+            a record refuses.
+    """
+    if isinstance(mapped, Mapping) and mapped.get("format_version") != FORMAT_VERSION:
+        raise PlanError(
+            "PLAN_VERSION_UNKNOWN",
+            f"the plan has format version {mapped.get('format_version')!r}, this program reads {FORMAT_VERSION}",
+            "Open it with the program that wrote it, or plan again.",
+        )
+    plan = _read(PlanDocument, mapped, "plan")
+    assert isinstance(plan, PlanDocument)  # noqa: S101  what was asked for; said for the type checker
+    return plan
+
+
+def _read(kind: Any, value: object, where: str) -> Any:  # noqa: ANN401  kinds are told by annotations
+    origin, given = typing.get_origin(kind), typing.get_args(kind)
+    if dataclasses.is_dataclass(kind) and isinstance(kind, type):
+        return _record(kind, value, where)
+    if origin is np.ndarray:
+        return _array(value, where)
+    if origin is tuple:
+        return tuple(_read(given[0], one, f"{where}[{n}]") for n, one in enumerate(_list(value, where)))
+    if origin is typing.Literal:
+        if value not in given:
+            raise _invalid(where, f"is {value!r}, allowed are {', '.join(map(str, given))}")
+        return value
+    if origin is not None and isinstance(origin, type) and issubclass(origin, Mapping):
+        if not isinstance(value, Mapping):
+            raise _invalid(where, "is no mapping")
+        return {str(key): _read(given[1], one, f"{where}.{key}") for key, one in value.items()}
+    return _single(kind, value, where)
+
+
+def _single(kind: Any, value: object, where: str) -> object:  # noqa: ANN401  as above
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        try:
+            return kind(value)
+        except ValueError as error:
+            raise _invalid(where, f"is {value!r}, allowed are {', '.join(str(one.value) for one in kind)}") from error
+    if kind is float and isinstance(value, int | float) and not isinstance(value, bool):
+        if not np.isfinite(value):
+            raise _invalid(where, f"is {value}, needed a finite number")
+        return float(value)
+    if isinstance(kind, type) and type(value) is kind:
+        return value
+    raise _invalid(where, f"is {value!r}, needed {getattr(kind, '__name__', kind)}")
+
+
+def _record(kind: type, value: object, where: str) -> object:
+    if not isinstance(value, Mapping):
+        raise _invalid(where, "is no mapping")
+    hints = typing.get_type_hints(kind)
+    fields = {field.name: field for field in dataclasses.fields(kind)}
+    unknown = sorted(str(key) for key in value if key not in fields)
+    if unknown:
+        raise _invalid(where, f"has unknown keys {', '.join(unknown)}")
+    missing = [name for name, field in fields.items() if name not in value and _is_needed(field)]
+    if missing:
+        raise _invalid(where, f"lacks {', '.join(missing)}")
+    read = {name: _read(hints[name], value[name], f"{where}.{name}") for name in fields if name in value}
+    try:
+        return kind(**read)
+    except NavigationError:
+        raise
+    except (TypeError, ValueError) as error:
+        raise _invalid(where, f"cannot be read: {error}") from error
+
+
+def _is_needed(field: "dataclasses.Field[Any]") -> bool:
+    return field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+
+
+def _array(value: object, where: str) -> object:
+    try:
+        array = np.array(_list(value, where), dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise _invalid(where, "is no even list of numbers") from error
+    if not np.isfinite(array).all():
+        raise _invalid(where, "holds a number that is not finite")
+    return array
+
+
+def _list(value: object, where: str) -> list[Any]:
+    if not isinstance(value, list | tuple):
+        raise _invalid(where, "is no list")
+    return list(value)
+
+
+def _invalid(where: str, what: str) -> PlanError:
+    return PlanError(
+        "PLAN_INVALID", f"the plan cannot be read: {where} {what}", "Export the plan again.", {"where": where}
+    )

@@ -1,0 +1,95 @@
+"""What a plan holds. Who made it, and when, is kept by whoever stores it."""
+
+from dataclasses import dataclass
+
+from tracker.errors import PlanError
+from tracker.plan.channel import Channel
+from tracker.plan.document.corrections import PedicleRecord
+from tracker.plan.pedicle import Side
+from tracker.plan.reference_slice import ReferenceSlice
+from tracker.plan.screw import ScrewPlan
+
+FORMAT_VERSION = 1
+MOST_CHANNELS = 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedChannel:
+    """A channel, whether a person set it, and the screw in it where one is chosen.
+
+    Attributes:
+        side: of the patient.
+        channel: the cylinder.
+        by_hand: whether a person set its ends, and not the measured pedicle.
+        screws: none or one.
+    """
+
+    side: Side
+    channel: Channel
+    by_hand: bool = False
+    screws: tuple[ScrewPlan, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VertebraPlan:
+    """One vertebra: its reference slice, its pedicles and its channels, at most one of each to a side.
+
+    Attributes:
+        name: `L3`.
+        references: none or one reference slice.
+        pedicles: as measured and corrected.
+        channels: one or two.
+
+    Raises:
+        PlanError: VERTEBRA_INVALID, its name is empty, or a side has two pedicles, channels or screws.
+    """
+
+    name: str
+    references: tuple[ReferenceSlice, ...] = ()
+    pedicles: tuple[PedicleRecord, ...] = ()
+    channels: tuple[PlannedChannel, ...] = ()
+
+    def __post_init__(self) -> None:
+        sides = [record.measured.side for record in self.pedicles]
+        ways = [planned.side for planned in self.channels]
+        screws = max((len(planned.screws) for planned in self.channels), default=0)
+        if (
+            not self.name.strip()
+            or len(set(sides)) < len(sides)
+            or len(set(ways)) < len(ways)
+            or len(self.references) > 1
+            or screws > 1
+        ):
+            raise PlanError(
+                "VERTEBRA_INVALID",
+                f"vertebra '{self.name}' has pedicles {sides}, channels {ways}, {len(self.references)} reference "
+                f"slices and up to {screws} screws to a channel; needed a name and at most one of each to a side",
+                "Take away what is there twice.",
+                {"name": self.name},
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanDocument:
+    """The whole plan: every vertebra that is fused.
+
+    Attributes:
+        vertebrae: from the head down, or as they were planned; names differ.
+        format_version: of the mapping that it is written as.
+
+    Raises:
+        PlanError: PLAN_INVALID, two vertebrae have the same name.
+    """
+
+    vertebrae: tuple[VertebraPlan, ...] = ()
+    format_version: int = FORMAT_VERSION
+
+    def __post_init__(self) -> None:
+        names = [vertebra.name for vertebra in self.vertebrae]
+        if len(set(names)) < len(names):
+            raise PlanError(
+                "PLAN_INVALID",
+                f"the plan names {len(names)} vertebrae, but only {len(set(names))} different ones: {names}",
+                "Give each vertebra its own name.",
+                {"names": names},
+            )

@@ -1,0 +1,276 @@
+"""Fits the bar to the voxels themselves, so that walls are placed far below a voxel, in thick slices too."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import least_squares
+
+from tracker.geometry import Array
+from tracker.plan.pedicle import tube
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import planes_across
+from tracker.plan.pedicle.search import Bar
+
+LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
+MOST_VOXELS = 6000
+ROUNDS = 3
+OUTSIDE_BAND_MM = 1.2
+LEAST_VOXELS = 60
+COARSE_SD_DEG = 4.0
+# Bone is not made of even layers: what a voxel may differ by before it counts less.
+LEAST_SCALE_HU, SCALE_RATIO = 12.0, 0.06
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FittedBar:
+    """A bar fitted to voxels.
+
+    Attributes:
+        origin_mm: (3,), LPS; axis, left and up are unit (3,).
+        half_mm: half the length of the window.
+        parameters: (26,), see `tube`.
+        covariance: (26, 26).
+        residual_hu: robust standard deviation of what the fit leaves.
+        fitted: whether the fit came to an end; if not, these are the coarse numbers.
+    """
+
+    origin_mm: Array
+    axis: Array
+    left: Array
+    up: Array
+    half_mm: float
+    parameters: Array
+    covariance: Array
+    residual_hu: float
+    fitted: bool
+
+
+def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
+    """The bar around its narrowest section, refitted until window and axis agree with themselves."""
+    half = float(np.clip(0.8 * min(bar.behind_mm, bar.ahead_mm), LEAST_HALF_MM, MOST_HALF_MM))
+    origin, axis = bar.centre_mm, bar.axis
+    parameters = _first_parameters(near, bar)
+    fitted: FittedBar | None = None
+    for round_number in range(ROUNDS):
+        (left,), (up,) = planes_across(axis[None])
+        samples = _samples(near, bar, parameters, origin, np.stack([axis, left, up]), half)
+        if len(samples.hu) < LEAST_VOXELS:
+            break
+        parameters, covariance, residual, done = _solve(near, samples, parameters, _coarse_slopes(bar, axis, left, up, half))
+        fitted = FittedBar(
+            origin_mm=origin,
+            axis=axis,
+            left=left,
+            up=up,
+            half_mm=half,
+            parameters=parameters,
+            covariance=covariance,
+            residual_hu=residual,
+            fitted=done,
+        )
+        if round_number < ROUNDS - 1:
+            origin, axis, parameters = _moved(fitted)
+    return fitted if fitted is not None else _unfitted(near, bar, parameters, half)
+
+
+def narrowest(fitted: FittedBar) -> float:
+    """Where the bar is narrowest: from -1 to 1 over the window; its middle where it does not narrow."""
+    slope, bend = fitted.parameters[tube.GROWTH][:2]
+    if bend < 0.02:
+        return float(np.clip(-slope / 0.04, -0.4, 0.4)) if abs(slope) > 0.02 else 0.0
+    return float(np.clip(-slope / (2.0 * bend), -0.6, 0.6))
+
+
+def _moved(fitted: FittedBar) -> tuple[Array, Array, Array]:
+    """Origin, axis and first parameters of the next round: at the narrowest place, along its tangent."""
+    at = narrowest(fitted)
+    parameters = fitted.parameters.copy()
+    c = parameters[tube.CENTRE]
+    section = tube.section_at(parameters, np.array([at]))
+    origin = (
+        fitted.origin_mm
+        + at * fitted.half_mm * fitted.axis
+        + section.x_mm[0] * fitted.left
+        + section.y_mm[0] * fitted.up
+    )
+    slope = np.array([c[1] + 2 * c[2] * at, c[4] + 2 * c[5] * at]) / fitted.half_mm
+    axis = fitted.axis + slope[0] * fitted.left + slope[1] * fitted.up
+    parameters[tube.AXES][:2] = np.log([section.half_width_mm[0], section.half_height_mm[0]])
+    parameters[tube.CENTRE] = [0.0, 0.0, c[2], 0.0, 0.0, c[5]]
+    growth = parameters[tube.GROWTH]
+    parameters[tube.GROWTH] = [0.0, growth[1], 0.0, growth[3]]
+    return origin, axis / np.linalg.norm(axis), parameters
+
+
+def _first_parameters(near: Neighbourhood, bar: Bar) -> Array:
+    row = int(np.argmin(np.abs(bar.along_mm)))
+    smooth = bar.sections.smooth_mm[row]
+    quarter = len(smooth) // 4
+    angle = 2.0 * np.pi * np.arange(len(smooth)) / len(smooth)
+    # Second moments of a star-shaped outline give an ellipse for the start.
+    fourth = smooth**4
+    xx, yy = (fourth * np.cos(angle) ** 2).mean(), (fourth * np.sin(angle) ** 2).mean()
+    xy = (fourth * np.cos(angle) * np.sin(angle)).mean()
+    values, vectors = np.linalg.eigh(np.array([[xx, xy], [xy, yy]]) / (smooth**2).mean())
+    half = np.sqrt(np.maximum(2.0 * values, 0.5))
+    wide = int(np.argmax(np.abs(vectors[0])))
+    direction = vectors[:, wide] * np.sign(vectors[0, wide])
+    round_shape = abs(half[0] - half[1]) < 0.06 * half.sum()
+    out = np.zeros(tube.COUNT)
+    out[tube.AXES] = [
+        np.log(half[wide]),
+        np.log(half[1 - wide]),
+        0.0 if round_shape else np.arctan2(direction[1], direction[0]),
+    ]
+    if not np.isfinite(out).all() or quarter == 0:
+        out[tube.AXES] = [np.log(4.0), np.log(6.0), 0.0]
+    centre = near.smooth_hu(bar.centre_mm[None])[0]
+    out[tube.CORTEX] = max(near.cortex_hu, centre)
+    out[tube.THICKNESS] = np.log(1.2)
+    out[tube.MARROW] = centre
+    out[tube.BLUR] = np.log(_usual_blur_mm(near))
+    out[tube.OUTSIDE.start] = near.tissue_hu
+    return out
+
+
+def _coarse_slopes(bar: Bar, axis: Array, left: Array, up: Array, half: float) -> Array:
+    """How the coarse line runs against this axis over the window, and how far the fit may leave it, in mm."""
+    forwards = bar.axis @ axis
+    to_left, to_up = bar.axis @ left / forwards, bar.axis @ up / forwards
+    return np.array([to_left * half, to_up * half, np.tan(np.radians(COARSE_SD_DEG)) * half])
+
+
+def _usual_blur_mm(near: Neighbourhood) -> float:
+    inside = float(np.linalg.norm(near.lps_from_index[:3, :2], axis=0).mean())
+    return float(np.clip(0.35 * inside, 0.1, 0.5))
+
+
+def _samples(
+    near: Neighbourhood, bar: Bar, parameters: Array, origin: Array, frame: Array, half: float
+) -> tube.Samples:
+    """Voxels of the window that lie in the bar, or in a thin band around it that holds no other bone."""
+    points, hu = _voxels(near, origin, half)
+    local = (points - origin) @ frame.T
+    along = local[:, 0] / half
+    distance, angle = tube.wall_distance_mm(parameters, along, local[:, 1:])
+    a, b = np.exp(parameters[tube.AXES][:2])
+    normal = np.stack([np.cos(angle) / a, np.sin(angle) / b], axis=1)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    roll = parameters[tube.AXES][2]
+    turn = np.array([[np.cos(roll), np.sin(roll)], [-np.sin(roll), np.cos(roll)]])
+    direction = (normal @ turn) @ frame[1:]
+    box = (near.voxel_width_mm(direction) ** 2).sum(axis=1) / 12.0
+    band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box + np.exp(2.0 * parameters[tube.BLUR]))
+    used = (np.abs(along) <= 1.0) & (distance < band) & ~_open(bar, points)
+    rows = np.flatnonzero(used)
+    if len(rows) > MOST_VOXELS:
+        rows = np.random.default_rng(1).choice(rows, MOST_VOXELS, replace=False)
+    return tube.Samples(along=along[rows], across_mm=local[rows, 1:], hu=hu[rows], box_mm2=box[rows])
+
+
+def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Array]:
+    reach = np.linalg.norm(np.linalg.inv(near.lps_from_index[:3, :3]), axis=1) * (half + 16.0)
+    middle = near.index_of(origin)
+    most = np.array(near.block.shape[::-1]) - 1
+    low = np.clip(np.floor(middle - reach), 0, most).astype(int)
+    high = np.clip(np.ceil(middle + reach), 0, most).astype(int)
+    k, j, i = np.mgrid[low[2] : high[2] + 1, low[1] : high[1] + 1, low[0] : high[0] + 1]
+    index = np.stack([i.ravel(), j.ravel(), k.ravel()], axis=1)
+    points = index @ near.lps_from_index[:3, :3].T + near.lps_from_index[:3, 3]
+    hu = near.block[low[2] : high[2] + 1, low[1] : high[1] + 1, low[0] : high[0] + 1].ravel()
+    close = ((points - origin) ** 2).sum(axis=1) < (half + 16.0) ** 2
+    return points[close], hu[close].astype(np.float64)
+
+
+def _open(bar: Bar, points: Array) -> npt.NDArray[np.bool_]:
+    """Points (n,) in directions in which the coarse outline found no wall, or one that is no part of the bar."""
+    cut = bar.sections
+    along = (points - bar.centre_mm) @ bar.axis
+    row = np.argmin(np.abs(along[:, None] - bar.along_mm), axis=1)
+    away = points - cut.centre_mm[row]
+    x = (away * cut.across[row]).sum(axis=1)
+    y = (away * cut.up[row]).sum(axis=1)
+    rays = cut.radius_mm.shape[1]
+    ray = np.round(np.arctan2(y, x) / (2.0 * np.pi) * rays).astype(int) % rays
+    radius, smooth = cut.radius_mm[row, ray], cut.smooth_mm[row, ray]
+    stray = ~(np.abs(radius - smooth) < 0.8 + 0.15 * smooth)
+    # Only outside: what lies inside the bar is the bar, whatever a ray met behind it.
+    return np.asarray(stray & (np.hypot(x, y) > 0.75 * smooth))
+
+
+def _solve(
+    near: Neighbourhood, samples: tube.Samples, start: Array, slopes: Array
+) -> tuple[Array, Array, float, bool]:
+    scale = max(LEAST_SCALE_HU, near.noise_hu, SCALE_RATIO * (near.cortex_hu - near.tissue_hu))
+    centre, width = _expected(near, start, slopes)
+
+    def residuals(parameters: Array) -> Array:
+        fit = (tube.model_hu(parameters, samples) - samples.hu) / scale
+        return np.concatenate([fit, (parameters - centre) / width])
+
+    low, high = _bounds(start)
+    result = least_squares(
+        residuals,
+        np.clip(start, low + 1e-6, high - 1e-6),
+        bounds=(low, high),
+        loss="soft_l1",
+        x_scale=np.minimum(width, 50.0),
+        max_nfev=25,
+    )
+    left = tube.model_hu(result.x, samples) - samples.hu
+    residual = float(1.4826 * np.median(np.abs(left)))
+    information = result.jac.T @ result.jac
+    spread = max(residual, 2.0) / scale
+    # Neighbouring voxels are off alike, so that they tell less than their number says.
+    covariance = np.linalg.pinv(information) * max(spread, 0.2) ** 2 * 2.0
+    return result.x, covariance, residual, bool(result.status >= 0)
+
+
+def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, Array]:
+    """What is expected before looking, and how far each parameter may be from it.
+
+    `slopes` are those of the coarse line over the window, and how far the fit may leave them: left, up, sd.
+    """
+    centre, width = np.zeros(tube.COUNT), np.full(tube.COUNT, 1e3)
+    centre[tube.CENTRE] = [0.0, slopes[0], 0.0, 0.0, slopes[1], 0.0]
+    width[tube.CENTRE] = [5.0, slopes[2], 0.6, 5.0, slopes[2], 0.6]
+    centre[tube.AXES], width[tube.AXES] = start[tube.AXES], [1.0, 1.0, 1.0]
+    width[tube.GROWTH] = [0.15, 0.2, 0.15, 0.2]
+    width[tube.SHAPE] = 0.04
+    centre[tube.CORTEX] = near.cortex_hu
+    width[tube.CORTEX] = max(0.25 * (near.cortex_hu - near.tissue_hu), 30.0)
+    centre[tube.THICKNESS], width[tube.THICKNESS] = np.log(1.3), 0.7
+    centre[tube.MARROW], width[tube.MARROW] = start[tube.MARROW], 400.0
+    centre[tube.BLUR], width[tube.BLUR] = np.log(_usual_blur_mm(near)), 0.6
+    centre[tube.OUTSIDE] = [near.tissue_hu, 0.0, 0.0, 0.0, 0.0]
+    width[tube.OUTSIDE] = [300.0, 150.0, 150.0, 100.0, 100.0]
+    return centre, width
+
+
+def _bounds(start: Array) -> tuple[Array, Array]:
+    low, high = np.full(tube.COUNT, -np.inf), np.full(tube.COUNT, np.inf)
+    low[tube.AXES], high[tube.AXES] = start[tube.AXES] - [0.7, 0.7, 1.0], start[tube.AXES] + [0.7, 0.7, 1.0]
+    low[tube.CENTRE], high[tube.CENTRE] = -6.0, 6.0
+    low[tube.GROWTH], high[tube.GROWTH] = -0.7, 1.5
+    low[tube.SHAPE], high[tube.SHAPE] = -0.2, 0.2
+    low[tube.THICKNESS], high[tube.THICKNESS] = np.log(0.25), np.log(8.0)
+    low[tube.BLUR], high[tube.BLUR] = np.log(0.05), np.log(1.5)
+    return low, high
+
+
+def _unfitted(near: Neighbourhood, bar: Bar, parameters: Array, half: float) -> FittedBar:
+    (left,), (up,) = planes_across(bar.axis[None])
+    spread = np.zeros(tube.COUNT)
+    spread[tube.CENTRE], spread[tube.AXES] = 0.7, 0.2
+    return FittedBar(
+        origin_mm=bar.centre_mm,
+        axis=bar.axis,
+        left=left,
+        up=up,
+        half_mm=half,
+        parameters=parameters,
+        covariance=np.diag(spread**2),
+        residual_hu=near.noise_hu,
+        fitted=False,
+    )

@@ -1,0 +1,149 @@
+"""From one click to the pedicle's numbers."""
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+from tracker.plan.pedicle import refusals, tube
+from tracker.plan.pedicle.fit import FittedBar, fit_bar
+from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
+from tracker.plan.pedicle.record import (
+    PedicleMeasure,
+    PedicleSpread,
+    Side,
+    checked_side,
+    sagittal_deg_of,
+    transverse_deg_of,
+)
+from tracker.plan.pedicle.search import Bar, find_bar
+from tracker.plan.pedicle.section import Isthmus, isthmus_of
+from tracker.plan.pedicle.sides import body_side, canal_side
+from tracker.plan.pedicle.walls import WallAhead, back_wall, front_wall
+from tracker.plan.volume import Volume
+
+WALL_SD_VOXELS = 0.3
+USUAL_LENGTH_MM = (25.0, 75.0)
+FEW_VOXELS = 5.0
+
+
+def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> PedicleMeasure:
+    """Measure the pedicle that holds a click: width, height, angles, length, and how sure each is.
+
+    The click may lie anywhere in the pedicle. Sections in all likely directions are outlined around it; the
+    smallest closed one begins a line that is refitted through the sections' centres; around the narrowest
+    section a bar with cortex, marrow and what lies around is fitted to the voxels themselves, with the
+    blur of voxel and scanner in it, so that walls are placed far below a voxel. No number of the scanner
+    and no threshold is presumed: cortex, marrow and outside are each fitted where they are.
+
+    Args:
+        volume: the CT.
+        seed_lps_mm: (3,), the click, LPS in mm.
+        side: `left` or `right` of the patient.
+
+    Raises:
+        InvalidInput: SIDE_INVALID, SEED_INVALID.
+        PlanError: SEED_OUTSIDE_CT, SEED_IN_AIR, SEED_NOT_IN_BONE, PEDICLE_NOT_FOUND, SEED_NOT_IN_PEDICLE,
+            PEDICLE_CUT, SEED_ON_OTHER_SIDE.
+    """
+    named = checked_side(side)
+    seed = refusals.checked_seed(volume, seed_lps_mm)
+    near = neighbourhood_of(volume, seed)
+    refusals.refuse_air(near, seed)
+    bar = find_bar(near, seed, named)
+    if bar is None:
+        raise refusals.not_found(near, seed)
+    refusals.refuse_cut(near, bar)
+    fitted = fit_bar(near, bar)
+    refusals.refuse_outside(near, bar, fitted, seed)
+    isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
+    refusals.refuse_no_isthmus(near, bar, isthmus)
+    warnings = _side_warnings(near, isthmus, fitted, named)
+    return _record(near, seed, named, bar, fitted, isthmus, warnings)
+
+
+def _record(
+    near: Neighbourhood,
+    seed: Array,
+    side: Side,
+    bar: Bar,
+    fitted: FittedBar,
+    isthmus: Isthmus,
+    warnings: list[str],
+) -> PedicleMeasure:
+    front = front_wall(near, isthmus.centre_mm, isthmus.axis)
+    back = back_wall(near, isthmus.centre_mm, isthmus.axis)
+    voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
+    warnings += _fit_warnings(near, bar, fitted, isthmus) + _length_warnings(front, back)
+    return PedicleMeasure(
+        side=side,
+        width_mm=isthmus.width_mm,
+        height_mm=isthmus.height_mm,
+        transverse_deg=transverse_deg_of(isthmus.axis, side),
+        sagittal_deg=sagittal_deg_of(isthmus.axis),
+        length_mm=front.distance_mm + back.distance_mm,
+        isthmus_lps_mm=isthmus.centre_mm,
+        axis_lps=isthmus.axis,
+        entry_lps_mm=isthmus.centre_mm - back.distance_mm * isthmus.axis,
+        front_lps_mm=isthmus.centre_mm + front.distance_mm * isthmus.axis,
+        outline_lps_mm=isthmus.outline_mm,
+        seed_lps_mm=seed,
+        cortex_mm=float(np.exp(fitted.parameters[tube.THICKNESS])),
+        sd=PedicleSpread(
+            width_mm=isthmus.width_sd_mm,
+            height_mm=isthmus.height_sd_mm,
+            transverse_deg=isthmus.slope_sd_deg[0],
+            sagittal_deg=isthmus.slope_sd_deg[1],
+            length_mm=float(np.sqrt(2.0) * WALL_SD_VOXELS * voxel),
+            isthmus_mm=isthmus.centre_sd_mm,
+        ),
+        warnings=tuple(warnings),
+    )
+
+
+def _voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
+    return float(np.linalg.norm(near.voxel_width_mm(fitted.left)))
+
+
+def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[str]:
+    """What speaks against the side that was named; refused where canal and body both do."""
+    expected = -1 if side == "left" else 1
+    canal = canal_side(near, isthmus.centre_mm, fitted.left, 0.5 * isthmus.width_mm, fitted.up)
+    body = body_side(near, isthmus.centre_mm, isthmus.axis, fitted.left)
+    if canal == body == -expected:
+        raise refusals.other_side(side)
+    if canal == -expected or (body == -expected and canal == 0):
+        return [f"the {'canal' if canal else 'body'} lies as if this were not the {side} side; check the side"]
+    return []
+
+
+def _fit_warnings(near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Isthmus) -> list[str]:
+    out = []
+    voxels = isthmus.width_mm / _voxel_across_mm(near, fitted)
+    if voxels < FEW_VOXELS:
+        out.append(
+            f"the pedicle is only {voxels:.1f} voxels wide, {FEW_VOXELS:.0f} or more tell its width surely; "
+            "use finer slices if there are any"
+        )
+    if not fitted.fitted:
+        out.append("too few voxels to fit its walls; the numbers are those of coarse sections")
+    if not bar.opens_ahead or not bar.opens_behind:
+        where = "in front" if not bar.opens_ahead else "behind"
+        out.append(f"it does not widen {where} within 16 mm; check that the click lies in a pedicle")
+    if fitted.half_mm <= 3.0 and bar.length_mm < 4.0:
+        out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less sure")
+    return out
+
+
+def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:
+    out = []
+    if not front.found:
+        out.append("no front wall was met; the length reaches to the end of what can be seen")
+    if not back.found:
+        out.append("no bone surface was met behind; entry and length reach to the end of what can be seen")
+    length = front.distance_mm + back.distance_mm
+    if front.found and back.found and not USUAL_LENGTH_MM[0] <= length <= USUAL_LENGTH_MM[1]:
+        out.append(
+            f"a length of {length:.1f} mm is unusual ({USUAL_LENGTH_MM[0]:.0f} to {USUAL_LENGTH_MM[1]:.0f} mm "
+            "are usual); check entry and front wall"
+        )
+    return out

@@ -1,0 +1,112 @@
+"""The part of a CT around a click, and what its numbers are like there: noise, soft tissue, cortex."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+
+from tracker.geometry import Array
+from tracker.plan.volume import Volume
+
+REACH_MM = 70.0
+NEAR_MM = 14.0
+# Metal shines far above any bone; what is above this is no longer told apart.
+MOST_HU = 1600.0
+SMOOTH_MM = 0.45
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Neighbourhood:
+    """A block of the CT around a point, as it is and slightly smoothed.
+
+    Attributes:
+        block: (slices, rows, columns) float32, HU, clipped to what bone can have.
+        smooth: the same, smoothed by about half a millimetre where voxels are finer than that.
+        lps_from_index: (4, 4), from index (i, j, k) of the block to LPS mm.
+        noise_hu: standard deviation of a voxel's noise.
+        tissue_hu: the usual number of soft tissue around.
+        cortex_hu: the number of the densest bone near the point.
+    """
+
+    block: npt.NDArray[np.float32]
+    smooth: npt.NDArray[np.float32]
+    lps_from_index: Array
+    noise_hu: float
+    tissue_hu: float
+    cortex_hu: float
+
+    @property
+    def least_fall_hu(self) -> float:
+        """By how much a wall must fall to its outside to be taken for one."""
+        return float(max(80.0, 2.5 * self.noise_hu, 0.2 * (self.cortex_hu - self.tissue_hu)))
+
+    def voxel_width_mm(self, directions: Array) -> Array:
+        """Widths (..., 3) of a voxel's three sides along unit directions (..., 3)."""
+        return np.abs(directions @ self.lps_from_index[:3, :3])
+
+    def index_of(self, points_lps_mm: Array) -> Array:
+        """Indexes (..., 3) as i, j, k in the block."""
+        inverse = np.linalg.inv(self.lps_from_index[:3, :3])
+        return np.asarray((points_lps_mm - self.lps_from_index[:3, 3]) @ inverse.T)
+
+    def holds(self, points_lps_mm: Array) -> npt.NDArray[np.bool_]:
+        """Which points (..., 3) lie in the block."""
+        index = self.index_of(points_lps_mm)
+        most = np.array(self.block.shape[::-1]) - 1.0
+        return np.asarray(((index >= 0.0) & (index <= most)).all(axis=-1))
+
+    def smooth_hu(self, points_lps_mm: Array) -> Array:
+        """Smoothed HU (...) at points (..., 3); beyond the block its outermost voxels go on."""
+        index = self.index_of(points_lps_mm)
+        flat = index.reshape(-1, 3)[:, ::-1]
+        values = ndimage.map_coordinates(self.smooth, flat.T, output=np.float64, order=1, mode="nearest")
+        return np.asarray(values.reshape(index.shape[:-1]))
+
+
+def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
+    """The block within 70 mm of a point that lies in the volume."""
+    index = volume.index_from_lps(centre_lps_mm)
+    # The block must hold a ball of this reach, so along each index axis as many voxels as the ball covers.
+    inverse = np.linalg.inv(volume.lps_from_ijk[:3, :3])
+    reach = np.linalg.norm(inverse, axis=1) * REACH_MM
+    low = np.clip(np.floor(index - reach).astype(int), 0, np.array(volume.shape_ijk) - 2)
+    high = np.clip(np.ceil(index + reach).astype(int) + 1, low + 2, np.array(volume.shape_ijk))
+    raw = volume.hu[low[2] : high[2], low[1] : high[1], low[0] : high[0]]
+    block = np.clip(raw.astype(np.float32), -1024.0, MOST_HU)
+    affine = np.array(volume.lps_from_ijk)
+    affine[:3, 3] = volume.lps_from_index(low.astype(np.float64))
+    spacing = volume.spacing_mm[::-1]
+    # Only where voxels are finer than the walls that are looked for.
+    sigma = np.sqrt(np.maximum(SMOOTH_MM**2 - (0.5 * spacing) ** 2, 0.0)) / spacing
+    near = _near(block, affine, centre_lps_mm)
+    noise = _noise_hu(block)
+    soft = near[(near > -200.0) & (near < 150.0)]
+    tissue = float(np.median(soft)) if len(soft) > 20 else 0.0
+    cortex = float(np.percentile(near, 98.0)) if len(near) else tissue
+    return Neighbourhood(
+        block=block,
+        smooth=ndimage.gaussian_filter(block, sigma),
+        lps_from_index=affine,
+        noise_hu=noise,
+        tissue_hu=tissue,
+        cortex_hu=cortex,
+    )
+
+
+def _near(block: npt.NDArray[np.float32], affine: Array, centre: Array) -> Array:
+    """HU of the voxels within 14 mm."""
+    k, j, i = np.indices(block.shape, sparse=True)
+    offset = affine[:3, 3] - centre
+    squared = np.zeros(block.shape, dtype=np.float32)
+    for row in range(3):
+        a = affine[row]
+        squared += ((a[0] * i + a[1] * j + a[2] * k + offset[row]) ** 2).astype(np.float32)
+    return np.asarray(block[squared < NEAR_MM**2], dtype=np.float64)
+
+
+def _noise_hu(block: npt.NDArray[np.float32]) -> float:
+    """From differences of neighbours within a slice; edges are few, and do not move a median."""
+    step = np.abs(np.diff(block[:, ::2, ::2], n=2, axis=2))
+    real = step[block[:, ::2, 1:-1:1][:, :, ::2][:, :, : step.shape[2]] > -900.0]
+    return float(np.median(real) / (0.6745 * np.sqrt(6.0))) if real.size else 0.0

@@ -1,0 +1,181 @@
+"""Outlines of sections through bone: rays from a centre to where the wall falls to its outside."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+
+STEP_MM = 0.4
+FARTHEST_MM = 17.0
+# Behind a wall the outside is looked for so far; further away another bone may begin.
+BEHIND_MM = 2.8
+HARMONICS = 4
+ROUNDS = 4
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outlines:
+    """Sections across given directions, all at once.
+
+    Attributes:
+        centre_mm: (m, 3), LPS.
+        across: (m, 3), unit, first direction in each plane.
+        up: (m, 3), unit, second direction in each plane.
+        radius_mm: (m, rays), to the half level of the wall; NaN where no wall was met.
+        smooth_mm: (m, rays), of the smooth closed curve that fits most rays.
+        found_ratio: (m,), share of the rays that met a wall on or near that curve.
+        gap_deg: (m,), the widest angle without such a ray.
+    """
+
+    centre_mm: Array
+    across: Array
+    up: Array
+    radius_mm: Array
+    smooth_mm: Array
+    found_ratio: Array
+    gap_deg: Array
+
+    def only(self, row: int) -> "Outlines":
+        """One of the sections alone."""
+        one = slice(row, row + 1)
+        return Outlines(
+            centre_mm=self.centre_mm[one],
+            across=self.across[one],
+            up=self.up[one],
+            radius_mm=self.radius_mm[one],
+            smooth_mm=self.smooth_mm[one],
+            found_ratio=self.found_ratio[one],
+            gap_deg=self.gap_deg[one],
+        )
+
+    @property
+    def area_mm2(self) -> Array:
+        """Area (m,) inside the smooth curve."""
+        return np.asarray(np.pi * (self.smooth_mm**2).mean(axis=1))
+
+    @property
+    def centroid_mm(self) -> Array:
+        """Centre of area (m, 3), LPS."""
+        angle = angles(self.smooth_mm.shape[1])
+        cubed = self.smooth_mm**3
+        weight = 1.5 * np.maximum((self.smooth_mm**2).mean(axis=1), 1e-9)
+        x = (cubed * np.cos(angle)).mean(axis=1) / weight
+        y = (cubed * np.sin(angle)).mean(axis=1) / weight
+        return np.asarray(self.centre_mm + x[:, None] * self.across + y[:, None] * self.up)
+
+
+def angles(rays: int) -> Array:
+    """Directions (rays,) of the rays in their plane, in rad."""
+    return 2.0 * np.pi * np.arange(rays) / rays
+
+
+def planes_across(axis: Array) -> tuple[Array, Array]:
+    """For unit axes (m, 3): directions across them, nearest to the patient's left, and nearest to the head."""
+    up = np.array([0.0, 0.0, 1.0]) - axis * axis[:, 2:3]
+    up /= np.linalg.norm(up, axis=1, keepdims=True)
+    across = np.cross(up, axis)
+    across *= np.where(across[:, :1] < 0.0, -1.0, 1.0)
+    return across, up
+
+
+def outlines_of(
+    near: Neighbourhood, centre_mm: Array, axis: Array, *, rays: int = 24, recentred: int = 2
+) -> Outlines:
+    """Outlines of sections with centres (m, 3) across unit axes (m, 3); each centre moves into its outline."""
+    centre = np.array(centre_mm, dtype=np.float64)
+    across, up = planes_across(axis)
+    for turn in range(recentred + 1):
+        radius = _wall_radius(near, centre, across, up, rays)
+        smooth, near_curve = _smooth_curve(radius)
+        out = Outlines(
+            centre_mm=centre,
+            across=across,
+            up=up,
+            radius_mm=radius,
+            smooth_mm=smooth,
+            found_ratio=near_curve.mean(axis=1),
+            gap_deg=_widest_gap_deg(near_curve),
+        )
+        if turn < recentred:
+            centre = out.centroid_mm
+    return out
+
+
+def _wall_radius(near: Neighbourhood, centre: Array, across: Array, up: Array, rays: int) -> Array:
+    angle = angles(rays)
+    direction = np.cos(angle)[:, None] * across[:, None, :] + np.sin(angle)[:, None] * up[:, None, :]
+    steps = np.arange(0.0, FARTHEST_MM, STEP_MM)
+    profile = near.smooth_hu(centre[:, None, None, :] + steps[:, None] * direction[:, :, None, :])
+    return first_wall(profile, STEP_MM, near.least_fall_hu, _behind_steps(near))
+
+
+def _behind_steps(near: Neighbourhood) -> int:
+    slice_mm = float(np.linalg.norm(near.lps_from_index[:3, 2]))
+    return int(np.ceil(max(BEHIND_MM, 1.1 * slice_mm) / STEP_MM))
+
+
+def first_wall(profile: Array, step_mm: float, least_fall_hu: float, behind: int) -> Array:
+    """Where profiles (..., steps) first fall from a wall to its outside: at half the fall; NaN if nowhere."""
+    highest = np.maximum.accumulate(profile, axis=-1)
+    fallen = highest - profile >= least_fall_hu
+    first = np.argmax(fallen, axis=-1)
+    count = profile.shape[-1]
+    at = np.clip(first[..., None] + np.arange(behind + 1), 0, count - 1)
+    trough = np.take_along_axis(profile, at, axis=-1).min(axis=-1)
+    peak = np.take_along_axis(highest, first[..., None], axis=-1)[..., 0]
+    half = 0.5 * (peak + trough)
+    # The last step that is above half height and not behind the trough.
+    index = np.arange(count)
+    peak_at = np.argmax(profile >= peak[..., None], axis=-1)
+    below = (profile < half[..., None]) & (index > peak_at[..., None])
+    crossing = np.argmax(below, axis=-1)
+    before = np.maximum(crossing - 1, 0)
+    upper = np.take_along_axis(profile, before[..., None], axis=-1)[..., 0]
+    lower = np.take_along_axis(profile, crossing[..., None], axis=-1)[..., 0]
+    share = np.clip((upper - half) / np.maximum(upper - lower, 1e-9), 0.0, 1.0)
+    met = fallen.any(axis=-1) & below.any(axis=-1)
+    return np.where(met, (before + share) * step_mm, np.nan)
+
+
+def _widest_gap_deg(near_curve: npt.NDArray[np.bool_]) -> Array:
+    """The longest run (m,) of rays that met no wall of the curve, around the circle, in degrees."""
+    rays = near_curve.shape[1]
+    twice = np.concatenate([near_curve, near_curve], axis=1)
+    run, longest = np.zeros(len(twice)), np.zeros(len(twice))
+    for column in twice.T:
+        run = np.where(column, 0.0, run + 1.0)
+        longest = np.maximum(longest, run)
+    return np.asarray(np.minimum(longest, rays) * 360.0 / rays)
+
+
+def _smooth_curve(radius: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
+    """The smooth curve (m, rays) that most rays agree on, and which rays (m, rays) do."""
+    rays = radius.shape[1]
+    basis = _basis(rays)
+    met = np.isfinite(radius)
+    filled = np.where(met, radius, 0.0)
+    # Begin from below: leaks lead outwards, so the lower half of the radii tells more than the mean.
+    usual = np.nanmedian(np.where(met, radius, FARTHEST_MM), axis=1, keepdims=True)
+    weight = np.where(met & (radius < 1.9 * usual), 1.0, 0.0)
+    ridge = np.diag([1e-6, *[0.02 * rays * (1 + n // 2) ** 2 / 40.0 for n in range(2 * HARMONICS)]])
+    smooth = np.repeat(usual, rays, axis=1)
+    for _ in range(ROUNDS):
+        normal = np.einsum("mr,ra,rb->mab", weight, basis, basis, optimize=True) + ridge
+        right = np.einsum("mr,ra->ma", weight * filled, basis)
+        smooth = np.linalg.solve(normal, right[..., None])[..., 0] @ basis.T
+        off = np.abs(filled - smooth)
+        limit = 0.35 + 0.12 * usual
+        weight = np.where(met, np.clip(1.0 - (off / (3.0 * limit)) ** 2, 0.0, 1.0) ** 2, 0.0)
+    smooth = np.clip(smooth, 0.3, FARTHEST_MM)
+    return smooth, met & (np.abs(filled - smooth) < 0.8 + 0.15 * usual)
+
+
+def _basis(rays: int) -> npt.NDArray[np.float64]:
+    angle = angles(rays)
+    columns = [np.ones(rays)]
+    for n in range(1, HARMONICS + 1):
+        columns += [np.cos(n * angle), np.sin(n * angle)]
+    return np.stack(columns, axis=1)

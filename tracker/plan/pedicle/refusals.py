@@ -1,0 +1,164 @@
+"""When no number is given: each refusal with what was found there and what to do."""
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import InvalidInput, PlanError
+from tracker.geometry import Array
+from tracker.plan.pedicle import tube
+from tracker.plan.pedicle.fit import FittedBar
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import angles
+from tracker.plan.pedicle.search import Bar
+from tracker.plan.pedicle.section import Isthmus
+from tracker.plan.pedicle.walls import outside_limit_hu
+from tracker.plan.volume import Volume
+
+AIR_HU = -300.0
+BESIDE_MM = 1.0
+MOST_ASPECT = 3.5
+WIDTH_MM, HEIGHT_MM = (1.5, 26.0), (2.0, 32.0)
+CLICK = "Click into the middle of the pedicle, on a slice that shows it joined to body and arch."
+
+
+def checked_seed(volume: Volume, seed_lps_mm: npt.ArrayLike) -> Array:
+    """The click as three finite numbers that lie in the CT.
+
+    Raises:
+        InvalidInput: SEED_INVALID.
+        PlanError: SEED_OUTSIDE_CT.
+    """
+    seed = np.asarray(seed_lps_mm, dtype=np.float64)
+    if seed.shape != (3,) or not np.isfinite(seed).all():
+        raise InvalidInput(
+            "SEED_INVALID",
+            "the click is not three finite numbers",
+            "Give x, y, z in mm of the patient's LPS coordinates.",
+            {"shape": list(seed.shape)},
+        )
+    if not bool(volume.holds(seed)):
+        last = np.array(volume.shape_ijk) - 1.0
+        corners = np.array([[a, b, c] for a in (0, last[0]) for b in (0, last[1]) for c in (0, last[2])])
+        box = volume.lps_from_index(corners)
+        low, high = box.min(axis=0), box.max(axis=0)
+        raise PlanError(
+            "SEED_OUTSIDE_CT",
+            f"the click at {_words(seed)} mm lies outside the CT, which reaches from {_words(low)} "
+            f"to {_words(high)} mm (LPS)",
+            "Give a point inside the CT, in mm of the patient's LPS coordinates (x to the left, y backwards).",
+            {"seed_lps_mm": seed.tolist(), "low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
+        )
+    return seed
+
+
+def refuse_air(near: Neighbourhood, seed: Array) -> None:
+    """Raises PlanError SEED_IN_AIR where the click lies in air or lung."""
+    hu = _hu_around(near, seed)
+    if hu < AIR_HU:
+        raise PlanError(
+            "SEED_IN_AIR",
+            f"the click lies in air or lung: {hu:.0f} HU, bone begins far above {AIR_HU:.0f} HU",
+            CLICK,
+            {"seed_hu": hu},
+        )
+
+
+def not_found(near: Neighbourhood, seed: Array) -> PlanError:
+    """No section around the click is closed: in soft tissue, or in bone that opens everywhere."""
+    hu, limit = _hu_around(near, seed), outside_limit_hu(near)
+    if hu < limit:
+        return PlanError(
+            "SEED_NOT_IN_BONE",
+            f"the click lies in {hu:.0f} HU and no wall of bone closes around it, "
+            f"bone here is above {limit:.0f} HU",
+            CLICK,
+            {"seed_hu": hu, "limit_hu": limit},
+        )
+    return PlanError(
+        "PEDICLE_NOT_FOUND",
+        f"the bone at the click ({hu:.0f} HU) is open on all sides: no section of it within 7 mm is closed",
+        CLICK,
+        {"seed_hu": hu},
+    )
+
+
+def refuse_cut(near: Neighbourhood, bar: Bar) -> None:
+    """Raises PlanError PEDICLE_CUT where the CT ends within the narrow part."""
+    cut = bar.sections
+    rows = np.abs(bar.along_mm) <= max(2.0, 0.5 * bar.length_mm)
+    angle = angles(cut.smooth_mm.shape[1])
+    direction = np.cos(angle)[:, None] * cut.across[:, None, :] + np.sin(angle)[:, None] * cut.up[:, None, :]
+    wall = cut.centre_mm[:, None, :] + cut.smooth_mm[..., None] * direction
+    outside = float(1.0 - near.holds(wall[rows]).mean())
+    if outside > 0.02:
+        raise PlanError(
+            "PEDICLE_CUT",
+            f"the CT ends within the pedicle: {100.0 * outside:.0f} % of its wall lie outside, none may",
+            "Use a series that holds the whole vertebra.",
+            {"outside_ratio": outside},
+        )
+
+
+def refuse_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array) -> None:
+    """Raises PlanError SEED_NOT_IN_PEDICLE where the bar that was found does not hold the click."""
+    local = seed - fitted.origin_mm
+    along = float(local @ fitted.axis)
+    if -bar.behind_mm - 0.5 <= along <= bar.ahead_mm + 0.5 and abs(along) > fitted.half_mm and bar.holds(seed):
+        return
+    across = np.array([[local @ fitted.left, local @ fitted.up]])
+    place = np.array([np.clip(along / fitted.half_mm, -1.0, 1.0)])
+    distance = float(tube.wall_distance_mm(fitted.parameters, place, across)[0][0])
+    voxel = float(np.linalg.norm(near.lps_from_index[:3, :2], axis=0).mean())
+    allowed = BESIDE_MM + 0.5 * voxel
+    beyond = max(-bar.behind_mm - along, along - bar.ahead_mm, 0.0)
+    if distance > allowed + 0.35 * beyond or beyond > 9.0:
+        raise PlanError(
+            "SEED_NOT_IN_PEDICLE",
+            f"the nearest bar of bone does not hold the click: it lies {max(distance, 0.0):.1f} mm beside its wall "
+            f"(allowed {allowed:.1f} mm) and {beyond:.1f} mm beyond its end (allowed 9 mm)",
+            CLICK,
+            {"beside_mm": distance, "beyond_mm": beyond},
+        )
+
+
+def refuse_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
+    """Raises PlanError PEDICLE_NOT_FOUND where what was found has not the shape of a pedicle."""
+    aspect = max(isthmus.width_mm, isthmus.height_mm) / max(min(isthmus.width_mm, isthmus.height_mm), 1e-6)
+    shaped = (
+        WIDTH_MM[0] <= isthmus.width_mm <= WIDTH_MM[1]
+        and HEIGHT_MM[0] <= isthmus.height_mm <= HEIGHT_MM[1]
+        and aspect <= MOST_ASPECT
+    )
+    if shaped and (bar.opens_ahead or bar.opens_behind):
+        return
+    what = (
+        f"it is {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm"
+        if not shaped
+        else f"it is equally thick for {bar.length_mm:.0f} mm and joins neither body nor arch"
+    )
+    raise PlanError(
+        "PEDICLE_NOT_FOUND",
+        f"the bone around the click is no pedicle: {what} (noise {near.noise_hu:.0f} HU)",
+        CLICK,
+        {"width_mm": isthmus.width_mm, "height_mm": isthmus.height_mm, "length_mm": bar.length_mm},
+    )
+
+
+def other_side(side: str) -> PlanError:
+    """Canal and body both lie as they do on the other side."""
+    other = "right" if side == "left" else "left"
+    return PlanError(
+        "SEED_ON_OTHER_SIDE",
+        f"side is {side}, but canal and body lie as they do beside the patient's {other} pedicle",
+        f"Click into the {side} pedicle, or measure this one as the {other} one.",
+        {"side": side},
+    )
+
+
+def _hu_around(near: Neighbourhood, seed: Array) -> float:
+    offsets = np.array([[0, 0, 0], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
+    return float(np.median(near.smooth_hu(seed + offsets)))
+
+
+def _words(point: Array) -> str:
+    return ", ".join(f"{value:.1f}" for value in point)

@@ -1,0 +1,107 @@
+"""From a fitted bar to a pedicle's numbers, and how sure they are."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.pedicle import tube
+from tracker.plan.pedicle.fit import FittedBar, narrowest
+
+ROUND_RATIO = 1.08
+# What the model of a bar leaves out moves a wall by this share of a voxel, whatever the noise.
+MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Isthmus:
+    """The narrowest section, in LPS.
+
+    Attributes:
+        centre_mm: (3,).
+        axis: unit (3,), forwards.
+        width_mm: see `PedicleMeasure`; height_mm too.
+        outline_mm: (n, 3).
+        width_sd_mm: and height_sd_mm, centre_sd_mm: standard deviations.
+        slope_sd_deg: of the axis's direction, to the left and up.
+    """
+
+    centre_mm: Array
+    axis: Array
+    width_mm: float
+    height_mm: float
+    outline_mm: Array
+    width_sd_mm: float
+    height_sd_mm: float
+    centre_sd_mm: float
+    slope_sd_deg: tuple[float, float]
+
+
+def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
+    """The narrowest section of a fitted bar; `voxel_mm` is the size of a voxel across the axis."""
+    at = narrowest(fitted)
+    numbers = _numbers(fitted.parameters, at, fitted.half_mm)
+    spread = _spread(fitted, at)
+    centre = fitted.origin_mm + at * fitted.half_mm * fitted.axis + numbers[2] * fitted.left + numbers[3] * fitted.up
+    axis = fitted.axis + numbers[4] * fitted.left + numbers[5] * fitted.up
+    points = tube.outline(fitted.parameters, at)
+    outline = (
+        fitted.origin_mm
+        + at * fitted.half_mm * fitted.axis
+        + points[:, :1] * fitted.left
+        + points[:, 1:] * fitted.up
+    )
+    floor = MODEL_VOXELS * voxel_mm
+    slopes = np.degrees(spread[4:6])
+    return Isthmus(
+        centre_mm=centre,
+        axis=axis / np.linalg.norm(axis),
+        width_mm=float(numbers[0]),
+        height_mm=float(numbers[1]),
+        outline_mm=outline,
+        width_sd_mm=float(np.hypot(spread[0], floor)),
+        height_sd_mm=float(np.hypot(spread[1], floor)),
+        centre_sd_mm=float(np.linalg.norm([spread[2], spread[3], floor])),
+        slope_sd_deg=(float(np.hypot(slopes[0], MODEL_DEG)), float(np.hypot(slopes[1], MODEL_DEG))),
+    )
+
+
+def _numbers(parameters: Array, at: float, half_mm: float) -> Array:
+    """Width, height, centre (x, y) and slope (x, y) of the section at one place."""
+    points = tube.outline(parameters, at)
+    section = tube.section_at(parameters, np.array([at]))
+    direction = _width_direction(parameters, section)
+    across = np.array([-direction[1], direction[0]])
+    c = parameters[tube.CENTRE]
+    return np.array(
+        [
+            np.ptp(points @ direction),
+            np.ptp(points @ across),
+            section.x_mm[0],
+            section.y_mm[0],
+            (c[1] + 2.0 * c[2] * at) / half_mm,
+            (c[4] + 2.0 * c[5] * at) / half_mm,
+        ]
+    )
+
+
+def _width_direction(parameters: Array, section: tube.Section) -> Array:
+    """The section's own axis that is nearest to left-right; left-right itself where it is nearly round."""
+    a, b = section.half_width_mm[0], section.half_height_mm[0]
+    if max(a, b) < ROUND_RATIO * min(a, b):
+        return np.array([1.0, 0.0])
+    roll = float(parameters[tube.AXES][2])
+    roll = (roll + np.pi / 4.0) % (np.pi / 2.0) - np.pi / 4.0
+    return np.array([np.cos(roll), np.sin(roll)])
+
+
+def _spread(fitted: FittedBar, at: float) -> Array:
+    """Standard deviations of `_numbers`, by how each parameter moves them."""
+    base = _numbers(fitted.parameters, at, fitted.half_mm)
+    slopes = np.zeros((len(base), tube.COUNT))
+    for n in range(tube.OUTSIDE.start):
+        step = 1e-4 * max(1.0, abs(float(fitted.parameters[n])))
+        moved = fitted.parameters.copy()
+        moved[n] += step
+        slopes[:, n] = (_numbers(moved, at, fitted.half_mm) - base) / step
+    return np.asarray(np.sqrt(np.maximum(np.diag(slopes @ fitted.covariance @ slopes.T), 0.0)))

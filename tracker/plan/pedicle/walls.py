@@ -1,0 +1,116 @@
+"""Along the pedicle's axis: where it enters the bone from behind, and where it leaves the body in front."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import angles, planes_across
+
+STEP_MM = 0.2
+FARTHEST_MM = 64.0
+BEHIND_MM = 2.6
+# Nearer to the isthmus no front wall lies.
+FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
+# From here on a wall may border on something that is not soft, as a vessel with contrast.
+VESSEL_FROM_MM = 24.0
+DISC_MM = 0.9
+# Behind a true outer wall most directions across the axis meet no bone soon.
+LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WallAhead:
+    """The first outer wall in one direction.
+
+    Attributes:
+        distance_mm: from the isthmus.
+        found: whether a wall was met; if not, the bone goes on to this distance at least.
+    """
+
+    distance_mm: float
+    found: bool
+
+
+def outside_limit_hu(near: Neighbourhood) -> float:
+    """Below this number lies what is soft."""
+    return near.tissue_hu + max(60.0, 0.12 * (near.cortex_hu - near.tissue_hu))
+
+
+def bone_limit_hu(near: Neighbourhood) -> float:
+    """Above this number lies what is surely bone, where metal and contrast are left aside."""
+    return near.tissue_hu + max(120.0, 0.4 * (near.cortex_hu - near.tissue_hu))
+
+
+def front_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
+    """Where the axis leaves the body in front, perhaps towards a vessel with contrast."""
+    return _outer_wall(near, isthmus_mm, axis, FRONT_FROM_MM, VESSEL_FROM_MM)
+
+
+def back_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
+    """Where the axis, followed backwards, leaves the arch: the entry."""
+    return _outer_wall(near, isthmus_mm, -axis, ENTRY_FROM_MM, np.inf)
+
+
+def _outer_wall(
+    near: Neighbourhood, isthmus_mm: Array, direction: Array, from_mm: float, vessel_from_mm: float
+) -> WallAhead:
+    """The first fall behind which the line is no longer enclosed by bone.
+
+    Dense layers inside the bone fall to marrow, which can be as dark as muscle; but there walls stand around.
+    Where no fall is as deep as a wall's, half of that is taken: bone without a shell.
+    """
+    profile = _profile(near, isthmus_mm, direction)
+    limit = outside_limit_hu(near)
+    behind = int(max(BEHIND_MM, float(near.voxel_width_mm(direction).max())) / STEP_MM)
+    for share in (1.0, 0.5):
+        for distance_mm, trough in _falls(profile, share * near.least_fall_hu, behind):
+            if distance_mm < from_mm or (trough > limit and distance_mm < vessel_from_mm):
+                continue
+            beyond = isthmus_mm + (distance_mm + LOOK_BEYOND_MM) * direction
+            if not _is_enclosed(near, beyond, direction):
+                return WallAhead(distance_mm=distance_mm, found=True)
+    return WallAhead(distance_mm=max(len(profile) - 1, 0) * STEP_MM, found=False)
+
+
+def _profile(near: Neighbourhood, isthmus_mm: Array, direction: Array) -> Array:
+    """Mean HU over a small disc along the line, as far as the CT reaches."""
+    steps = np.arange(0.0, FARTHEST_MM, STEP_MM)
+    line = isthmus_mm + steps[:, None] * direction
+    inside = near.holds(line)
+    count = len(steps) if inside.all() else int(np.argmin(inside))
+    (across,), (up,) = planes_across(direction[None])
+    offsets = DISC_MM * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
+    shifted = line[None] + (offsets[:, :1] * across + offsets[:, 1:] * up)[:, None, :]
+    return np.asarray(near.smooth_hu(shifted).mean(axis=0)[:count])
+
+
+def _falls(profile: Array, least_fall_hu: float, behind: int) -> list[tuple[float, float]]:
+    """Where the profile falls by so much: distance in mm of half the fall, and the number behind it."""
+    found: list[tuple[float, float]] = []
+    top = 0
+    at = 1
+    while at < len(profile):
+        if profile[at] > profile[top]:
+            top = at
+        elif profile[top] - profile[at] >= least_fall_hu:
+            end = at + int(np.argmin(profile[at : at + behind + 1]))
+            half = 0.5 * (profile[top] + profile[end])
+            after = top + int(np.argmax(profile[top : end + 1] < half))
+            share = (profile[after - 1] - half) / max(profile[after - 1] - profile[after], 1e-9)
+            found.append(((after - 1 + float(share)) * STEP_MM, float(profile[end])))
+            top = at = end
+        at += 1
+    return found
+
+
+def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool:
+    """Whether bone is met in most directions across the line."""
+    (across,), (up,) = planes_across(direction[None])
+    angle = angles(LOOK_RAYS)
+    rays = np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * up
+    steps = np.arange(0.0, LOOK_ACROSS_MM, 0.5)
+    points = point_mm + steps[:, None] * rays[:, None, :]
+    bone = (near.smooth_hu(points) > bone_limit_hu(near)) & near.holds(points)
+    return bool(bone.any(axis=1).mean() >= ENCLOSED_RATIO)

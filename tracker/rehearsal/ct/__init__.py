@@ -1,0 +1,22 @@
+"""CT phantoms with exactly known pedicles, and the scanner that turns them into voxels."""
+
+from tracker.rehearsal.ct.parts import Block, ContrastTube, Drum, EllipticTube, Rod
+from tracker.rehearsal.ct.phantom import PedicleTruth, VertebraPhantom
+from tracker.rehearsal.ct.rehearsal import rehearsal_ct
+from tracker.rehearsal.ct.scanner import ScanGrid, scan
+from tracker.rehearsal.ct.varied import random_grid, random_phantom
+
+__all__ = [
+    "Block",
+    "ContrastTube",
+    "Drum",
+    "EllipticTube",
+    "PedicleTruth",
+    "Rod",
+    "ScanGrid",
+    "VertebraPhantom",
+    "random_grid",
+    "random_phantom",
+    "rehearsal_ct",
+    "scan",
+]
