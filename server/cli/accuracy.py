@@ -10,6 +10,7 @@ import numpy.typing as npt
 import typer
 
 from server.camera_file import load_camera_file
+from server.cli.calibration.asked import BoardOptions, boards_of
 from server.cli.point_rows import read_columns
 from tracker.camera.accuracy import (
     AccuracyReport,
@@ -18,7 +19,6 @@ from tracker.camera.accuracy import (
     accuracy_of_ruler,
     accuracy_on_plane,
 )
-from tracker.camera.boards import Board
 from tracker.camera.detection import BoardNotFound, board_as_seen, find_board
 from tracker.camera.displacements import Displacements
 from tracker.camera.ruler import Ruler, angle_deg, axial_distance_mm, distances, pixels_per_mm
@@ -43,7 +43,7 @@ def check_rows(rows: Path | None, *, camera: Path, plane: Path | None, limit_mm:
         raise InvalidInput(
             "ACCURACY_WITHOUT_POINTS",
             "there is nothing to check the camera with",
-            "Give a CSV of displacements, or an image of a board with --image and --pattern.",
+            "Give a CSV of displacements, or an image of a board with --image, --pattern and --size.",
         )
     model = load_camera_file(camera)
     displacements = _displacements(rows)
@@ -57,12 +57,13 @@ def check_rows(rows: Path | None, *, camera: Path, plane: Path | None, limit_mm:
     return _told(report, limit_mm, how, held_out_by="rows" if plane is None else "plane", as_json=as_json)
 
 
-def check_on_board(image: Path, board: Board, *, camera: Path, limit_mm: float, as_json: bool) -> int:
+def check_on_board(image: Path, given: BoardOptions, *, camera: Path, limit_mm: float, as_json: bool) -> int:
     """The same on a calibration board in an image.
 
     Raises:
         NavigationError: a file cannot be used, or the board is not seen.
     """
+    board = boards_of(given)[0]
     model = load_camera_file(camera)
     picture = _picture(image, model.size_wh_px)
     seen = find_board(picture, board_as_seen([picture], board))

@@ -5,16 +5,24 @@ from typing import Annotated
 
 import typer
 
-from server.cli.board_words import (
+from server.cli.calibration.asked import BoardOptions, Layout, Pattern
+from server.cli.calibration.commands import (
     DictionaryOption,
-    LargerOption,
+    FiducialsOption,
     MarkerOption,
-    PatternOption,
     PitchOption,
-    SizeOption,
     SquareOption,
 )
 
+PatternOption = Annotated[
+    Pattern | None, typer.Option(help="What is printed on the board in the image.", show_default=False)
+]
+SizeOption = Annotated[
+    str | None, typer.Option(help="Columns x rows of the board, as for 'coaxial calibrate'.", metavar="14x16")
+]
+LayoutOption = Annotated[
+    Layout | None, typer.Option(help="Asymmetric dots; ChArUco's layout is found.", show_default=False)
+]
 LimitOption = Annotated[
     float, typer.Option("--limit-mm", help="The largest error that passes.", metavar="MM", min=0.0)
 ]
@@ -53,8 +61,9 @@ def accuracy(
     pitch_mm: PitchOption = None,
     square_mm: SquareOption = None,
     marker_mm: MarkerOption = None,
-    dictionary: DictionaryOption = "DICT_6X6_250",
-    larger: LargerOption = "",
+    dictionary: DictionaryOption = None,
+    fiducials: FiducialsOption = None,
+    layout: LayoutOption = None,
     limit_mm: LimitOption = 0.5,
     json: JsonOption = False,
 ) -> None:
@@ -63,19 +72,19 @@ def accuracy(
     Points must come from an image that the camera was not calibrated with. Exit status 1 above the limit.
     """
     from server.cli.accuracy import check_on_board, check_rows  # noqa: PLC0415  loaded when needed
-    from server.cli.board_options import board_from_options  # noqa: PLC0415
 
-    if image is None:
+    if image is None or pattern is None or size is None:
         status = check_rows(rows, camera=camera, plane=plane, limit_mm=limit_mm, as_json=json)
         raise typer.Exit(status)
-    board = board_from_options(
-        pattern,
+    board = BoardOptions(
+        pattern=pattern,
         size=size,
         pitch_mm=pitch_mm,
         square_mm=square_mm,
         marker_mm=marker_mm,
         dictionary=dictionary,
-        larger=larger,
+        fiducials=fiducials,
+        layout=layout,
     )
     raise typer.Exit(check_on_board(image, board, camera=camera, limit_mm=limit_mm, as_json=json))
 

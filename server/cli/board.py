@@ -42,8 +42,8 @@ def indexes_of(text: str) -> tuple[int, ...]:
         raise InvalidInput(
             "BOARD_INDEXES_INVALID",
             f"'{text}' are no indexes of dots",
-            "Give whole numbers from 0 with --larger, row by row, as in --larger 69,74,149,154.",
-            {"larger": text},
+            "Give whole numbers from 0 with --fiducials, row by row, as in --fiducials 69,74,149,154.",
+            {"fiducials": text},
         )
     return tuple(int(word) for word in words)
 

@@ -56,7 +56,7 @@ def dots(
     layout: Annotated[
         DotLayoutName, typer.Option(help="Asymmetric: each second row is shifted.")
     ] = DotLayoutName.SYMMETRIC,
-    larger: Annotated[
+    fiducials: Annotated[
         str,
         typer.Option(
             help="Dots that are larger, to tell the way up: indexes row by row from 0, with commas between.",
@@ -81,7 +81,7 @@ def dots(
         rows=rows,
         pitch_mm=pitch_mm,
         layout=DotLayout(layout.value),
-        fiducials=indexes_of(larger),
+        fiducials=indexes_of(fiducials),
     )
     write_board(board, output, paper=paper.value, dot_mm=dot_mm)
 

@@ -196,19 +196,18 @@ def test_an_image_that_cannot_be_measured_is_refused(tmp_path: Path, camera: Pat
 @pytest.mark.parametrize(
     ("words", "missing"),
     [
-        ((), "--pattern"),
-        (("--pattern", "dots"), "--size"),
         (("--pattern", "dots", "--size", "9x6"), "--pitch-mm"),
         (("--pattern", "checkerboard", "--size", "9x6"), "--square-mm"),
-        (("--pattern", "charuco", "--size", "9x6", "--square-mm", "9"), "--marker-mm"),
+        (("--pattern", "charuco", "--size", "9x6", "--square-mm", "9"), "--dictionary"),
     ],
 )
 def test_a_board_half_described_is_asked_for(words: tuple[str, ...], missing: str, camera: Path) -> None:
     status, told = typed("accuracy", "--image", "x.png", *words, "--camera", camera)
     assert status == 2
-    assert told.startswith("BOARD_INCOMPLETE")
+    assert told.startswith("BOARD_OPTION_MISSING")
     assert missing in told
 
 
 def test_nothing_to_check_with_is_told(camera: Path) -> None:
-    assert typed("accuracy", "--camera", camera)[1].startswith("ACCURACY_WITHOUT_POINTS")
+    for words in ((), ("--image", "x.png"), ("--image", "x.png", "--pattern", "dots")):
+        assert typed("accuracy", "--camera", camera, *words)[1].startswith("ACCURACY_WITHOUT_POINTS")

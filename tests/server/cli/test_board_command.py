@@ -28,7 +28,7 @@ def typed(*words: str | Path) -> tuple[int, str]:
             id="asymmetric",
         ),
         pytest.param(
-            ("dots", "--pitch-mm", "4", "--larger", "69, 74,149,154", "--paper", "letter"),
+            ("dots", "--pitch-mm", "4", "--fiducials", "69, 74,149,154", "--paper", "letter"),
             "larger dots 69,74,149,154, on letter",
             id="larger-dots",
         ),
@@ -56,8 +56,8 @@ def test_each_board_is_written(words: tuple[str, ...], said: str, kind: str, tmp
     [
         pytest.param(("dots", "--size", "many"), "BOARD_SIZE_INVALID", id="no-size"),
         pytest.param(("dots", "--size", "1x9"), "BOARD_INVALID", id="one-column"),
-        pytest.param(("dots", "--larger", "a"), "BOARD_INDEXES_INVALID", id="no-index"),
-        pytest.param(("dots", "--larger", "224"), "BOARD_INVALID", id="index-beyond"),
+        pytest.param(("dots", "--fiducials", "a"), "BOARD_INDEXES_INVALID", id="no-index"),
+        pytest.param(("dots", "--fiducials", "224"), "BOARD_INVALID", id="index-beyond"),
         pytest.param(("dots", "--dot-mm", "9.5"), "BOARD_DOTS_UNPRINTABLE", id="dots-touch"),
         pytest.param(("checkerboard", "--square-mm", "nan"), "BOARD_INVALID", id="no-length"),
         pytest.param(("checkerboard", "--square-mm", "60"), "BOARD_TOO_LARGE", id="too-large"),
