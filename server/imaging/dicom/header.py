@@ -1,6 +1,7 @@
 """What a DICOM file says of itself, without its pixels and without ever being believed blindly."""
 
 import logging
+import math
 import struct
 import warnings
 import zlib
@@ -180,7 +181,7 @@ def _is_several(value: object) -> bool:
 def number(dataset: Dataset, keyword: str, otherwise: float) -> float:
     """An attribute that is one number."""
     found = numbers(dataset, keyword, 1)
-    return found[0] if found else otherwise
+    return found[0] if found and math.isfinite(found[0]) else otherwise
 
 
 def words(dataset: Dataset, keyword: str) -> tuple[str, ...]:

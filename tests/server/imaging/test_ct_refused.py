@@ -61,6 +61,10 @@ def two_patients(folder: Path) -> Path:
     return folder
 
 
+def not_a_number(made: Made) -> None:
+    made.slices[2].add_new("PixelPaddingValue", "FD", float("nan"))
+
+
 def contradicting(made: Made) -> None:
     made.slices[3].ImagePositionPatient = made.slices[2].ImagePositionPatient
 
@@ -232,6 +236,7 @@ TABLE: dict[str, tuple[str, Case]] = {
     "no-rescale": ("CT_RESCALE_MISSING", spoilt(without("RescaleSlope", "RescaleIntercept"))),
     "slope-of-nothing": ("CT_RESCALE_MISSING", spoilt(one("RescaleSlope", 0))),
     "iodine-map": ("CT_NOT_HU", spoilt(every("RescaleType", "MGML"))),
+    "padding-that-is-no-number": ("CT_FILE_DAMAGED", spoilt(not_a_number)),
     "odd-bits": ("CT_PIXELS_UNKNOWN", spoilt(every("HighBit", 14))),
     "unknown-compression": (
         "CT_COMPRESSION_UNKNOWN",
