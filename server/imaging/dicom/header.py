@@ -14,7 +14,7 @@ import pydicom
 from pydicom.dataset import Dataset
 from pydicom.errors import BytesLengthException, InvalidDicomError
 
-from server.imaging.container import MOST_BYTES, Entry
+from server.imaging.container import BAD_ARCHIVE, MOST_BYTES, Entry
 from server.imaging.nifti import is_nifti
 
 # pydicom's words may quote what a file holds, and that may be the patient's name.
@@ -71,11 +71,7 @@ BAD_DICOM = (
     ValueError,
     TypeError,
     AttributeError,
-    NotImplementedError,
-    RuntimeError,
-    EOFError,
-    OSError,
-    zlib.error,
+    *BAD_ARCHIVE,
     MemoryError,
     RecursionError,
 )

@@ -150,6 +150,17 @@ def zip_changed(at: int, value: bytes) -> Case:
     return make
 
 
+def zip_damaged(folder: Path) -> Path:
+    path = folder / "ct.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        for index, each in enumerate(made_ct().slices):
+            archive.writestr(f"IM{index}", file_of(each))
+    content = bytearray(path.read_bytes())
+    content[900] ^= 0xFF
+    path.write_bytes(bytes(content))
+    return path
+
+
 def cut_zip(folder: Path) -> Path:
     path = zipped("IM1")(folder)
     path.write_bytes(path.read_bytes()[:70])
@@ -255,6 +266,8 @@ TABLE: dict[str, tuple[str, Case]] = {
     "empty-zip": ("CT_EMPTY", zipped()),
     "encrypted-zip": ("CT_ARCHIVE_ENCRYPTED", zip_changed(8, b"\x01\x00")),
     "zip-bomb": ("CT_ARCHIVE_TOO_LARGE", zip_changed(24, b"\xf0\xff\xff\xff")),
+    "zip-damaged-inside": ("CT_FILE_DAMAGED", zip_damaged),
+    "zip-packed-in-an-unknown-way": ("CT_FILE_DAMAGED", zip_changed(10, b"\x63\x00")),
     "zip-cut-off": ("CT_ARCHIVE_BROKEN", cut_zip),
     "nifti-without-affine": ("CT_AFFINE_MISSING", nifti(patch=(252, struct.pack("<hh", 0, 0)))),
     "nifti-of-an-atlas": ("CT_ATLAS_SPACE", nifti(patch=(252, struct.pack("<hh", 0, 4)))),
