@@ -4,9 +4,11 @@ Nothing is ever unpacked onto the disk, and no name inside is used as a path or 
 discs from a hospital are often named after the patient.
 """
 
+import lzma
 import os
 import stat
 import zipfile
+import zlib
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -19,6 +21,16 @@ from tracker.errors import InvalidInput
 
 MOST_FILES = 50_000
 MOST_BYTES = 8 * 2**30
+# What reading a damaged archive, or one packed in an unknown way, leads to.
+BAD_ARCHIVE = (
+    zipfile.BadZipFile,
+    NotImplementedError,
+    RuntimeError,
+    EOFError,
+    OSError,
+    zlib.error,
+    lzma.LZMAError,
+)
 GIVE = "Give a folder or zip of DICOM slices, a DICOM file of many frames, or a NIfTI file."
 HEAD_BYTES = 4096
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from server.imaging.container import Container, opened
+from server.imaging.container import BAD_ARCHIVE, Container, opened
 from server.imaging.ct import Ct, FirstSlice, Progress, SeriesDescription, unheard, unseen
 from server.imaging.dicom import list_dicom, read_dicom
 from server.imaging.nifti import describe_nifti, is_nifti, read_nifti
@@ -50,4 +50,7 @@ def read_ct(
 
 def _nifti_of(container: Container) -> bool:
     """Whether this is one NIfTI file, and nothing else."""
-    return len(container.entries) == 1 and is_nifti(container.entries[0].head())
+    try:
+        return len(container.entries) == 1 and is_nifti(container.entries[0].head())
+    except BAD_ARCHIVE:
+        return False  # Whoever reads it as slices will say that it is damaged.

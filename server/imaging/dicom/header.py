@@ -1,6 +1,7 @@
 """What a DICOM file says of itself, without its pixels and without ever being believed blindly."""
 
 import logging
+import math
 import struct
 import warnings
 import zlib
@@ -13,7 +14,7 @@ import pydicom
 from pydicom.dataset import Dataset
 from pydicom.errors import BytesLengthException, InvalidDicomError
 
-from server.imaging.container import MOST_BYTES, Entry
+from server.imaging.container import BAD_ARCHIVE, MOST_BYTES, Entry
 from server.imaging.nifti import is_nifti
 
 # pydicom's words may quote what a file holds, and that may be the patient's name.
@@ -70,11 +71,7 @@ BAD_DICOM = (
     ValueError,
     TypeError,
     AttributeError,
-    NotImplementedError,
-    RuntimeError,
-    EOFError,
-    OSError,
-    zlib.error,
+    *BAD_ARCHIVE,
     MemoryError,
     RecursionError,
 )
@@ -180,7 +177,7 @@ def _is_several(value: object) -> bool:
 def number(dataset: Dataset, keyword: str, otherwise: float) -> float:
     """An attribute that is one number."""
     found = numbers(dataset, keyword, 1)
-    return found[0] if found else otherwise
+    return found[0] if found and math.isfinite(found[0]) else otherwise
 
 
 def words(dataset: Dataset, keyword: str) -> tuple[str, ...]:

@@ -3,12 +3,13 @@
 import re
 from collections import Counter
 
+from pydicom.dataset import Dataset
 from pydicom.uid import UID
 
-from server.imaging.container import Container
+from server.imaging.container import Container, Entry
 from server.imaging.ct import Progress, SeriesDescription
 from server.imaging.dicom.frame import Frame, Owner, frames_of
-from server.imaging.dicom.header import BROKEN, NotUsed, quietly, read_header
+from server.imaging.dicom.header import BAD_DICOM, BROKEN, NotUsed, quietly, read_header
 from tracker.errors import InvalidInput
 
 # Fewer slices than this are a scout or a sample, where there is a series with more.
@@ -26,7 +27,7 @@ def frames_by_series(container: Container, progress: Progress) -> dict[str, list
     for done, entry in enumerate(container.entries, start=1):
         with quietly():
             header = read_header(entry)
-            frames = header if isinstance(header, NotUsed) else frames_of(entry, header)
+            frames = header if isinstance(header, NotUsed) else _frames(entry, header)
         if isinstance(frames, NotUsed):
             container.reasons[frames.reason] += 1
         else:
@@ -49,6 +50,13 @@ def frames_by_series(container: Container, progress: Progress) -> dict[str, list
             {one.reason.replace(" ", "_"): one.count for one in container.left_out},
         )
     return series
+
+
+def _frames(entry: Entry, header: Dataset) -> list[Frame] | NotUsed:
+    try:
+        return frames_of(entry, header)
+    except BAD_DICOM:
+        return NotUsed(reason=BROKEN)
 
 
 def _beforehand(container: Container) -> int:

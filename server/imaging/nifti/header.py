@@ -15,7 +15,7 @@ import numpy.typing as npt
 from nibabel.spatialimages import HeaderDataError
 from nibabel.wrapstruct import WrapStructError
 
-from server.imaging.container import Entry
+from server.imaging.container import BAD_ARCHIVE, Entry
 from server.imaging.nifti.place import Placed, placed
 from server.imaging.voxels import check_voxels
 from tracker.errors import InvalidInput
@@ -31,9 +31,7 @@ BAD_NIFTI = (
     LookupError,
     ArithmeticError,
     struct.error,
-    EOFError,
-    OSError,
-    zlib.error,
+    *BAD_ARCHIVE,
     MemoryError,
 )
 CONVERT_AGAIN = "Convert or export the CT again as NIfTI, or give its DICOM slices."
