@@ -4,6 +4,7 @@ import secrets
 import shutil
 import threading
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerProcess
@@ -54,6 +55,9 @@ class Jobs:
     def __init__(self, *, log: LogSettings, most_at_once: int = 1) -> None:
         self._log = log
         self._context = forking_context()
+        # One thread starts them all and stays: if the process that forks has to be started again, it ends
+        # with the thread that did it, and everything that it forked with it.
+        self._starter = ThreadPoolExecutor(max_workers=1, thread_name_prefix="job starter")
         self._lock = threading.Lock()
         self._turns = threading.Semaphore(most_at_once)
         self._watched: dict[str, _Watched] = {}
@@ -139,6 +143,7 @@ class Jobs:
             self.cancel(job_id)
         for thread in list(self._threads.values()):
             thread.join(END_WITHIN_S)
+        self._starter.shutdown(wait=False)
 
     def _run(self, watched: _Watched) -> None:
         try:
@@ -167,7 +172,7 @@ class Jobs:
             with theirs, self._lock:
                 if watched.cancelled.is_set():
                     return
-                process.start()
+                self._starter.submit(process.start).result()
                 watched.process = process
                 watched.job = replace(watched.job, state=JobState.RUNNING)
             told = self._listen(watched, process, ours)

@@ -105,18 +105,20 @@ class Writers:
             stdout=subprocess.PIPE,
         )
 
-    def kill_once(self, folder: Path, promised: Promised, *, after_s: float, seed: int) -> None:
-        """Let a child write for so long, kill it, and note all that it had said."""
+    def kill_once(
+        self, folder: Path, promised: Promised, *, after_changes: int, after_s: float, seed: int
+    ) -> None:
+        """Let a child say so many changes, kill it so long after that, and note all that it had said."""
         asked, said = self._forker.stdin, self._forker.stdout
         assert asked is not None
         assert said is not None
         asked.write(f"{json.dumps([str(folder), seed])}\n".encode())
         asked.flush()
         pid = int(said.readline())
+        lines = [said.readline().decode() for _ in range(after_changes)]
         # Not a wait for something to be done: the very moment of the kill is what is varied.
         time.sleep(after_s)
         os.kill(pid, signal.SIGKILL)
-        lines = []
         while not (line := said.readline().decode()).startswith("end"):
             lines.append(line)
         assert line == f"end {signal.SIGKILL}\n", "the child ended by itself, with an error"
@@ -245,7 +247,8 @@ def main() -> None:
     """Kill so many times, and tell how it went."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--times", type=int, default=200)
-    parser.add_argument("--longest-s", type=float, default=0.5)
+    parser.add_argument("--most-changes", type=int, default=10, help="before a kill")
+    parser.add_argument("--longest-s", type=float, default=0.1, help="after the last of them")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--fault", choices=FAULTS, default="none")
     parser.add_argument("--forker", action="store_true", help=argparse.SUPPRESS)
@@ -261,7 +264,8 @@ def main() -> None:
                 confirmed += promised.count
                 promised, home = Promised(), Path(folder) / f"{number}"
             seed = given.seed * 1_000_000 + number
-            writers.kill_once(home, promised, after_s=chance.uniform(0, given.longest_s), seed=seed)
+            changes, after_s = chance.randrange(given.most_changes), chance.uniform(0, given.longest_s)
+            writers.kill_once(home, promised, after_changes=changes, after_s=after_s, seed=seed)
             found += [f"kill {number}: {one}" for one in broken_promises(home, promised)]
         confirmed += promised.count
     sys.stdout.write("".join(f"{one}\n" for one in found))
