@@ -14,9 +14,9 @@ from tracker.camera.rig import calibrate_rig
 
 
 def seen(folder: Path, pattern: str, board: Board) -> tuple[list[BoardView | BoardNotFound], tuple[int, int]]:
-    images = [cv2.imread(str(file)) for file in sorted(folder.glob(pattern))]
+    images = [np.asarray(cv2.imread(str(file)), dtype=np.uint8) for file in sorted(folder.glob(pattern))]
     assert images
-    found = [find_board(np.asarray(image, dtype=np.uint8), board) for image in images]
+    found = [find_board(image, board) for image in images]
     return found, (images[0].shape[1], images[0].shape[0])
 
 

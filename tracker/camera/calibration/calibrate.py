@@ -65,12 +65,7 @@ def calibrate(
         InvalidInput: COEFFICIENTS_INVALID.
     """
     settings = settings or CalibrationSettings()
-    if settings.coefficients not in (None, *MODELS):
-        raise InvalidInput(
-            "COEFFICIENTS_INVALID",
-            f"a lens with {settings.coefficients} coefficients, allowed {', '.join(map(str, MODELS))}",
-            "Leave it out, and the number that describes views held out best is taken.",
-        )
+    _refuse_model(settings)
     names = tuple(names) if names is not None else tuple(str(n + 1) for n in range(len(views)))
     faults = [fault_of(view, size_wh_px) for view in views]
     sound = [index for index, fault in enumerate(faults) if not fault]
@@ -189,6 +184,15 @@ def _view_report(
     )
 
 
+def _refuse_model(settings: CalibrationSettings) -> None:
+    if settings.coefficients not in (None, *MODELS):
+        raise InvalidInput(
+            "COEFFICIENTS_INVALID",
+            f"a lens with {settings.coefficients} coefficients, allowed {', '.join(map(str, MODELS))}",
+            "Leave it out, and the number that describes views held out best is taken.",
+        )
+
+
 def _refuse_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -> None:
     if sound >= LEAST_VIEWS:
         return
@@ -210,8 +214,8 @@ def _refuse_undetermined(reports: Sequence[ViewReport], parameters: Sequence[Par
         return
     raise CalibrationError(
         "VIEWS_ALL_PARALLEL",
-        f"the board's directions differ by {widest:.1f} deg, needed {PARALLEL_DEG:g} deg, and the focal length "
-        f"is sure to {100 * unsure:.1f} %, needed {100 * MOST_FOCAL_SD_RATIO:.0f} %",
+        f"the board's directions differ by {widest:.1f} deg, needed {PARALLEL_DEG:g} deg, and the focal "
+        f"length is sure to {100 * unsure:.1f} %, needed {100 * MOST_FOCAL_SD_RATIO:.0f} %",
         "Take 10 to 20 views with the board tilted by 20 to 45 deg to different sides, near and far.",
         {"tilt_range_deg": widest, "focal_sd_ratio": unsure},
     )
