@@ -48,6 +48,18 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Write the report as JS
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Folder for residuals.svg and coverage.svg.", metavar="FOLDER")
 ]
+CameraNameOption = Annotated[
+    str | None,
+    typer.Option(help="The camera's name in the settings; another one is refused later.", metavar="NAME"),
+]
+CameraSourceOption = Annotated[
+    str | None,
+    typer.Option(help="The camera's source in the settings; another one is refused later.", metavar="SOURCE"),
+]
+CoefficientsOption = Annotated[
+    int | None,
+    typer.Option(help="Of the lens: 4, 5 or 8; the best on views held out if left out.", metavar="N"),
+]
 RmsOption = Annotated[
     float | None,
     typer.Option("--most-rms-px", help="Allowed RMS; calibration.most_rms_px if left out.", metavar="PX"),
@@ -61,6 +73,7 @@ ConfigOption = Annotated[
 def add_calibration(app: typer.Typer) -> None:
     """Add the commands."""
     app.command()(calibrate)
+    app.command()(calibrate_rig)
 
 
 def calibrate(
@@ -76,20 +89,9 @@ def calibrate(
     inset: InsetOption = None,
     inset_square_mm: InsetSquareOption = None,
     output: OutputOption = None,
-    camera_name: Annotated[
-        str | None,
-        typer.Option(help="The camera's name in the settings; another one is refused later.", metavar="NAME"),
-    ] = None,
-    camera_source: Annotated[
-        str | None,
-        typer.Option(
-            help="The camera's source in the settings; another one is refused later.", metavar="SOURCE"
-        ),
-    ] = None,
-    coefficients: Annotated[
-        int | None,
-        typer.Option(help="Of the lens: 4, 5 or 8; the best on views held out if left out.", metavar="N"),
-    ] = None,
+    camera_name: CameraNameOption = None,
+    camera_source: CameraSourceOption = None,
+    coefficients: CoefficientsOption = None,
     most_rms_px: RmsOption = None,
     plots: PlotsOption = None,
     json: JsonOption = False,
@@ -124,3 +126,45 @@ def calibrate(
         config=config,
     )
     raise typer.Exit(calibrate_camera(order, as_json=json))
+
+
+def calibrate_rig(
+    camera: Annotated[
+        list[str],
+        typer.Option(
+            help="A camera's name and its images, a folder or a pattern; may repeat, in the same order of images.",
+            metavar="NAME=IMAGES",
+        ),
+    ],
+    pattern: PatternOption,
+    size: SizeOption,
+    pitch_mm: PitchOption = None,
+    square_mm: SquareOption = None,
+    marker_mm: MarkerOption = None,
+    dictionary: DictionaryOption = None,
+    fiducials: FiducialsOption = None,
+    layout: LayoutOption = None,
+    output: Annotated[
+        Path | None, typer.Option(help="Rig file that is written, as rig.yaml.", metavar="FILE")
+    ] = None,
+    most_rms_px: RmsOption = None,
+    json: JsonOption = False,
+    config: ConfigOption = None,
+) -> None:
+    """Calibrate several cameras that stand still to each other; the first one is the origin."""
+    from server.cli.calibration.rig import RigOrder, calibrate_cameras  # noqa: PLC0415  loaded when needed
+
+    board = BoardOptions(
+        pattern=pattern,
+        size=size,
+        pitch_mm=pitch_mm,
+        square_mm=square_mm,
+        marker_mm=marker_mm,
+        dictionary=dictionary,
+        fiducials=fiducials,
+        layout=layout,
+    )
+    order = RigOrder(
+        cameras=tuple(camera), board=board, output=output, most_rms_px=most_rms_px, config=config
+    )
+    raise typer.Exit(calibrate_cameras(order, as_json=json))

@@ -7,9 +7,9 @@ import numpy as np
 
 from tracker.camera.calibration.blocks import blocks_of
 from tracker.camera.calibration.choice import choose_model
-from tracker.camera.calibration.coverage import coverage_of, warnings_of
+from tracker.camera.calibration.coverage import coverage_of, warnings_of, widest_tilt_deg
 from tracker.camera.calibration.fit import MODELS, NAMES, Fit, board_pose, projected
-from tracker.camera.calibration.order import fault_of, refuse_one_pose
+from tracker.camera.calibration.order import PARALLEL_DEG, fault_of, refuse_one_pose
 from tracker.camera.calibration.report import (
     CalibrationReport,
     ModelChoice,
@@ -27,6 +27,7 @@ from tracker.geometry import Array, Camera, Pattern, Rigid
 LEAST_VIEWS = 3
 FIRST_MODEL = 5
 MOST_OUT_RATIO = 0.5
+MOST_FOCAL_SD_RATIO = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,12 +65,7 @@ def calibrate(
         InvalidInput: COEFFICIENTS_INVALID.
     """
     settings = settings or CalibrationSettings()
-    if settings.coefficients not in (None, *MODELS):
-        raise InvalidInput(
-            "COEFFICIENTS_INVALID",
-            f"a lens with {settings.coefficients} coefficients, allowed {', '.join(map(str, MODELS))}",
-            "Leave it out, and the number that describes views held out best is taken.",
-        )
+    _refuse_model(settings)
     names = tuple(names) if names is not None else tuple(str(n + 1) for n in range(len(views)))
     faults = [fault_of(view, size_wh_px) for view in views]
     sound = [index for index, fault in enumerate(faults) if not fault]
@@ -89,6 +85,7 @@ def calibrate(
     parameters = _parameters(kept.fit, sure)
     camera = CameraModel(matrix=kept.fit.matrix, distortion=kept.fit.distortion, size_wh_px=size_wh_px)
     reports = _view_reports(views, names, kept, sound, out)
+    _refuse_undetermined(reports, parameters)
     coverage = coverage_of(np.concatenate([view.image_points_px for view in kept.views]), size_wh_px)
     covariance = sure.covariance.copy()
     covariance.setflags(write=False)
@@ -187,6 +184,15 @@ def _view_report(
     )
 
 
+def _refuse_model(settings: CalibrationSettings) -> None:
+    if settings.coefficients not in (None, *MODELS):
+        raise InvalidInput(
+            "COEFFICIENTS_INVALID",
+            f"a lens with {settings.coefficients} coefficients, allowed {', '.join(map(str, MODELS))}",
+            "Leave it out, and the number that describes views held out best is taken.",
+        )
+
+
 def _refuse_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -> None:
     if sound >= LEAST_VIEWS:
         return
@@ -197,6 +203,21 @@ def _refuse_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -
         + (f" (the first that cannot: {why})" if why else ""),
         "Take 10 to 20 images with the whole board in view, tilted by 20 to 45 deg to different sides.",
         {"views": len(views), "usable": sound, "needed": LEAST_VIEWS},
+    )
+
+
+def _refuse_undetermined(reports: Sequence[ViewReport], parameters: Sequence[ParameterEstimate]) -> None:
+    """A bent picture of parallel boards looks tilted before the lens is known: so once more with the lens."""
+    widest = widest_tilt_deg([view for view in reports if view.used])
+    unsure = max(one.sd / one.value for one in parameters if one.name in ("fx", "fy"))
+    if widest >= PARALLEL_DEG and unsure <= MOST_FOCAL_SD_RATIO:
+        return
+    raise CalibrationError(
+        "VIEWS_ALL_PARALLEL",
+        f"the board's directions differ by {widest:.1f} deg, needed {PARALLEL_DEG:g} deg, and the focal "
+        f"length is sure to {100 * unsure:.1f} %, needed {100 * MOST_FOCAL_SD_RATIO:.0f} %",
+        "Take 10 to 20 views with the board tilted by 20 to 45 deg to different sides, near and far.",
+        {"tilt_range_deg": widest, "focal_sd_ratio": unsure},
     )
 
 

@@ -143,7 +143,7 @@ def _without_odd_shots(start: Bundle, views: Sequence[dict[str, BoardView]]) -> 
         if typical[worst] <= max(MOST_SHOT_RATIO * usual, GOOD_SHOT_PX) or shared <= LEAST_PAIRS:
             return bundle, out
         out[kept[worst]] = (
-            f"its points lie off by {typical[worst]:.2f} px where other instants have {usual:.2f} px, allowed "
+            f"its points lie off by {typical[worst]:.2f} px where others have {usual:.2f} px, allowed "
             f"{max(MOST_SHOT_RATIO * usual, GOOD_SHOT_PX):.2f} px: not of the same instant, or other order"
         )
         del kept[worst]

@@ -1,0 +1,154 @@
+"""`coaxial calibrate-rig`: several cameras from images that pair up."""
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import typer
+import yaml
+
+from server.cli.calibration.asked import BoardOptions, boards_of, described
+from server.cli.calibration.images import files_of
+from server.cli.calibration.run import FAILED, Looked, flattened, looked_at
+from server.cli.output import write_whole
+from server.cli.progress import shown_steps
+from server.config_file import load_config
+from tracker.camera.calibration import CalibrationReport, calibrate
+from tracker.camera.detection import BoardView
+from tracker.camera.rig import RigCamera, RigReport, calibrate_rig
+from tracker.errors import InvalidInput
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RigOrder:
+    """What was asked for; see the options of `coaxial calibrate-rig`."""
+
+    cameras: tuple[str, ...]
+    board: BoardOptions
+    output: Path | None
+    most_rms_px: float | None
+    config: Path | None
+
+
+def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
+    """Write the rig file, tell the report, and give the exit status: 0, or 1 if the RMS is too large.
+
+    Raises:
+        NavigationError: images, board or views cannot be used, or a file cannot be written.
+    """
+    config = load_config(order.config)
+    most_rms_px = config.calibration.most_rms_px if order.most_rms_px is None else order.most_rms_px
+    files_from_camera = _files(order.cameras)
+    boards = boards_of(order.board)
+    with shown_steps() as steps:
+        looked = {}
+        for name, files in files_from_camera.items():
+            looked[name] = looked_at(files, boards, steps)
+            # What the first camera tells of the board holds for all.
+            boards = looked[name].boards
+    reports = {name: _alone(one) for name, one in looked.items()}
+    names = next(iter(looked.values())).names
+    shots = [
+        {name: view for name, one in looked.items() if isinstance(view := one.seen[index][0], BoardView)}
+        for index in range(len(names))
+    ]
+    report = calibrate_rig(shots, reports, names=names)
+    passed = report.rms_px <= most_rms_px
+    whole = _whole(report, reports)
+    if passed and order.output is not None:
+        text = yaml.safe_dump({**whole, "boards": [described(board) for board in boards]}, sort_keys=False)
+        write_whole(order.output, text.encode())
+    if as_json:
+        typer.echo(json.dumps({**whole, "most_rms_px": most_rms_px, "passed": passed}, allow_nan=False))
+    else:
+        _tell(report, most_rms_px)
+    if not passed:
+        typer.echo(
+            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {most_rms_px:g} px.\n"
+            "Take images of all cameras at the same instant, or allow more with --most-rms-px.",
+            err=True,
+        )
+    return 0 if passed else FAILED
+
+
+def _files(cameras: Sequence[str]) -> dict[str, list[Path]]:
+    """The images of each camera, as many of each.
+
+    Raises:
+        InvalidInput: RIG_OPTION_INVALID or RIG_IMAGES_UNEVEN.
+    """
+    found: dict[str, list[Path]] = {}
+    for text in cameras:
+        name, equals, images = text.partition("=")
+        if not equals or not name.strip() or not images or name in found:
+            raise InvalidInput(
+                "RIG_OPTION_INVALID",
+                f"--camera {text} is no camera with its images, or its name is there twice",
+                "Write --camera left=left/ --camera right='right*.png', each name once.",
+                {"given": text},
+            )
+        found[name.strip()] = files_of([images])
+    counts = {name: len(files) for name, files in found.items()}
+    if len(set(counts.values())) > 1:
+        raise InvalidInput(
+            "RIG_IMAGES_UNEVEN",
+            "cameras have different numbers of images: " + ", ".join(f"{n} {c}" for n, c in counts.items()),
+            "Give of each instant one image of each camera, in the same order.",
+            {"images": counts},
+        )
+    return found
+
+
+def _alone(looked: Looked) -> CalibrationReport:
+    views, owners = flattened(looked)
+    return calibrate(views, size_wh_px=looked.size_wh_px, names=[looked.names[owner] for owner in owners])
+
+
+def _whole(report: RigReport, alone: dict[str, CalibrationReport]) -> dict[str, object]:
+    return {
+        "rms_px": report.rms_px,
+        "shared_views": report.shared_shots,
+        "cameras": [
+            _camera(camera) | {"rms_alone_px": alone[camera.name].rms_px} for camera in report.cameras
+        ],
+        "views": [
+            {
+                "image": shot.name,
+                "used": list(shot.used),
+                "rms_px": None if math.isnan(shot.rms_px) else shot.rms_px,
+                "reason": shot.reason,
+            }
+            for shot in report.shots
+        ],
+    }
+
+
+def _camera(camera: RigCamera) -> dict[str, object]:
+    return {
+        "name": camera.name,
+        "matrix": camera.model.matrix.tolist(),
+        "distortion": camera.model.distortion.tolist(),
+        "size_wh_px": list(camera.model.size_wh_px),
+        "camera_from_first": camera.camera_from_first.matrix.tolist(),
+        "covariance": camera.covariance.tolist(),
+        "baseline_mm": camera.baseline_mm,
+        "baseline_sd_mm": camera.baseline_sd_mm,
+        "rms_px": camera.rms_px,
+    }
+
+
+def _tell(report: RigReport, most_rms_px: float) -> None:
+    typer.echo(
+        f"RMS {report.rms_px:.3f} px (allowed {most_rms_px:g} px), {report.shared_shots} shared views of "
+        f"{len(report.shots)}."
+    )
+    for camera in report.cameras:
+        typer.echo(
+            f"{camera.name}: RMS {camera.rms_px:.3f} px, {camera.baseline_mm:.3f} mm from the first camera "
+            f"(sd {camera.baseline_sd_mm:.3f} mm)"
+        )
+    for shot in report.shots:
+        if shot.reason:
+            typer.echo(f"{shot.name}: {shot.reason}")

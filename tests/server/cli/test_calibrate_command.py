@@ -1,0 +1,117 @@
+"""`coaxial calibrate` as a person types it."""
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+import yaml
+from typer.testing import CliRunner
+
+from server.camera_file import load_camera_file, read_camera_file, refuse_other_camera
+from server.cli import app
+from tests.tracker.camera.rendered import POSES, picture
+from tracker.camera import CheckerBoard
+from tracker.errors import CalibrationError, NavigationError
+
+BOARD = ("--pattern", "checkerboard", "--size", "9x6", "--square-mm", "12")
+
+
+def typed(*words: str | Path) -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["calibrate", *map(str, words)])
+    if isinstance(result.exception, NavigationError):
+        # `server.cli.main` tells it, with status 2.
+        return 2, result.exception.code
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result.exit_code, result.stdout
+
+
+@pytest.fixture(scope="module")
+def images(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("images")
+    board = CheckerBoard(columns=9, rows=6, square_mm=12.0)
+    for index, pose in enumerate(POSES[:6]):
+        cv2.imwrite(str(folder / f"view{index}.png"), picture(board, pose, seed=index))
+    cv2.imwrite(str(folder / "view9.png"), np.full((480, 640), 90, np.uint8))
+    return folder
+
+
+def test_a_camera_file_plots_and_json_are_written(images: Path, tmp_path: Path) -> None:
+    output = tmp_path / "camera.yaml"
+    status, text = typed(
+        *BOARD, "--output", output, "--plots", tmp_path, "--camera-name", "main", "--json", images
+    )
+    assert status == 0, text
+    told = json.loads(text)
+    assert told["size_wh_px"] == [640, 480]
+    assert [view["used"] for view in told["views"]] == [True] * 6 + [False]
+    assert [view["image"] for view in told["views"]] == [f"view{n}.png" for n in (0, 1, 2, 3, 4, 5, 9)]
+    assert told["views"][-1]["rms_px"] is None
+    assert "corners" in told["views"][-1]["reason"]
+    assert told["rms_px"] < 0.4
+    camera = load_camera_file(output)
+    np.testing.assert_allclose(camera.matrix, told["matrix"])
+    np.testing.assert_allclose(camera.distortion, told["distortion"])
+    facts = yaml.safe_load(output.read_text())
+    assert facts["camera"] == {"name": "main"}
+    assert facts["boards"][0]["size"] == [9, 6]
+    for name in ("residuals.svg", "coverage.svg"):
+        assert (tmp_path / name).read_text().startswith("<svg")
+
+
+def test_the_report_is_readable_and_the_gate_fails_with_status_1(images: Path, tmp_path: Path) -> None:
+    output = tmp_path / "camera.yaml"
+    status, text = typed(*BOARD, "--output", output, "--most-rms-px", "0.001", str(images / "*.png"))
+    assert status == 1
+    assert "RMS" in text
+    assert "view9.png" in text
+    assert not output.exists()
+
+
+def test_a_file_of_another_camera_is_refused(images: Path, tmp_path: Path) -> None:
+    output = tmp_path / "camera.yaml"
+    assert typed(*BOARD, "--output", output, "--camera-name", "side", images)[0] == 0
+    file = read_camera_file(output)
+    refuse_other_camera(file, path=output, name="side", source=0)
+    with pytest.raises(CalibrationError) as told:
+        refuse_other_camera(file, path=output, name="main", source=0)
+    assert told.value.code == "CAMERA_DIFFERS"
+    (tmp_path / "config.yaml").write_text(f"camera:\n  source: 0\n  calibration: {output}\n")
+    result = CliRunner().invoke(app, ["run", "--config", str(tmp_path / "config.yaml")])
+    assert isinstance(result.exception, NavigationError)
+    assert "'side'" in result.exception.message
+
+
+def test_bad_input_is_told_and_nothing_is_written(images: Path, tmp_path: Path) -> None:
+    text_file = tmp_path / "notes.png"
+    text_file.write_text("no image")
+    small = tmp_path / "small.png"
+    cv2.imwrite(str(small), np.zeros((100, 100), np.uint8))
+    twin = tmp_path / "twin.png"
+    twin.write_bytes((images / "view0.png").read_bytes())
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    output = tmp_path / "camera.yaml"
+    cases: list[tuple[str, tuple[str | Path, ...]]] = [
+        ("IMAGES_MISSING", (*BOARD, empty)),
+        ("IMAGES_MISSING", (*BOARD, "nowhere/*.png")),
+        ("IMAGE_UNREADABLE", (*BOARD, text_file)),
+        ("IMAGE_SIZES_DIFFER", (*BOARD, images / "view0.png", small)),
+        ("IMAGE_TWICE", (*BOARD, images / "view0.png", twin)),
+        ("BOARD_NOT_FOUND", (*BOARD, images / "view9.png")),
+        ("TOO_FEW_VIEWS", (*BOARD, images / "view0.png")),
+        ("BOARD_OPTION_INVALID", ("--pattern", "dots", "--size", "14", "--pitch-mm", "4", images)),
+        ("BOARD_OPTION_MISSING", ("--pattern", "charuco", "--size", "8x6", "--square-mm", "4", images)),
+        ("BOARD_OPTION_UNUSED", ("--pattern", "dots", "--size", "8x6", "--square-mm", "4", images)),
+        ("BOARD_INVALID", ("--pattern", "dots", "--size", "8x6", "--pitch-mm", "-4", images)),
+        ("COEFFICIENTS_INVALID", (*BOARD, "--coefficients", "6", images / "view0.png")),
+        ("OUTPUT_IS_INPUT", (*BOARD, "--output", images / "view0.png", images)),
+    ]
+    for code, words in cases:
+        assert (
+            typed(*words, "--output", output)[1] == code
+            if "--output" not in words
+            else typed(*words)[1] == code
+        )
+    assert not output.exists()
