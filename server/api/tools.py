@@ -109,7 +109,7 @@ def tools_router(step: ToolStep) -> APIRouter:
 
     @router.post("/collection/conclusion", status_code=201, responses=refusals(409, 422, 503, 507))
     def conclude(asked: ConclusionRequest) -> DocumentMessage:
-        """Keep what the poses give in the open case, if it passes its gate; it is used from the next image."""
+        """Keep what the poses give in the open case, if it passes its gate; it is used from then on."""
         document = step.conclude(
             made_by=asked.made_by,
             radius_mm=asked.radius_mm,

@@ -108,7 +108,7 @@ def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> N
     [
         pytest.param(slice(0, 0), "COLLECTION_EMPTY", id="no-view"),
         pytest.param(slice(0, 1), "TOO_FEW_VIEWS", id="one-view"),
-        pytest.param([0] * 5, "CALIBRATION_VIEWS_ALIKE", id="all-from-one-place"),
+        pytest.param([0] * 5, "VIEWS_FROM_ONE_PLACE", id="all-from-one-place"),
     ],
 )
 def test_views_that_say_too_little_are_refused_and_nothing_is_kept(
