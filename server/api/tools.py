@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Response
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, heading_message
+from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import refusals
 from server.config import Name, Point
 from server.live import Trouble
@@ -116,7 +116,7 @@ def tools_router(step: ToolStep) -> APIRouter:
             length_mm=asked.length_mm,
             axis_in_marker=asked.axis_in_marker,
         )
-        return DocumentMessage(heading=heading_message(document, Current()), content=dict(document.content))
+        return document_message(document, Current())
 
     return router
 
