@@ -1,4 +1,4 @@
-"""The command line: `coaxial run`, `coaxial track`, `coaxial marker`.
+"""The command line: `coaxial run`, `track`, `calibrate`, `calibrate-rig`, `marker`.
 
 Nothing heavy is imported until a command needs it, so that `coaxial --help` answers at once.
 """

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from tests.benchmarks import accuracy, live, timing
 from tests.benchmarks.asked import Asked
+from tests.benchmarks.calibration.coverage import measure_calibration
 from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import condition_tables
 from tests.benchmarks.limits.limit_figures import limit_figures
@@ -122,4 +123,5 @@ SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "rehearsal": measure_rehearsal,
     "overlay": measure_drawing,
     "server": measure_server,
+    "calibration": measure_calibration,
 }
