@@ -5,6 +5,7 @@ from collections.abc import Callable
 from tests.benchmarks import accuracy, live, timing
 from tests.benchmarks.asked import Asked
 from tests.benchmarks.ct_reading import measure_ct_reading
+from tests.benchmarks.calibration.coverage import measure_calibration
 from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import condition_tables
 from tests.benchmarks.limits.limit_figures import limit_figures
@@ -131,4 +132,5 @@ SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "server": measure_server,
     "tools": measure_tools,
     "ct": measure_ct,
+    "calibration": measure_calibration,
 }
