@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from server.cli.marker_commands import marker_app
+from server.cli.plan_commands import plan_app
 
 BAD_INPUT = 2
 UNKNOWN_VERSION = "0.1.0"
@@ -22,6 +23,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(marker_app, name="marker")
+app.add_typer(plan_app, name="plan")
 
 
 class Rate(StrEnum):
