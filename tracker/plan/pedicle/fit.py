@@ -186,7 +186,7 @@ def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Arr
 
 
 def _open(bar: Bar, points: Array) -> npt.NDArray[np.bool_]:
-    """Points (n,) in directions in which the coarse outline found no wall, or one that is no part of the bar."""
+    """Points (n,) where the coarse outline found no wall, or one that is no part of the bar."""
     cut = bar.sections
     along = (points - bar.centre_mm) @ bar.axis
     row = np.argmin(np.abs(along[:, None] - bar.along_mm), axis=1)

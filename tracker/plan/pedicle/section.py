@@ -80,14 +80,23 @@ def _numbers(parameters: Array, at: float, half_mm: float) -> Array:
     c = parameters[tube.CENTRE]
     return np.array(
         [
-            np.ptp(points @ direction),
-            np.ptp(points @ across),
+            _chord(points - [section.x_mm[0], section.y_mm[0]], direction),
+            _chord(points - [section.x_mm[0], section.y_mm[0]], across),
             section.x_mm[0],
             section.y_mm[0],
             (c[1] + 2.0 * c[2] * at) / half_mm,
             (c[4] + 2.0 * c[5] * at) / half_mm,
         ]
     )
+
+
+def _chord(points: Array, direction: Array) -> float:
+    """From wall to wall (mm) through the centre, which lies at 0, along a direction (2,)."""
+    turned = np.arctan2(points @ [-direction[1], direction[0]], points @ direction)
+    order = np.argsort(turned)
+    radius = np.linalg.norm(points, axis=1)[order]
+    ends = np.interp([0.0, np.pi], turned[order], radius, period=2.0 * np.pi)
+    return float(ends.sum())
 
 
 def _width_direction(parameters: Array, section: tube.Section) -> Array:
