@@ -13,7 +13,7 @@ from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.search import Bar
 
 LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
-MOST_VOXELS = 6000
+MOST_VOXELS = 3500
 ROUNDS = 3
 OUTSIDE_BAND_MM = 1.2
 LEAST_VOXELS = 60

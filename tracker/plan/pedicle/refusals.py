@@ -118,8 +118,9 @@ def refuse_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array
     if distance > allowed + 0.35 * beyond or beyond > 9.0:
         raise PlanError(
             "SEED_NOT_IN_PEDICLE",
-            f"the nearest bar of bone does not hold the click: it lies "
-            f"{max(distance, 0.0):.1f} mm beside its wall (allowed {allowed:.1f} mm) and {beyond:.1f} mm beyond its end (allowed 9 mm)",
+            "the nearest bar of bone does not hold the click: it lies "
+            f"{max(distance, 0.0):.1f} mm beside its wall (allowed {allowed:.1f} mm) "
+            f"and {beyond:.1f} mm beyond its end (allowed 9 mm)",
             CLICK,
             {"beside_mm": distance, "beyond_mm": beyond},
         )

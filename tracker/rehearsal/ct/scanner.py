@@ -1,4 +1,4 @@
-"""A scanner that exists only in software: a Hounsfield field becomes voxels, with partial volume and noise."""
+"""A scanner in software: a Hounsfield field becomes voxels, with partial volume and noise."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -9,7 +9,7 @@ from tracker.rehearsal.ct.scanner import ScanGrid
 
 
 def random_phantom(seed: int) -> VertebraPhantom:
-    """A vertebra with two unlike pedicles, tilted in the patient, with neighbours; a seed makes the same one."""
+    """A vertebra with two unlike pedicles, tilted, with neighbours; a seed makes the same one again."""
     random = np.random.default_rng(seed)
     width = random.uniform(5.5, 12.0)
     pedicles = {
