@@ -44,7 +44,8 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
     if isinstance(mapped, Mapping) and mapped.get("format_version") != FORMAT_VERSION:
         raise PlanError(
             "PLAN_VERSION_UNKNOWN",
-            f"the plan has format version {mapped.get('format_version')!r}, this program reads {FORMAT_VERSION}",
+            f"the plan has format version {mapped.get('format_version')!r}, "
+            f"this program reads {FORMAT_VERSION}",
             "Open it with the program that wrote it, or plan again.",
         )
     plan = _read(PlanDocument, mapped, "plan")
@@ -76,7 +77,9 @@ def _single(kind: Any, value: object, where: str) -> object:  # noqa: ANN401  as
         try:
             return kind(value)
         except ValueError as error:
-            raise _invalid(where, f"is {value!r}, allowed are {', '.join(str(one.value) for one in kind)}") from error
+            raise _invalid(
+                where, f"is {value!r}, allowed are {', '.join(str(one.value) for one in kind)}"
+            ) from error
     if kind is float and isinstance(value, int | float) and not isinstance(value, bool):
         if not np.isfinite(value):
             raise _invalid(where, f"is {value}, needed a finite number")

@@ -1,8 +1,9 @@
-"""From a click to the bar of bone that holds it: the coarse centre line, by sections in all likely directions."""
+"""From a click to the bar of bone that holds it: a coarse line, by sections in all likely directions."""
 
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 from scipy import ndimage
 
 from tracker.geometry import Array
@@ -117,21 +118,19 @@ def _settled(near: Neighbourhood, first: Start) -> Bar | None:
             return None
         moved = float(np.linalg.norm(bar.centre_mm - start.centre_mm))
         turned = float(np.degrees(np.arccos(np.clip(bar.axis @ start.axis, -1.0, 1.0))))
-        start = Start(
-            centre_mm=bar.centre_mm, axis=bar.axis, first_axis=first.axis, area_mm2=bar.area_mm2
-        )
+        start = Start(centre_mm=bar.centre_mm, axis=bar.axis, first_axis=first.axis, area_mm2=bar.area_mm2)
         if moved < 0.15 and turned < 0.3:
             break
     return bar
 
 
-def _best_start(
-    near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...]
-) -> Start | None:
+def _best_start(near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...]) -> Start | None:
     """Centre and direction of the smallest closed section around the click, of nested ones the outer."""
     directions = forward_directions(side)
     grid = (len(TRANSVERSE_DEG), len(SAGITTAL_DEG))
-    unusual = 0.5 * (np.maximum(_away_from_usual_deg(directions, side) - USUAL_DEG, 0.0) / UNUSUAL_SD_DEG) ** 2
+    unusual = (
+        0.5 * (np.maximum(_away_from_usual_deg(directions, side) - USUAL_DEG, 0.0) / UNUSUAL_SD_DEG) ** 2
+    )
     best: tuple[float, Start] | None = None
     for along_mm in some_mm:
         areas, centres = _largest_around(near, seed_mm, directions, along_mm)
@@ -177,7 +176,7 @@ def _largest_around(
     return np.where(largest > 0.0, largest, np.nan), centres
 
 
-def _around(cut: Outlines, seed_mm: Array, axis: Array) -> Array:
+def _around(cut: Outlines, seed_mm: Array, axis: Array) -> npt.NDArray[np.bool_]:
     """Which outlines (m,) have the click inside, looked at along their axis."""
     away = seed_mm - cut.centre_mm
     away = away - (away * axis).sum(axis=1, keepdims=True) * axis
@@ -238,7 +237,9 @@ def _section(near: Neighbourhood, at: Array, axis: Array, like_mm2: float) -> Ou
 
 def _line(sections: Outlines, along: Array, start: Start) -> Bar | None:
     closed = (sections.found_ratio >= LEAST_FOUND_ALONG) & (sections.gap_deg <= MOST_GAP_DEG)
-    area = np.where(closed & (sections.area_mm2 > COLLAPSED * start.area_mm2 * 0.6), sections.area_mm2, np.inf)
+    area = np.where(
+        closed & (sections.area_mm2 > COLLAPSED * start.area_mm2 * 0.6), sections.area_mm2, np.inf
+    )
     if not np.isfinite(area).any():
         return None
     # The narrowest section that is met going downhill from the start.
@@ -272,7 +273,7 @@ def _line(sections: Outlines, along: Array, start: Start) -> Bar | None:
 def _line_through(
     points: Array, weight: Array, lowest: float, start: Start, along: Array
 ) -> tuple[Array, Array]:
-    """Point and direction of the line through centres (n, 3); where they are few, the first direction holds."""
+    """The line through centres (n, 3), point and direction; where they are few, the first direction holds."""
     axis = start.axis
     mean = (weight[:, None] * points).sum(axis=0) / weight.sum()
     from_mean = (points - mean) @ axis
@@ -282,9 +283,8 @@ def _line_through(
     pull = (weight * from_mean**2).sum() + hold
     slope = ((weight * from_mean)[:, None] * across).sum(axis=0) / pull + wanted * (hold / pull)
     turned = axis + TURN_SHARE * slope
-    length = np.linalg.norm(turned)
     row = int(np.argmin(np.abs(along - lowest)))
-    return mean + turned * from_mean[row], turned / length
+    return mean + turned * from_mean[row], turned / np.linalg.norm(turned)
 
 
 def _running_median(area: Array) -> Array:
