@@ -10,7 +10,7 @@ from tests.benchmarks.measured import Measured
 from tests.benchmarks.tables import Table
 from tracker.camera.calibration import calibrate
 
-RUNS, VIEWS, NOISE_PX = 200, 12, 0.2
+RUNS, VIEWS, NOISE_PX = 400, 12, 0.2
 
 
 def measure_calibration(asked: Asked) -> Measured:
