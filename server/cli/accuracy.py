@@ -11,7 +11,8 @@ import typer
 
 from server.calibration import ROW_COLUMNS, accuracy_rows, accuracy_values
 from server.camera_file import load_camera_file
-from server.cli.calibration.asked import BoardOptions, boards_of
+from server.cli.board_names import BoardOptions
+from server.cli.board_options import boards_of
 from server.cli.point_rows import read_columns
 from tracker.camera.accuracy import (
     AccuracyReport,

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from server.cli.calibration.asked import BoardOptions, Layout, Pattern
+from server.cli.board_names import BoardOptions, Layout, Pattern
 
 PatternOption = Annotated[Pattern, typer.Option(help="What is printed on the board.")]
 SizeOption = Annotated[
