@@ -14,6 +14,7 @@ from tests.benchmarks.limits.run import measure, one_thread
 from tests.benchmarks.measured import Measured
 from tests.benchmarks.offline import Offline, measure_offline, times_s
 from tests.benchmarks.overlay import measure_overlay
+from tests.benchmarks.pedicles import measure_pedicles
 from tests.benchmarks.running_server import running_server
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.tables import Table
@@ -123,10 +124,16 @@ def measure_ct(_asked: Asked) -> Measured:
     return Measured(tables=measure_ct_reading())
 
 
+def measure_phantoms(_asked: Asked) -> Measured:
+    """Pedicles of CT phantoms against their truth."""
+    return measure_pedicles()
+
+
 SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "limits": measure_limits,
     "rehearsal": measure_rehearsal,
     "overlay": measure_drawing,
     "server": measure_server,
     "ct": measure_ct,
+    "pedicles": measure_phantoms,
 }

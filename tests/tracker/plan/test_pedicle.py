@@ -25,7 +25,7 @@ from tracker.rehearsal.ct import (
 )
 
 
-def phantom(**changes: Any) -> VertebraPhantom:
+def phantom(**changes: Any) -> VertebraPhantom:  # noqa: ANN401  any field of the phantom
     pedicles = {
         side: pedicle_tube(
             side,
@@ -41,7 +41,10 @@ def phantom(**changes: Any) -> VertebraPhantom:
     return VertebraPhantom(pedicles=pedicles, bones=usual_bones(), **changes)
 
 
-def grid(spacing_mm: tuple[float, float, float] = (0.6, 0.6, 1.0), **changes: Any) -> ScanGrid:
+def grid(
+    spacing_mm: tuple[float, float, float] = (0.6, 0.6, 1.0),
+    **changes: Any,  # noqa: ANN401  any field of the grid
+) -> ScanGrid:
     return ScanGrid.around((0.0, -8.0, 0.0), size_mm=(54.0, 84.0, 36.0), spacing_mm=spacing_mm, **changes)
 
 
