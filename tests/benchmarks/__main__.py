@@ -1,6 +1,6 @@
 """Benchmarks: how true and how fast the tracker is beside its peers and the bound, as Markdown tables.
 
-python -m tests.benchmarks [limits | rehearsal | overlay | server | ct] [--write]
+python -m tests.benchmarks [limits | rehearsal | overlay | server | ct | pedicles] [--write]
 """
 
 import argparse

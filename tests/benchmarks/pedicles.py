@@ -1,4 +1,4 @@
-"""How true pedicles are measured: random phantoms, scanned in random ways, clicked somewhere in the pedicle."""
+"""How true pedicles are measured: random phantoms in random scans, clicked somewhere in the pedicle."""
 
 import numpy as np
 
