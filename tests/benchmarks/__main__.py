@@ -41,7 +41,7 @@ def main(arguments: list[str] | None = None) -> None:
         except NavigationError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(2)
-        said = {"limits": asked.said_of_limits, "ct": ""}.get(name, asked.said_of_theatres)
+        said = {"limits": asked.said_of_limits, "ct": "", "pedicles": ""}.get(name, asked.said_of_theatres)
         content = "\n".join([f"{machine_line()} {said}\n", *(table.markdown for table in measured.tables)])
         sys.stdout.write(f"## {name}\n\n{content}\n{_compared(written.get(name, {}), measured)}\n")
         sys.stdout.flush()

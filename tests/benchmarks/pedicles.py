@@ -34,7 +34,7 @@ def measure_pedicles(phantoms: int = PHANTOMS) -> Measured:
             (fine if volume.spacing_mm[2] < FINE_MM else thick).append(off)
     rows = [_row(f"slices under {FINE_MM} mm", fine), _row(f"slices of {FINE_MM} to 3 mm", thick)]
     note = (
-        "Median / worst size of the error; widths and heights in voxels of the slice, which are 0.35 to 0.9 mm, "
+        "Median / worst size of the error; widths and heights in voxels of the slice (0.35 to 0.9 mm), "
         f"also where slices are thicker. Refused: {len(refused)} {', '.join(sorted(set(refused)))}".strip()
         + "."
     )
