@@ -158,7 +158,7 @@ def test_a_wrong_order_is_refused(seed: tuple[float, float, float], side: str, c
     [
         pytest.param((0.0, -1.0, 0.0), id="canal"),
         pytest.param((0.0, -27.0, 0.0), id="body"),
-        pytest.param((28.0, -8.0, 0.0), id="muscle"),
+        pytest.param((24.0, 0.0, 9.0), id="muscle"),
     ],
 )
 def test_a_click_that_is_in_no_pedicle_is_refused(seed: tuple[float, float, float]) -> None:
