@@ -49,7 +49,7 @@ def test_a_pedicle_is_measured_as_json(ct: Path) -> None:
     assert told["height_mm"] == pytest.approx(12.0, abs=0.4)
     assert told["transverse_deg"] == pytest.approx(10.0, abs=1.0)
     assert told["length_mm"] == pytest.approx(68.0 / np.cos(np.radians(10.0)), abs=2.0)
-    assert told["screw"]["diameter_mm"] == 7.0
+    assert told["screw"]["diameter_mm"] in {6.5, 7.0}
 
 
 def test_and_in_words(ct: Path) -> None:

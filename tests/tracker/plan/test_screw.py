@@ -123,7 +123,7 @@ def test_where_none_fits_that_is_told_with_numbers() -> None:
     with pytest.raises(PlanError, match=r"4\.0 mm to the nearest wall") as caught:
         propose_screw(shifted(0.0), pedicle(), ScrewCatalogue(diameters_mm=(9.0,), lengths_mm=(40.0,)))
     assert caught.value.code == "NO_SCREW_FITS"
-    with pytest.raises(PlanError, match="CATALOGUE_INVALID|needed one or more"):
+    with pytest.raises(PlanError, match="needed one or more"):
         ScrewCatalogue(diameters_mm=(), lengths_mm=(40.0,))
 
 

@@ -91,10 +91,10 @@ def _numbers(parameters: Array, at: float, half_mm: float) -> Array:
 
 
 def _extent(points: Array, direction: Array) -> float:
-    """From wall to wall (mm) along a direction (2,): the mean of callipers and of the chord through the centre.
+    """From wall to wall (mm) along a direction (2,): the mean of callipers and of the chord by the centre.
 
-    For an ellipse both are the same. A few waves cannot follow a corner: callipers are too wide there, and the
-    chord between the corners too narrow.
+    For an ellipse both are the same. A few waves cannot follow a corner: callipers are too wide there, and
+    the chord between the corners too narrow.
     """
     turned = np.arctan2(points @ [-direction[1], direction[0]], points @ direction)
     order = np.argsort(turned)
