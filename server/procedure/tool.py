@@ -7,7 +7,6 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from server.config import Point, ToolConfig
-from server.errors import SetupOrderError
 from server.live import LiveHub
 from server.procedure.camera import MAIN_CAMERA
 from server.procedure.held import Held
