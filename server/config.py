@@ -152,6 +152,19 @@ class VideoConfig(Section):
     jpeg_quality: Annotated[int, Field(ge=1, le=100)] = 80
 
 
+class PlanConfig(Section):
+    """Planning: which screws can be had, and what stays free around them."""
+
+    screw_diameters_mm: Annotated[
+        list[Annotated[float, Field(gt=0.0, le=20.0)]], Field(min_length=1, max_length=100)
+    ] = [4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0, 7.5, 8.5]
+    screw_lengths_mm: Annotated[
+        list[Annotated[float, Field(gt=0.0, le=150.0)]], Field(min_length=1, max_length=100)
+    ] = [25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0]
+    wall_margin_mm: Annotated[float, Field(ge=0.0, le=10.0)] = 0.5
+    front_margin_mm: Annotated[float, Field(ge=0.0, le=50.0)] = 5.0
+
+
 class Config(Section):
     """All settings. Paths in it are absolute, or relative to the working directory."""
 
@@ -165,4 +178,5 @@ class Config(Section):
     smoothing: SmoothingConfig = SmoothingConfig()
     calibration: CalibrationConfig = CalibrationConfig()
     limits: LimitsConfig = LimitsConfig()
+    plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()

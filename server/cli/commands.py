@@ -12,6 +12,7 @@ from server.cli.accuracy_commands import accuracy, ruler
 from server.cli.board_commands import board_app
 from server.cli.calibration.commands import add_calibration
 from server.cli.marker_commands import marker_app
+from server.cli.plan_commands import plan_app
 from server.cli.tool_commands import pivot, spin, tip_check
 
 BAD_INPUT = 2
@@ -35,6 +36,7 @@ app.command()(spin)
 app.command(name="tip-check")(tip_check)
 
 add_calibration(app)
+app.add_typer(plan_app, name="plan")
 
 
 class Rate(StrEnum):

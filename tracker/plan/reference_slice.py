@@ -126,7 +126,9 @@ def draw_reference(
         for name, shift in (("middle", 0.0), ("left", apart_mm), ("right", -apart_mm))
     )
     paths = tuple(
-        plane.line(one.name, plane.project(one.entry_in_vertebra_mm), plane.project(one.target_in_vertebra_mm))
+        plane.line(
+            one.name, plane.project(one.entry_in_vertebra_mm), plane.project(one.target_in_vertebra_mm)
+        )
         for one in channels
     )
     return ReferenceSlice(slice_index=slice_index, apart_mm=float(apart_mm), lines=lines, paths=paths)

@@ -76,7 +76,9 @@ def _single(kind: Any, value: object, where: str) -> object:  # noqa: ANN401  as
         try:
             return kind(value)
         except ValueError as error:
-            raise _invalid(where, f"is {value!r}, allowed are {', '.join(str(one.value) for one in kind)}") from error
+            raise _invalid(
+                where, f"is {value!r}, allowed are {', '.join(str(one.value) for one in kind)}"
+            ) from error
     if kind is float and isinstance(value, int | float) and not isinstance(value, bool):
         if not np.isfinite(value):
             raise _invalid(where, f"is {value}, needed a finite number")

@@ -57,7 +57,9 @@ def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
         samples = _samples(near, bar, parameters, origin, np.stack([axis, left, up]), half)
         if len(samples.hu) < LEAST_VOXELS:
             break
-        parameters, covariance, residual, done = _solve(near, samples, parameters, _coarse_slopes(bar, axis, left, up, half))
+        parameters, covariance, residual, done = _solve(
+            near, samples, parameters, _coarse_slopes(bar, axis, left, up, half)
+        )
         fitted = FittedBar(
             origin_mm=origin,
             axis=axis,

@@ -112,7 +112,9 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     if canal == body == -expected:
         raise refusals.other_side(side)
     if canal == -expected or (body == -expected and canal == 0):
-        return [f"the {'canal' if canal else 'body'} lies as if this were not the {side} side; check the side"]
+        return [
+            f"the {'canal' if canal else 'body'} lies as if this were not the {side} side; check the side"
+        ]
     return []
 
 

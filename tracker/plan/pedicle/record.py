@@ -95,7 +95,10 @@ def checked_side(side: str) -> Side:
     if side == "right":
         return "right"
     raise InvalidInput(
-        "SIDE_INVALID", f"side is '{side}', allowed are left and right", "Name the patient's side.", {"side": side}
+        "SIDE_INVALID",
+        f"side is '{side}', allowed are left and right",
+        "Name the patient's side.",
+        {"side": side},
     )
 
 

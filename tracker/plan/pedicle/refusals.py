@@ -103,7 +103,11 @@ def refuse_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array
     """Raises PlanError SEED_NOT_IN_PEDICLE where the bar that was found does not hold the click."""
     local = seed - fitted.origin_mm
     along = float(local @ fitted.axis)
-    if -bar.behind_mm - 0.5 <= along <= bar.ahead_mm + 0.5 and abs(along) > fitted.half_mm and bar.holds(seed):
+    if (
+        -bar.behind_mm - 0.5 <= along <= bar.ahead_mm + 0.5
+        and abs(along) > fitted.half_mm
+        and bar.holds(seed)
+    ):
         return
     across = np.array([[local @ fitted.left, local @ fitted.up]])
     place = np.array([np.clip(along / fitted.half_mm, -1.0, 1.0)])

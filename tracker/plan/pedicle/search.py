@@ -117,21 +117,19 @@ def _settled(near: Neighbourhood, first: Start) -> Bar | None:
             return None
         moved = float(np.linalg.norm(bar.centre_mm - start.centre_mm))
         turned = float(np.degrees(np.arccos(np.clip(bar.axis @ start.axis, -1.0, 1.0))))
-        start = Start(
-            centre_mm=bar.centre_mm, axis=bar.axis, first_axis=first.axis, area_mm2=bar.area_mm2
-        )
+        start = Start(centre_mm=bar.centre_mm, axis=bar.axis, first_axis=first.axis, area_mm2=bar.area_mm2)
         if moved < 0.15 and turned < 0.3:
             break
     return bar
 
 
-def _best_start(
-    near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...]
-) -> Start | None:
+def _best_start(near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...]) -> Start | None:
     """Centre and direction of the smallest closed section around the click, of nested ones the outer."""
     directions = forward_directions(side)
     grid = (len(TRANSVERSE_DEG), len(SAGITTAL_DEG))
-    unusual = 0.5 * (np.maximum(_away_from_usual_deg(directions, side) - USUAL_DEG, 0.0) / UNUSUAL_SD_DEG) ** 2
+    unusual = (
+        0.5 * (np.maximum(_away_from_usual_deg(directions, side) - USUAL_DEG, 0.0) / UNUSUAL_SD_DEG) ** 2
+    )
     best: tuple[float, Start] | None = None
     for along_mm in some_mm:
         areas, centres = _largest_around(near, seed_mm, directions, along_mm)
@@ -238,7 +236,9 @@ def _section(near: Neighbourhood, at: Array, axis: Array, like_mm2: float) -> Ou
 
 def _line(sections: Outlines, along: Array, start: Start) -> Bar | None:
     closed = (sections.found_ratio >= LEAST_FOUND_ALONG) & (sections.gap_deg <= MOST_GAP_DEG)
-    area = np.where(closed & (sections.area_mm2 > COLLAPSED * start.area_mm2 * 0.6), sections.area_mm2, np.inf)
+    area = np.where(
+        closed & (sections.area_mm2 > COLLAPSED * start.area_mm2 * 0.6), sections.area_mm2, np.inf
+    )
     if not np.isfinite(area).any():
         return None
     # The narrowest section that is met going downhill from the start.

@@ -42,7 +42,12 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
     at = narrowest(fitted)
     numbers = _numbers(fitted.parameters, at, fitted.half_mm)
     spread = _spread(fitted, at)
-    centre = fitted.origin_mm + at * fitted.half_mm * fitted.axis + numbers[2] * fitted.left + numbers[3] * fitted.up
+    centre = (
+        fitted.origin_mm
+        + at * fitted.half_mm * fitted.axis
+        + numbers[2] * fitted.left
+        + numbers[3] * fitted.up
+    )
     axis = fitted.axis + numbers[4] * fitted.left + numbers[5] * fitted.up
     points = tube.outline(fitted.parameters, at)
     outline = (

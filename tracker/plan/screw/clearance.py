@@ -70,7 +70,9 @@ def clearance_of(
     gaps = wall_gaps_mm(channel, measure) - 0.5 * diameter_mm
     towards = _towards(measure)
     # The wall of a side is what lies within 45 degrees of its direction.
-    by_wall = [float(gaps[towards == n].min()) if (towards == n).any() else float(gaps.min()) for n in range(4)]
+    by_wall = [
+        float(gaps[towards == n].min()) if (towards == n).any() else float(gaps.min()) for n in range(4)
+    ]
     breach = float(max(-gaps.min(), 0.0))
     end = channel.entry_in_vertebra_mm + length_mm * channel.axis_in_vertebra
     ahead = float((measure.front_lps_mm - end) @ measure.axis_lps)
@@ -96,7 +98,9 @@ def wall_gaps_mm(channel: Channel, measure: PedicleMeasure) -> Array:
         centre = measure.isthmus_lps_mm + along * measure.axis_lps
         wall = measure.outline_lps_mm + along * measure.axis_lps
         slope = float(channel.axis_in_vertebra @ measure.axis_lps)
-        reach = float((centre - channel.entry_in_vertebra_mm) @ measure.axis_lps) / (slope if abs(slope) > 0.1 else 0.1)
+        reach = float((centre - channel.entry_in_vertebra_mm) @ measure.axis_lps) / (
+            slope if abs(slope) > 0.1 else 0.1
+        )
         crossing = channel.entry_in_vertebra_mm + reach * channel.axis_in_vertebra
         normal = _outward_normals(wall, measure)
         gaps.append(((wall - crossing) * normal).sum(axis=1))
