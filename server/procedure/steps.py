@@ -8,6 +8,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
+from server.procedure.ct import CtStep, OpenedCt
 from server.procedure.in_use import CaseInUse
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
@@ -22,10 +23,14 @@ class Steps:
     Attributes:
         camera: calibrates the camera.
         tool: calibrates tools.
+        ct: takes a CT in.
+        opened_ct: the CT that the others look at and plan on.
     """
 
     camera: CameraStep
     tool: ToolStep
+    ct: CtStep
+    opened_ct: OpenedCt
 
     @classmethod
     def of(
@@ -68,6 +73,8 @@ class Steps:
                 side_mm_from_marker=side_mm_from_marker,
                 tools=config.tools,
             ),
+            ct=CtStep(store=store, jobs=jobs),
+            opened_ct=OpenedCt(store),
         )
 
     def close(self) -> None:

@@ -1,0 +1,102 @@
+"""The CT of the open case: its voxels mapped from the disk, not read into memory."""
+
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from server.errors import SetupOrderError
+from server.procedure.ct.step import MAIN_CT
+from server.procedure.opened import opened_case
+from server.store import CaseStore, Document, DocumentKind, StoredFile
+from tracker.errors import InvalidInput, PlanError
+from tracker.plan import Volume
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CtInUse:
+    """The CT that is looked at and planned on.
+
+    Attributes:
+        document: as it is stored.
+        file: its voxels.
+        volume: the same, mapped; its axes in the order left-right, front-back, feet-head.
+    """
+
+    document: Document
+    file: StoredFile
+    volume: Volume
+
+
+class OpenedCt:
+    """Gives the CT of the open case; the last one is kept mapped. Safe to use from any thread."""
+
+    def __init__(self, store: CaseStore) -> None:
+        self._store = store
+        self._lock = threading.Lock()
+        self._in_use: CtInUse | None = None
+
+    def current(self) -> CtInUse:
+        """The newest CT of the open case.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, CT_MISSING.
+            StoreError: FILE_DAMAGED.
+            InvalidInput: CT_DOCUMENT_INVALID.
+        """
+        case = opened_case(self._store)
+        document = self._store.latest(case.id, DocumentKind.CT, MAIN_CT)
+        if document is None:
+            raise SetupOrderError(
+                "CT_MISSING",
+                "the open case has no CT",
+                "Send one with POST /api/ct.",
+                {"case_id": case.id},
+            )
+        with self._lock:
+            if self._in_use is None or self._in_use.document.id != document.id:
+                self._in_use = self._mapped(document)
+            return self._in_use
+
+    def _mapped(self, document: Document) -> CtInUse:
+        if len(document.files) != 1:
+            raise _invalid(document, f"it has {len(document.files)} files, needed 1")
+        file = self._store.file(document.case_id, document.files[0])
+        return CtInUse(document=document, file=file, volume=mapped_volume(file, document))
+
+
+def mapped_volume(file: StoredFile, document: Document) -> Volume:
+    """The voxels of a CT's file with the place that its document tells.
+
+    Raises:
+        InvalidInput: CT_DOCUMENT_INVALID.
+    """
+    return volume_from(str(file.path), document.content, title=document.title)
+
+
+def volume_from(path: str, content: Mapping[str, object], *, title: str = "the CT") -> Volume:
+    """The same where the store is not at hand, as in a job.
+
+    Raises:
+        InvalidInput: CT_DOCUMENT_INVALID.
+    """
+    try:
+        hu = np.load(path, mmap_mode="r")
+        affine = np.array(content["lps_from_ijk"], dtype=np.float64)
+        return Volume(hu=hu, lps_from_ijk=affine).in_patient_order()
+    except (PlanError, OSError, ValueError, TypeError, KeyError) as error:
+        raise InvalidInput(
+            "CT_DOCUMENT_INVALID",
+            f"{title} cannot be used: {error}",
+            "Send the CT again.",
+        ) from error
+
+
+def _invalid(document: Document, why: str) -> InvalidInput:
+    return InvalidInput(
+        "CT_DOCUMENT_INVALID",
+        f"{document.title} cannot be used: {why}",
+        "Send the CT again.",
+        {"document_id": document.id},
+    )
