@@ -135,6 +135,8 @@ class CalibrationConfig(Section):
 
     most_rms_px: Annotated[float, Field(gt=0.0, le=100.0)] = 1.0
     """Root mean square distance between seen and expected points of the board."""
+    most_error_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.5
+    """Of a known displacement, in an accuracy check."""
 
 
 class LimitsConfig(Section):

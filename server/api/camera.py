@@ -7,17 +7,21 @@ from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 
 from server.api.camera_messages import (
+    AccuracyRequest,
+    BoardFileRequest,
     CalibrationRequest,
     CollectionMessage,
     CollectionRequest,
     board_of,
     collection_message,
 )
+from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.uploads import received
+from server.printing import board_sheet, pdf_from_sheet, svg_from_sheet
 from server.procedure.camera import CameraStep
-from server.store import Home
+from server.store import Current, Home
 from tracker.errors import InvalidInput
 
 # A picture that its file says to turn must not be: the lens was not turned.
@@ -30,7 +34,24 @@ def camera_router(step: CameraStep, home: Home) -> APIRouter:
     """Everything under `/api/camera`."""
     router = APIRouter(prefix="/api/camera", tags=["camera"])
     _add_collection(router, step, home)
+    _add_calibration(router, step)
 
+    @router.post(
+        "/board",
+        response_class=Response,
+        responses={200: {"content": {"application/pdf": {}, "image/svg+xml": {}}}, **refusals(422)},
+    )
+    def board(asked: BoardFileRequest) -> Response:
+        """A board as a page to print at 100 %, with rulers to check the printer."""
+        sheet = board_sheet(board_of(asked.board), paper=asked.paper)
+        if asked.file == "svg":
+            return Response(svg_from_sheet(sheet), media_type="image/svg+xml")
+        return Response(pdf_from_sheet(sheet), media_type="application/pdf")
+
+    return router
+
+
+def _add_calibration(router: APIRouter, step: CameraStep) -> None:
     @router.post("/calibration", status_code=202, responses=refusals(409, 422, 503))
     def calibrate(asked: CalibrationRequest) -> JobMessage:
         """Fit the camera to the collected views; what passes the gate is kept in the open case.
@@ -40,7 +61,23 @@ def camera_router(step: CameraStep, home: Home) -> APIRouter:
         """
         return job_message(step.calibrate(made_by=asked.made_by))
 
-    return router
+    @router.get("/calibration", responses=refusals(409, 503))
+    def calibration() -> DocumentMessage:
+        """The calibration of the open case with its report; refused where there is none that holds.
+
+        Its pictures (residuals, coverage) are the files that `plots` names: `/api/cases/{id}/files/{file}`.
+        """
+        return document_message(step.kept(), Current())
+
+    @router.post("/accuracy", status_code=201, responses=refusals(409, 422, 503, 507))
+    def accuracy(asked: AccuracyRequest) -> DocumentMessage:
+        """Measure known displacements on a board that is in the picture now, as in the paper's Table 2.
+
+        The place of the board is fitted to other points than those that are measured. What came out is kept,
+        also when it does not pass.
+        """
+        document = step.check_accuracy(board_of(asked.board), made_by=asked.made_by)
+        return document_message(document, Current())
 
 
 def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:

@@ -90,6 +90,21 @@ class CollectionMessage(Message):
     trouble: TroubleMessage | None
 
 
+class BoardFileRequest(Message):
+    """A board to be printed."""
+
+    board: BoardMessage
+    paper: Literal["A4", "A3", "letter"] = "A4"
+    file: Literal["pdf", "svg"] = "pdf"
+
+
+class AccuracyRequest(Message):
+    """A board that is in the picture now, and who checks."""
+
+    board: BoardMessage
+    made_by: Annotated[str, Field(min_length=1, max_length=200)]
+
+
 class CalibrationRequest(Message):
     """Who calibrates."""
 

@@ -4,7 +4,18 @@ from typing import Annotated
 
 from pydantic import Field
 
-from server.store import Case, Current, Damage, DocumentKind, Entry, Heading, Standing, StoredFile, Withdrawal
+from server.store import (
+    Case,
+    Current,
+    Damage,
+    Document,
+    DocumentKind,
+    Entry,
+    Heading,
+    Standing,
+    StoredFile,
+    Withdrawal,
+)
 from server.stream.messages import Message
 
 Words = Annotated[str, Field(min_length=1, max_length=1000)]
@@ -151,6 +162,11 @@ def heading_message(heading: Heading, standing: Standing) -> HeadingMessage:
         current=isinstance(standing, Current),
         out_of_date=None if isinstance(standing, Current) else standing.reason,
     )
+
+
+def document_message(document: Document, standing: Standing) -> DocumentMessage:
+    """A document with its content, as it is told."""
+    return DocumentMessage(heading=heading_message(document, standing), content=dict(document.content))
 
 
 def documents_message(entries: tuple[Entry, ...]) -> DocumentsMessage:

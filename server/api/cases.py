@@ -16,9 +16,9 @@ from server.api.case_messages import (
     VerificationMessage,
     WithdrawMessage,
     case_message,
+    document_message,
     documents_message,
     files_message,
-    heading_message,
     verification_message,
 )
 from server.api.errors import refusals
@@ -136,17 +136,13 @@ def _add_documents(router: APIRouter, store: CaseStore) -> None:
     def document(case_id: str, document_id: str) -> DocumentMessage:
         """One version of a document with its content."""
         found = store.document(case_id, document_id)
-        return DocumentMessage(
-            heading=heading_message(found, store.standing(found)), content=dict(found.content)
-        )
+        return document_message(found, store.standing(found))
 
     @router.post("/{case_id}/documents/{document_id}/withdrawal", responses=refusals(404, 422, 503, 507))
     def withdraw(case_id: str, document_id: str, asked: WithdrawMessage) -> DocumentMessage:
         """Say that a document no longer holds; what stands on it is out of date from then on."""
         found = store.withdraw(store.document(case_id, document_id), by=asked.by, reason=asked.reason)
-        return DocumentMessage(
-            heading=heading_message(found, store.standing(found)), content=dict(found.content)
-        )
+        return document_message(found, store.standing(found))
 
 
 def _add_files(router: APIRouter, store: CaseStore) -> None:

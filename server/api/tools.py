@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Response
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, heading_message
+from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import refusals
 from server.config import Name, Point
 from server.live import Trouble
@@ -109,14 +109,14 @@ def tools_router(step: ToolStep) -> APIRouter:
 
     @router.post("/collection/conclusion", status_code=201, responses=refusals(409, 422, 503, 507))
     def conclude(asked: ConclusionRequest) -> DocumentMessage:
-        """Keep what the poses give in the open case, if it passes its gate; it is used from the next image."""
+        """Keep what the poses give in the open case, if it passes its gate; it is used from then on."""
         document = step.conclude(
             made_by=asked.made_by,
             radius_mm=asked.radius_mm,
             length_mm=asked.length_mm,
             axis_in_marker=asked.axis_in_marker,
         )
-        return DocumentMessage(heading=heading_message(document, Current()), content=dict(document.content))
+        return document_message(document, Current())
 
     return router
 

@@ -1,4 +1,4 @@
-"""The command line: `coaxial run`, `track`, `marker`, `board`, `accuracy`, `ruler`.
+"""The command line: what can be typed after `coaxial`, a file or room for each group of commands.
 
 Nothing heavy is imported until a command needs it, so that `coaxial --help` answers at once.
 """

@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 import typer
 
+from server.calibration import ROW_COLUMNS, accuracy_rows, accuracy_values
 from server.camera_file import load_camera_file
-from server.cli.calibration.asked import BoardOptions, boards_of
+from server.cli.board_names import BoardOptions
+from server.cli.board_options import boards_of
 from server.cli.point_rows import read_columns
 from tracker.camera.accuracy import (
     AccuracyReport,
@@ -24,13 +26,14 @@ from tracker.camera.displacements import Displacements
 from tracker.camera.ruler import Ruler, angle_deg, axial_distance_mm, distances, pixels_per_mm
 from tracker.errors import InvalidInput
 
-ROW_COLUMNS = ("x1_mm", "y1_mm", "x2_mm", "y2_mm", "u1_px", "v1_px", "u2_px", "v2_px")
 PLANE_COLUMNS = ("x_mm", "y_mm", "u_px", "v_px")
 HEADINGS = (
     *("X1 mm", "Y1 mm", "X2 mm", "Y2 mm", "Rd mm", "X1 px", "Y1 px", "X2 px", "Y2 px"),
     *("Pd px", "Pd/Rd", "measured", "error mm"),
 )
 FAILED = 1
+# A picture that its file says to turn must not be: the lens was not turned.
+AS_THE_CAMERA_MADE_IT = cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION
 
 
 def check_rows(rows: Path | None, *, camera: Path, plane: Path | None, limit_mm: float, as_json: bool) -> int:
@@ -81,7 +84,7 @@ def check_on_board(image: Path, given: BoardOptions, *, camera: Path, limit_mm: 
 
 def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
     try:
-        decoded = cv2.imdecode(np.frombuffer(path.read_bytes(), np.uint8), cv2.IMREAD_GRAYSCALE)
+        decoded = cv2.imdecode(np.frombuffer(path.read_bytes(), np.uint8), AS_THE_CAMERA_MADE_IT)
     except (OSError, cv2.error):
         decoded = None
     if decoded is None:
@@ -104,7 +107,7 @@ def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
 
 def _told(report: AccuracyReport, limit_mm: float, how: str, *, held_out_by: str, as_json: bool) -> int:
     if as_json:
-        typer.echo(json.dumps(_document(report, limit_mm) | {"held_out_by": held_out_by}))
+        typer.echo(json.dumps(accuracy_values(report, limit_mm=limit_mm) | {"held_out_by": held_out_by}))
     else:
         typer.echo(_table(report))
         typer.echo(
@@ -150,7 +153,7 @@ def measure_with_ruler(
         return 0
     report = accuracy_of_ruler(ruler, displacements)
     if as_json:
-        typer.echo(json.dumps(geometry | _document(report, limit_mm)))
+        typer.echo(json.dumps(geometry | accuracy_values(report, limit_mm=limit_mm)))
     else:
         typer.echo(f"{_table(report)}\n{sentence}.\n{_verdict(report, limit_mm)}")
     return 0 if report.maximum_error_mm <= limit_mm else FAILED
@@ -187,31 +190,12 @@ def _displacements(path: Path) -> Displacements:
     )
 
 
-def _rows(report: AccuracyReport) -> list[list[float]]:
-    of = report.displacements
-    return [
-        [*first_mm, *second_mm, known, *first_px, *second_px, seen, ratio, measured, error]
-        for first_mm, second_mm, known, first_px, second_px, seen, ratio, measured, error in zip(
-            of.first_mm.tolist(),
-            of.second_mm.tolist(),
-            report.known_mm.tolist(),
-            of.first_px.tolist(),
-            of.second_px.tolist(),
-            report.pixel_distances_px.tolist(),
-            report.pixels_per_mm.tolist(),
-            report.measured_mm.tolist(),
-            report.errors_mm.tolist(),
-            strict=True,
-        )
-    ]
-
-
 def _table(report: AccuracyReport) -> str:
     digits = (1, 1, 1, 1, 2, 1, 1, 1, 1, 1, 3, 2, 2)
     lines = ["  ".join(f"{heading:>8}" for heading in HEADINGS)]
     lines += [
         "  ".join(f"{value:8.{places}f}" for value, places in zip(row, digits, strict=True))
-        for row in _rows(report)
+        for row in accuracy_rows(report)
     ]
     return "\n".join(lines)
 
@@ -222,18 +206,3 @@ def _verdict(report: AccuracyReport, limit_mm: float) -> str:
         f"Largest error {report.maximum_error_mm:.2f} mm, RMS {report.rms_error_mm:.2f} mm over "
         f"{report.errors_mm.size} displacements: {words} the limit of {limit_mm:g} mm."
     )
-
-
-def _document(report: AccuracyReport, limit_mm: float) -> dict[str, Any]:
-    seen = ("pixel_distance_px", "pixels_per_mm", "measured_mm", "error_mm")
-    names = (*ROW_COLUMNS[:4], "known_mm", *ROW_COLUMNS[4:], *seen)
-    return {
-        "passed": report.maximum_error_mm <= limit_mm,
-        "limit_mm": limit_mm,
-        "maximum_error_mm": report.maximum_error_mm,
-        "rms_error_mm": report.rms_error_mm,
-        "plane_distance_mm": report.plane_distance_mm,
-        "fit_points": report.fit_points,
-        "fit_rms_px": report.fit_rms_px,
-        "rows": [dict(zip(names, row, strict=True)) for row in _rows(report)],
-    }

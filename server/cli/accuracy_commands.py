@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from server.cli.calibration.asked import BoardOptions, Layout, Pattern
+from server.cli.board_names import BoardOptions, Layout, Pattern
 from server.cli.calibration.commands import (
     DictionaryOption,
     FiducialsOption,

@@ -1,6 +1,5 @@
 """`coaxial board`: a calibration board as a file to print."""
 
-import re
 from pathlib import Path
 
 import typer
@@ -10,42 +9,6 @@ from server.printing import board_sheet, pdf_from_sheet, svg_from_sheet
 from server.printing.board_sheet import description_of
 from tracker.camera.boards import Board
 from tracker.errors import InvalidInput
-
-SIZE = re.compile(r"\s*(\d{1,4})\s*[xX×,]\s*(\d{1,4})\s*")
-
-
-def size_of(text: str) -> tuple[int, int]:
-    """Columns and rows as a person types them: "14x16".
-
-    Raises:
-        InvalidInput: BOARD_SIZE_INVALID.
-    """
-    match = SIZE.fullmatch(text)
-    if match is None:
-        raise InvalidInput(
-            "BOARD_SIZE_INVALID",
-            f"'{text}' is no size of a board",
-            "Give columns x rows with --size, as in --size 14x16.",
-            {"size": text},
-        )
-    return int(match[1]), int(match[2])
-
-
-def indexes_of(text: str) -> tuple[int, ...]:
-    """Indexes with commas between.
-
-    Raises:
-        InvalidInput: BOARD_INDEXES_INVALID.
-    """
-    words = [word for word in re.split(r"[\s,]+", text) if word]
-    if not all(word.isascii() and word.isdigit() for word in words):
-        raise InvalidInput(
-            "BOARD_INDEXES_INVALID",
-            f"'{text}' are no indexes of dots",
-            "Give whole numbers from 0 with --fiducials, row by row, as in --fiducials 69,74,149,154.",
-            {"fiducials": text},
-        )
-    return tuple(int(word) for word in words)
 
 
 def write_board(board: Board, output: Path, *, paper: str, dot_mm: float | None = None) -> None:

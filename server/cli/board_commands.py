@@ -72,10 +72,11 @@ def dots(
     paper: PaperOption = Paper.A4,
 ) -> None:
     """A grid of dots."""
-    from server.cli.board import indexes_of, size_of, write_board  # noqa: PLC0415  loaded when needed
+    from server.cli.board import write_board  # noqa: PLC0415  loaded when needed
+    from server.cli.board_options import indexes_of, size_of  # noqa: PLC0415
     from tracker.camera.boards import DotBoard, DotLayout  # noqa: PLC0415
 
-    columns, rows = size_of(size)
+    columns, rows = size_of("--size", size)
     board = DotBoard(
         columns=columns,
         rows=rows,
@@ -94,10 +95,11 @@ def checkerboard(
     paper: PaperOption = Paper.A4,
 ) -> None:
     """A checkerboard, counted by its inner corners."""
-    from server.cli.board import size_of, write_board  # noqa: PLC0415  loaded when needed
+    from server.cli.board import write_board  # noqa: PLC0415  loaded when needed
+    from server.cli.board_options import size_of  # noqa: PLC0415
     from tracker.camera.boards import CheckerBoard  # noqa: PLC0415
 
-    columns, rows = size_of(size)
+    columns, rows = size_of("--size", size)
     write_board(CheckerBoard(columns=columns, rows=rows, square_mm=square_mm), output, paper=paper.value)
 
 
@@ -118,10 +120,11 @@ def charuco(
     paper: PaperOption = Paper.A4,
 ) -> None:
     """A checkerboard with an ArUco marker in each white square."""
-    from server.cli.board import size_of, write_board  # noqa: PLC0415  loaded when needed
+    from server.cli.board import write_board  # noqa: PLC0415  loaded when needed
+    from server.cli.board_options import size_of  # noqa: PLC0415
     from tracker.camera.boards import CharucoBoard, CharucoLayout  # noqa: PLC0415
 
-    columns, rows = size_of(size)
+    columns, rows = size_of("--size", size)
     board = CharucoBoard(
         columns=columns,
         rows=rows,

@@ -28,14 +28,12 @@ app = typer.Typer(
 )
 app.add_typer(marker_app, name="marker")
 app.add_typer(board_app, name="board")
+add_calibration(app)
 app.command()(accuracy)
 app.command()(ruler)
-
 app.command()(pivot)
 app.command()(spin)
 app.command(name="tip-check")(tip_check)
-
-add_calibration(app)
 app.add_typer(plan_app, name="plan")
 
 

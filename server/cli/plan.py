@@ -130,9 +130,9 @@ def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[str]
         f"{measure.side.capitalize()} pedicle, at its isthmus ({x:.1f}, {y:.1f}, {z:.1f} mm LPS)",
         f"  width       {measure.width_mm:6.2f} mm   (sd {sd.width_mm:.2f})",
         f"  height      {measure.height_mm:6.2f} mm   (sd {sd.height_mm:.2f})",
-        f"  transverse  {measure.transverse_deg:6.1f} deg  (sd {sd.transverse_deg:.1f}), positive to the middle",
-        f"  sagittal    {measure.sagittal_deg:6.1f} deg  (sd {sd.sagittal_deg:.1f}), positive to the head",
-        f"  length      {measure.length_mm:6.1f} mm   (sd {sd.length_mm:.1f}), from the entry to the front wall",
+        f"  transverse  {measure.transverse_deg:6.1f} deg  (sd {sd.transverse_deg:.1f}), + to the middle",
+        f"  sagittal    {measure.sagittal_deg:6.1f} deg  (sd {sd.sagittal_deg:.1f}), + to the head",
+        f"  length      {measure.length_mm:6.1f} mm   (sd {sd.length_mm:.1f}), entry to front wall",
         "  Angles stand against the patient's axes (LPS), going forwards.",
     ]
     if screw is not None:
@@ -140,7 +140,8 @@ def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[str]
         lines += [
             f"Screw {screw.diameter_mm:g} x {screw.length_mm:g} mm: grade {room.grade.value}",
             f"  clearance   medial {room.medial_mm:.1f}, lateral {room.lateral_mm:.1f}, "
-            f"superior {room.superior_mm:.1f}, inferior {room.inferior_mm:.1f}, front {room.anterior_mm:.1f} mm",
+            f"superior {room.superior_mm:.1f}, inferior {room.inferior_mm:.1f}, "
+            f"front {room.anterior_mm:.1f} mm",
             f"  bone        {screw.bone.mean_hu:.0f} HU along it, least {screw.bone.least_hu:.0f} HU",
             f"  tolerance   {left.most_offset_mm:.1f} mm at the entry or {left.most_angle_deg:.1f} deg, "
             f"or {left.both_mm:.1f} mm with {left.both_deg:.1f} deg",

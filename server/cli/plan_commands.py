@@ -24,7 +24,7 @@ def measure(
     seed_lps_mm: Annotated[
         str,
         typer.Option(
-            help="A point in the pedicle as x,y,z in mm: x to the patient's left, y backwards, z to the head.",
+            help="A point in the pedicle, x,y,z in mm: x to the patient's left, y backwards, z up.",
             metavar="X,Y,Z",
         ),
     ],

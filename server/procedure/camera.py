@@ -2,20 +2,25 @@
 
 import threading
 from collections.abc import Mapping
+from typing import Any
 
-from server.calibration_report import report_values, view_values
-from server.errors import SetupOrderError
+from server.calibration import accuracy_values, coverage_svg, report_values, residuals_svg, view_values
+from server.config import CalibrationConfig
+from server.errors import CaptureError, SetupOrderError
 from server.jobs import Job, Jobs, Report
 from server.live import LiveHub
 from server.procedure.board_collection import BoardCollection, TakenView
 from server.procedure.opened import opened_case
-from server.store import CaseStore, Document, DocumentKind
+from server.store import Case, CaseStore, Document, DocumentKind
 from tracker.camera import Board, CameraModel
+from tracker.camera.accuracy import accuracy_of_grid
 from tracker.camera.calibration import calibrate
-from tracker.errors import CalibrationError
+from tracker.camera.detection import BoardNotFound, find_board
+from tracker.errors import CalibrationError, InvalidInput
 
 # There is one camera yet; its document has the name that it has in addresses.
 MAIN_CAMERA = "main"
+ACCURACY = "accuracy of the camera"
 
 
 class CameraStep:
@@ -25,17 +30,17 @@ class CameraStep:
         hub: the live images.
         store: where the result is kept.
         jobs: where it is computed.
-        most_rms_px: the gate.
+        gate: what calibration and accuracy check must reach.
         source: the camera's source in words, kept with the result.
     """
 
     def __init__(
-        self, *, hub: LiveHub, store: CaseStore, jobs: Jobs, most_rms_px: float, source: str
+        self, *, hub: LiveHub, store: CaseStore, jobs: Jobs, gate: CalibrationConfig, source: str
     ) -> None:
         self._hub = hub
         self._store = store
         self._jobs = jobs
-        self._most_rms_px = most_rms_px
+        self._gate = gate
         self._source = source
         self._lock = threading.Lock()
         self._collection: BoardCollection | None = None
@@ -87,19 +92,9 @@ class CameraStep:
                 "Hold the board before the camera until views are taken: at least 3, better 12 or more.",
             )
 
-        def keep(values: object) -> object:
-            if not isinstance(values, Mapping):
-                raise TypeError(f"a calibration gave {type(values).__name__}")
-            self._refuse_above_gate(values)
-            camera = {key: values[key] for key in ("matrix", "distortion", "size_wh_px")}
-            document = self._store.put(
-                case.id,
-                DocumentKind.CAMERA,
-                MAIN_CAMERA,
-                {"camera": {**camera, "source": self._source}, "report": dict(values)},
-                made_by=made_by,
-            )
-            return {"document_id": document.id, "version": document.version, **values}
+        def keep(values: Any) -> object:  # noqa: ANN401  what JSON made of the answer of `calibrate_views`
+            document = self._keep(case, values["report"], values["plots"], made_by)
+            return {"document_id": document.id, "version": document.version, **values["report"]}
 
         return self._jobs.start(
             "calibrating the camera",
@@ -108,24 +103,91 @@ class CameraStep:
             conclude=keep,
         )
 
-    def _refuse_above_gate(self, values: Mapping[str, object]) -> None:
-        rms_px = values["rms_px"]
-        if not (isinstance(rms_px, float) and rms_px <= self._most_rms_px):
+    def check_accuracy(self, board: Board, *, made_by: str) -> Document:
+        """Measure known displacements on a board in the newest image, and keep what came out.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN.
+            OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE, the camera has to be calibrated first.
+            CaptureError: NO_PICTURE.
+            InvalidInput: BOARD_NOT_FOUND, or as `accuracy_of_grid`.
+            CalibrationError: ACCURACY_PLANE_UNKNOWN.
+        """
+        case = opened_case(self._store)
+        document = self._store.current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
+        camera = kept_camera(document, source=self._source)
+        newest = self._hub.newest
+        if newest is None or newest.image is None:
+            raise CaptureError(
+                "NO_PICTURE",
+                "there is no picture to measure in",
+                "Wait until the video runs, with the board in it, and try again.",
+            )
+        seen = find_board(newest.image, board)
+        if isinstance(seen, BoardNotFound):
+            raise InvalidInput(
+                "BOARD_NOT_FOUND",
+                f"the board is not found in the picture: {seen.sentence}",
+                "Hold the board still, sharp and whole, and try again.",
+                {"reason": seen.reason.value},
+            )
+        report = accuracy_of_grid(camera, seen.object_points_mm[:, :2], seen.image_points_px)
+        return self._store.put(
+            case.id,
+            DocumentKind.CHECK,
+            ACCURACY,
+            accuracy_values(report, limit_mm=self._gate.most_error_mm),
+            made_by=made_by,
+            stands_on=[document.id],
+        )
+
+    def kept(self) -> Document:
+        """The calibration of the open case.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN.
+            OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE.
+        """
+        return self._store.current(opened_case(self._store).id, DocumentKind.CAMERA, MAIN_CAMERA)
+
+    def _keep(
+        self, case: Case, report: Mapping[str, Any], plots: Mapping[str, str], made_by: str
+    ) -> Document:
+        """Keep a calibration that passes its gate, with its pictures."""
+        rms_px = float(report["rms_px"])
+        if not rms_px <= self._gate.most_rms_px:
             raise CalibrationError(
                 "CALIBRATION_ABOVE_GATE",
-                f"points lie off by {rms_px} px RMS, allowed {self._most_rms_px:g} px; nothing was kept",
+                f"points lie off by {rms_px} px RMS, allowed {self._gate.most_rms_px:g} px; nothing was kept",
                 "Take sharp views of a flat, stiff board, or look at the report for views that do not fit.",
-                {"rms_px": rms_px, "most_rms_px": self._most_rms_px},
+                {"rms_px": rms_px, "most_rms_px": self._gate.most_rms_px},
             )
+        files = {}
+        for name, picture in plots.items():
+            with self._store.new_file(case.id, ".svg") as new:
+                new.path.write_text(picture, encoding="utf-8")
+            files[name] = new.stored.id
+        camera = {key: report[key] for key in ("matrix", "distortion", "size_wh_px")}
+        return self._store.put(
+            case.id,
+            DocumentKind.CAMERA,
+            MAIN_CAMERA,
+            {"camera": {**camera, "source": self._source}, "report": dict(report), "plots": files},
+            made_by=made_by,
+            files=list(files.values()),
+        )
 
 
 def calibrate_views(
     report: Report, *, taken: tuple[TakenView, ...], size_wh_px: tuple[int, int]
 ) -> dict[str, object]:
-    """The work itself, in a process of its own: the camera's values with its report."""
+    """The work itself, in a process of its own: the camera's values with its report, and its pictures."""
     report(0.1, f"fitting the camera to {len(taken)} views")
     found = calibrate([one.view for one in taken], size_wh_px=size_wh_px, names=[one.name for one in taken])
-    return {**report_values(found), "views": [view_values(view) for view in found.views]}
+    return {
+        "report": {**report_values(found), "views": [view_values(view) for view in found.views]},
+        "plots": {"residuals": residuals_svg(found), "coverage": coverage_svg(found)},
+    }
 
 
 def kept_camera(document: Document, *, source: str) -> CameraModel:

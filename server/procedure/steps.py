@@ -63,7 +63,7 @@ class Steps:
                 hub=hub,
                 store=store,
                 jobs=jobs,
-                most_rms_px=config.calibration.most_rms_px,
+                gate=config.calibration,
                 source=source,
             ),
             tool=ToolStep(

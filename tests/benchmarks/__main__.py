@@ -1,6 +1,6 @@
 """Benchmarks: how true and how fast the tracker is beside its peers and the bound, as Markdown tables.
 
-python -m tests.benchmarks [limits | rehearsal | overlay | server | tools | ct] [--write]
+python -m tests.benchmarks [SECTION] [--write], the sections being those of `sections.py`: limits, rehearsal ...
 """
 
 import argparse
@@ -15,6 +15,9 @@ from tests.benchmarks.measured import Measured
 from tests.benchmarks.readme import write_section
 from tests.benchmarks.sections import SECTIONS
 from tracker.errors import NavigationError
+
+# Sections whose tables say themselves what was measured.
+ALONE = dict.fromkeys(("calibration", "ct", "pedicles"), "")
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -42,7 +45,7 @@ def main(arguments: list[str] | None = None) -> None:
         except NavigationError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(2)
-        said = {"limits": asked.said_of_limits, "tools": asked.said_of_tools, "ct": ""}.get(
+        said = {"limits": asked.said_of_limits, "tools": asked.said_of_tools, **ALONE}.get(
             name, asked.said_of_theatres
         )
         content = "\n".join([f"{machine_line()} {said}\n", *(table.markdown for table in measured.tables)])

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from tests.benchmarks import accuracy, live, timing
 from tests.benchmarks.asked import Asked
+from tests.benchmarks.calibration.coverage import measure_calibration
 from tests.benchmarks.ct_reading import measure_ct_reading
 from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import condition_tables
@@ -14,6 +15,7 @@ from tests.benchmarks.limits.run import measure, one_thread
 from tests.benchmarks.measured import Measured
 from tests.benchmarks.offline import Offline, measure_offline, times_s
 from tests.benchmarks.overlay import measure_overlay
+from tests.benchmarks.pedicles import measure_pedicles
 from tests.benchmarks.running_server import running_server
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.tables import Table
@@ -124,6 +126,11 @@ def measure_ct(_asked: Asked) -> Measured:
     return Measured(tables=measure_ct_reading())
 
 
+def measure_phantoms(_asked: Asked) -> Measured:
+    """Pedicles of CT phantoms against their truth."""
+    return measure_pedicles()
+
+
 SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "limits": measure_limits,
     "rehearsal": measure_rehearsal,
@@ -131,4 +138,6 @@ SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "server": measure_server,
     "tools": measure_tools,
     "ct": measure_ct,
+    "calibration": measure_calibration,
+    "pedicles": measure_phantoms,
 }

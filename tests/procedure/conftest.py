@@ -1,4 +1,4 @@
-"""A server with a store, jobs and the steps of the set-up, and a rehearsal whose images a test shows to it."""
+"""A server with a store, jobs and the steps of the set-up, and images that a test shows to it."""
 
 import time
 from collections.abc import Callable, Iterator

@@ -65,10 +65,40 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
     np.testing.assert_allclose(used.matrix, report["matrix"])
     corner = np.array([[8.0, 8.0], [950.0, 530.0]])
     assert np.abs(used.normalised_from_px(corner) - truth.normalised_from_px(corner)).max() < 1.5e-3
-    documents = server.ask("GET", f"/api/cases/{case_id}/documents", 200)["documents"]
-    assert [(one["kind"], one["name"], one["made_by"], one["current"]) for one in documents] == [
-        ("camera", "main", "ito", True)
-    ]
+    kept = server.ask("GET", "/api/camera/calibration", 200)
+    heading = kept["heading"]
+    assert (heading["kind"], heading["name"], heading["made_by"], heading["version"]) == (
+        "camera",
+        "main",
+        "ito",
+        1,
+    )
+    for picture in kept["content"]["plots"].values():
+        svg = server.door.get(f"/api/cases/{case_id}/files/{picture}")
+        assert svg.content.startswith(b"<svg")
+    check_accuracy(server, images[0])
+
+
+def check_accuracy(server: Server, image: np.ndarray) -> None:
+    """Known displacements on a board are measured in the picture of now."""
+    asked = {"board": DOTS, "made_by": "ito"}
+    assert server.ask("POST", "/api/camera/accuracy", 503, json=asked)["code"] == "NO_PICTURE"
+    server.show(at_s=0.0, image=np.full_like(image, 90))
+    assert server.ask("POST", "/api/camera/accuracy", 422, json=asked)["code"] == "BOARD_NOT_FOUND"
+    server.show(at_s=1.0, image=image)
+    check = server.ask("POST", "/api/camera/accuracy", 201, json=asked)["content"]
+    assert check["passed"]
+    assert 0.0 < check["rms_error_mm"] < check["maximum_error_mm"] < 0.2
+    assert len(check["rows"]) >= 20
+
+
+@pytest.mark.parametrize(("file", "begins"), [("pdf", b"%PDF"), ("svg", b"<?xml")])
+def test_a_board_can_be_printed(server: Server, file: str, begins: bytes) -> None:
+    answer = server.door.post("/api/camera/board", json={"board": {**DOTS, "pitch_mm": 10.0}, "file": file})
+    assert answer.status_code == 200
+    assert answer.content.lstrip().startswith(begins)
+    refused = server.ask("POST", "/api/camera/board", 422, json={"board": {**DOTS, "pitch_mm": 40.0}})
+    assert refused["code"] == "BOARD_TOO_LARGE"
 
 
 def test_a_withdrawn_camera_is_used_no_more(server: Server) -> None:
@@ -108,7 +138,7 @@ def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> N
     [
         pytest.param(slice(0, 0), "COLLECTION_EMPTY", id="no-view"),
         pytest.param(slice(0, 1), "TOO_FEW_VIEWS", id="one-view"),
-        pytest.param([0] * 5, "CALIBRATION_VIEWS_ALIKE", id="all-from-one-place"),
+        pytest.param([0] * 5, "VIEWS_FROM_ONE_PLACE", id="all-from-one-place"),
     ],
 )
 def test_views_that_say_too_little_are_refused_and_nothing_is_kept(

@@ -1,4 +1,4 @@
-"""The paper's reference image: one axial slice, three lines to register by, the ideal path of each pedicle."""
+"""The paper's reference image: one axial slice, three lines to register by, the ideal paths."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -111,7 +111,8 @@ def draw_reference(
     if not (np.isfinite(middle).all() and LEAST_APART_MM <= apart_mm <= 100.0):
         raise PlanError(
             "LINES_INVALID",
-            f"the outer lines stand {apart_mm} mm from the middle, allowed are {LEAST_APART_MM:.0f} to 100 mm",
+            f"the outer lines stand {apart_mm} mm from the middle, "
+            f"allowed are {LEAST_APART_MM:.0f} to 100 mm",
             "Give the middle in LPS mm and the measured distance of the lines.",
             {"apart_mm": apart_mm},
         )

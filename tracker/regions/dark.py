@@ -60,10 +60,14 @@ def noise_grey(image: GreyImage) -> float:
 
 
 def dark_mask(image: GreyImage, *, window_px: int, darker_grey: float) -> npt.NDArray[np.uint8]:
-    """Where (h, w, 0 or 255) the image is darker by so much than the mean of the window around."""
-    mask = cv2.adaptiveThreshold(
-        image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window_px, darker_grey
-    )
+    """Where (h, w, 0 or 255) the image is darker by so much than the mean of the window around.
+
+    `darker_grey` is at least 1.
+    """
+    # cv2.adaptiveThreshold looks each pixel up in a table; step by step it takes two thirds of its time.
+    mean = cv2.blur(image, (window_px, window_px), borderType=cv2.BORDER_REPLICATE)
+    darker = cv2.subtract(mean, image)
+    _, mask = cv2.threshold(darker, np.floor(darker_grey) - 1.0, 255, cv2.THRESH_BINARY)
     return np.asarray(mask, dtype=np.uint8)
 
 

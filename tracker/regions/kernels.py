@@ -30,16 +30,19 @@ def find_runs(mask):
     row, first, last = np.empty(most, np.int32), np.empty(most, np.int32), np.empty(most, np.int32)
     parent = np.empty(most, np.int32)
     n, above, above_end = 0, 0, 0
+    changes = np.empty(width + 2, np.int32)
     for v in range(height):
-        begin, line, u = n, mask[v], 0
+        begin, line = n, mask[v]
         k = above
-        while u < width:
-            if line[u] == 0:
-                u += 1
-                continue
-            start = u
-            while u < width and line[u] != 0:
-                u += 1
+        # Every column is written and few are kept: a branch for each would be guessed wrong too often.
+        count, before = 0, np.uint8(0)
+        for u in range(width):
+            changes[count] = u
+            count += line[u] != before
+            before = line[u]
+        changes[count] = width
+        for c in range(0, count, 2):
+            start, u = changes[c], changes[c + 1]
             row[n], first[n], last[n], parent[n] = v, start, u - 1, n
             # Eight neighbours: a run above joins when it reaches over the diagonal.
             while k < above_end and last[k] < start - 1:
@@ -95,23 +98,31 @@ def regions_of(row, first, last, parent, size_wh, least, most):
 
 @compiled
 def _outline(first, last, row, after, i, box, extremes):
-    """Extremes of a region: left and right in each row, top and bottom in each column; its filled area."""
-    left, top = box[0], box[1]
+    """A region's left and right in each row into `extremes`; its filled area."""
+    top = box[1]
     for y in range(box[3] - top + 1):
         extremes[0, y], extremes[1, y] = 1 << 30, -1
-    for x in range(box[2] - left + 1):
-        extremes[2, x], extremes[3, x] = 1 << 30, -1
     while i >= 0:
         y = row[i] - top
         extremes[0, y], extremes[1, y] = min(extremes[0, y], first[i]), max(extremes[1, y], last[i])
-        for x in range(first[i] - left, last[i] - left + 1):
-            extremes[2, x] = min(extremes[2, x], row[i])
-            extremes[3, x] = row[i]
         i = after[i]
     filled = 0
     for y in range(box[3] - top + 1):
         filled += extremes[1, y] - extremes[0, y] + 1
     return filled
+
+
+@compiled
+def _columns(first, last, row, after, i, box, extremes):
+    """A region's top and bottom in each column into `extremes`."""
+    left = box[0]
+    for x in range(box[2] - left + 1):
+        extremes[2, x], extremes[3, x] = 1 << 30, -1
+    while i >= 0:
+        for x in range(first[i] - left, last[i] - left + 1):
+            extremes[2, x] = min(extremes[2, x], row[i])
+            extremes[3, x] = row[i]
+        i = after[i]
 
 
 @compiled
@@ -291,6 +302,7 @@ def region_quads(row, first, last, after, box, head, least_side, least_squash):
         area, whole = _area(rough, 4), _area(hull, size)
         if area <= 0.0 or whole > MOST_ROUND * area or filled < LEAST_FILLED * whole:
             continue
+        _columns(first, last, row, after, head[i], box[i], extremes)
         ok = True
         for k in range(4):
             ok = ok and _fit_side(extremes, box[i], rough[k], rough[(k + 1) % 4], lines[k]) > 0

@@ -8,7 +8,7 @@ from tracker.rehearsal.motion import CYCLE_S, Pose6
 # Whole turns a cycle keep the motion periodic; unequal ones lead the tool to all sides.
 TILT_TURNS, TILT_DEG = (4, 7), (24.0, 26.0)
 ROLL_TURNS, ROLL_DEG = 3, 10.0
-SPIN_TURNS, SPIN_DEG = 3, 45.0
+SPIN_TURNS, SPIN_DEG = 3, 52.0
 # A burr in a divot still rattles.
 REST_TURNS, REST_MM = np.array([311, 363, 407]), 0.015
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from server.cli.calibration.asked import BoardOptions, Layout, Pattern
+from server.cli.board_names import BoardOptions, Layout, Pattern
 
 PatternOption = Annotated[Pattern, typer.Option(help="What is printed on the board.")]
 SizeOption = Annotated[
@@ -132,7 +132,7 @@ def calibrate_rig(
     camera: Annotated[
         list[str],
         typer.Option(
-            help="A camera's name and its images, a folder or a pattern; may repeat, in the same order of images.",
+            help="A camera's name and its images (folder or pattern), in the same order; repeat it.",
             metavar="NAME=IMAGES",
         ),
     ],

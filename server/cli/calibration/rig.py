@@ -9,7 +9,8 @@ from pathlib import Path
 import typer
 import yaml
 
-from server.cli.calibration.asked import BoardOptions, boards_of, described
+from server.cli.board_names import BoardOptions
+from server.cli.board_options import boards_of, described
 from server.cli.calibration.images import files_of
 from server.cli.calibration.run import FAILED, Looked, flattened, looked_at
 from server.cli.output import write_whole

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import typer
 
+from server.calibration import coverage_svg, residuals_svg
 from server.camera_file import CameraFile, camera_file_text
-from server.cli.calibration.asked import BoardOptions, boards_of, described
+from server.cli.board_names import BoardOptions
+from server.cli.board_options import boards_of, described
 from server.cli.calibration.images import Picture, files_of, pictures
-from server.cli.calibration.plots import coverage_svg, residuals_svg
 from server.cli.calibration.told import ImageEntry, entries_of, json_of, tell
 from server.cli.output import write_whole
 from server.cli.progress import Steps, shown_steps

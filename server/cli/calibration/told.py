@@ -10,7 +10,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from server.calibration_report import report_values
+from server.calibration import report_values
 from tracker.camera.calibration import CalibrationReport, ViewReport
 from tracker.camera.detection import BoardNotFound, BoardView
 

@@ -54,9 +54,9 @@ def test_each_board_is_written(words: tuple[str, ...], said: str, kind: str, tmp
 @pytest.mark.parametrize(
     ("words", "code"),
     [
-        pytest.param(("dots", "--size", "many"), "BOARD_SIZE_INVALID", id="no-size"),
+        pytest.param(("dots", "--size", "many"), "BOARD_OPTION_INVALID", id="no-size"),
         pytest.param(("dots", "--size", "1x9"), "BOARD_INVALID", id="one-column"),
-        pytest.param(("dots", "--fiducials", "a"), "BOARD_INDEXES_INVALID", id="no-index"),
+        pytest.param(("dots", "--fiducials", "a"), "BOARD_OPTION_INVALID", id="no-index"),
         pytest.param(("dots", "--fiducials", "224"), "BOARD_INVALID", id="index-beyond"),
         pytest.param(("dots", "--dot-mm", "9.5"), "BOARD_DOTS_UNPRINTABLE", id="dots-touch"),
         pytest.param(("checkerboard", "--square-mm", "nan"), "BOARD_INVALID", id="no-length"),

@@ -18,8 +18,8 @@ from tracker.errors import CalibrationError, NavigationError
 BOARD = ("--pattern", "checkerboard", "--size", "9x6", "--square-mm", "12")
 
 
-def typed(*words: str | Path) -> tuple[int, str]:
-    result = CliRunner().invoke(app, ["calibrate", *map(str, words)])
+def typed(*words: str | Path, command: str = "calibrate") -> tuple[int, str]:
+    result = CliRunner().invoke(app, [command, *map(str, words)])
     if isinstance(result.exception, NavigationError):
         # `server.cli.main` tells it, with status 2.
         return 2, result.exception.code
@@ -115,3 +115,24 @@ def test_bad_input_is_told_and_nothing_is_written(images: Path, tmp_path: Path) 
             else typed(*words)[1] == code
         )
     assert not output.exists()
+
+
+def test_a_rig_is_written_with_its_baseline(images: Path, tmp_path: Path) -> None:
+    # Twice the same camera: the other one stands where the first one does.
+    left, right = tmp_path / "left", tmp_path / "right"
+    for folder in (left, right):
+        folder.mkdir()
+        for index in range(6):
+            (folder / f"view{index}.png").write_bytes((images / f"view{index}.png").read_bytes())
+    output = tmp_path / "rig.yaml"
+    cameras = ("--camera", f"left={left}", "--camera", f"right={right}")
+    status, text = typed(*BOARD, *cameras, "--output", output, "--json", command="calibrate-rig")
+    assert status == 0, text
+    told = json.loads(text)
+    assert [camera["name"] for camera in told["cameras"]] == ["left", "right"]
+    assert told["cameras"][1]["baseline_mm"] < 0.01
+    assert told["shared_views"] == 6
+    assert yaml.safe_load(output.read_text())["cameras"][1]["name"] == "right"
+    (right / "view0.png").unlink()
+    assert typed(*BOARD, *cameras, command="calibrate-rig") == (2, "RIG_IMAGES_UNEVEN")
+    assert typed(*BOARD, "--camera", str(left), command="calibrate-rig") == (2, "RIG_OPTION_INVALID")

@@ -118,7 +118,8 @@ class Writers:
         lines = [said.readline().decode() for _ in range(after_changes)]
         # Not a wait for something to be done: the very moment of the kill is what is varied.
         time.sleep(after_s)
-        os.kill(pid, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
         while not (line := said.readline().decode()).startswith("end"):
             lines.append(line)
         assert line == f"end {signal.SIGKILL}\n", "the child ended by itself, with an error"

@@ -54,6 +54,7 @@ def true_px(board: Board, pose: Pose) -> Array:
     return CAMERA.px_from_camera(np.asarray(board.object_points_mm) @ rotation.T + translation)
 
 
+@functools.cache
 def picture(
     board: Board, pose: Pose, *, radius_mm: float = 2.0, large_mm: float = 3.2, seed: int = 1
 ) -> npt.NDArray[np.uint8]:

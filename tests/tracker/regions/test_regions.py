@@ -21,6 +21,32 @@ def _nearest_px(quads: Array, corners: Array) -> float:
     return float(min(off))
 
 
+@pytest.mark.parametrize("darker_grey", [1.0, 3.0, 8.7])
+@pytest.mark.parametrize("size_wh", [(64, 48), (33, 17), (5, 90)])
+def test_the_mask_is_that_of_an_adaptive_threshold(darker_grey: float, size_wh: tuple[int, int]) -> None:
+    image = np.random.default_rng(2).integers(0, 256, size_wh[::-1]).astype(np.uint8)
+    for picture in (image, np.asarray(cv2.blur(image, (5, 5)), dtype=np.uint8)):
+        expected = cv2.adaptiveThreshold(
+            picture, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 21, darker_grey
+        )
+        np.testing.assert_array_equal(dark_mask(picture, window_px=21, darker_grey=darker_grey), expected)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.95, 1.0])
+@pytest.mark.parametrize("width", [1, 2, 31, 64])
+def test_runs_are_the_mask_row_by_row(share: float, width: int) -> None:
+    mask = np.where(np.random.default_rng(4).random((40, width)) < share, 255, 0).astype(np.uint8)
+    regions = regions_of_mask(mask)
+    again = np.zeros_like(mask)
+    for row, first, last in zip(regions.row, regions.first, regions.last, strict=True):
+        again[row, first : last + 1] = 255
+    np.testing.assert_array_equal(again, mask)
+    count, labels = cv2.connectedComponents(mask, connectivity=8)
+    parents = labels[regions.row[regions.parent], regions.first[regions.parent]]
+    np.testing.assert_array_equal(parents, labels[regions.row, regions.first])
+    assert len(np.unique(regions.parent)) == count - 1
+
+
 @pytest.mark.parametrize("roll_deg", range(0, 90, 15))
 @pytest.mark.parametrize(("side_px", "tilt_deg"), [(14, 0), (30, 50), (60, 20), (150, 40)])
 @pytest.mark.parametrize("blur_px", [0.6, 1.5])

@@ -12,6 +12,7 @@ import numpy as np
 
 from tracker.edges import GreyImage
 from tracker.geometry import Array
+from tracker.marker.explanation.cover import LEAST_AREA_RATIO
 from tracker.marker.explanation.cover.kernels import wrong_pieces
 from tracker.marker.explanation.fit import Fit, inside_square
 from tracker.marker.explanation.kernels import FIELDS, RING, WIDE, likeness
@@ -19,8 +20,6 @@ from tracker.marker.explanation.pictures import pictures_of
 
 # A flipped part differs by one whole contrast; blur and its bleeding take up to half of it.
 CONTRADICTION = 0.45
-# Under this part of the square, a contradiction is a speck (dirt, a highlight) and not another shape.
-LEAST_AREA_RATIO = 3 / FIELDS**2 - 1e-9
 # Squares with something else inside reach 0.87 at 19 px and 0.77 at 36 px, in 400 pictures full of them; the
 # marker itself has 0.9 and more in plain light. Few pixels say little: what is small must say it clearly.
 LIKENESS_SIDES_PX, LEAST_LIKENESS = (20.0, 32.0, 40.0, 48.0), (0.88, 0.80, 0.80, 0.70)

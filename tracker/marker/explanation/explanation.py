@@ -14,7 +14,13 @@ import numpy.typing as npt
 from tracker.camera.blur.kernels import axes_of
 from tracker.edges import GreyImage
 from tracker.geometry import Array
-from tracker.marker.explanation.cover import PART_CONTRAST, Mask, covered, weights_beside_a_cover
+from tracker.marker.explanation.cover import (
+    LEAST_AREA_RATIO,
+    PART_CONTRAST,
+    Mask,
+    covered,
+    weights_beside_a_cover,
+)
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
 from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
@@ -43,7 +49,6 @@ COVERED_MORE = 0.01
 COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
 MOST_INNER_HIDDEN_RATIO = 0.55
-LEAST_AREA_RATIO = 3 / FIELDS**2 - 1e-9
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
 MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02

@@ -1,7 +1,7 @@
 """The plan as one document: plain records, to and from what JSON can hold."""
 
 from tracker.plan.document.corrections import CORRECTABLE, PedicleRecord, corrected_measure
-from tracker.plan.document.mapping import plan_from_mapping, plan_to_mapping, plain
+from tracker.plan.document.mapping import plain, plan_from_mapping, plan_to_mapping
 from tracker.plan.document.records import FORMAT_VERSION, PlanDocument, PlannedChannel, VertebraPlan
 
 __all__ = [

@@ -60,7 +60,7 @@ class PedicleRecord:
 
 
 def corrected_measure(measure: PedicleMeasure, corrected: Mapping[str, float]) -> PedicleMeasure:
-    """The pedicle with these numbers: its outline is scaled, its axis turned about the isthmus, its end moved.
+    """The pedicle with these numbers: outline scaled, axis turned about the isthmus, end moved.
 
     The entry keeps its distance from the isthmus; a corrected length moves the front.
     """
@@ -79,7 +79,11 @@ def corrected_measure(measure: PedicleMeasure, corrected: Mapping[str, float]) -
     entry = measure.isthmus_lps_mm - behind * axis
     return dataclasses.replace(
         measure,
-        **number,
+        width_mm=number["width_mm"],
+        height_mm=number["height_mm"],
+        transverse_deg=number["transverse_deg"],
+        sagittal_deg=number["sagittal_deg"],
+        length_mm=number["length_mm"],
         axis_lps=axis,
         entry_lps_mm=entry,
         front_lps_mm=entry + number["length_mm"] * axis,

@@ -44,7 +44,8 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
     if isinstance(mapped, Mapping) and mapped.get("format_version") != FORMAT_VERSION:
         raise PlanError(
             "PLAN_VERSION_UNKNOWN",
-            f"the plan has format version {mapped.get('format_version')!r}, this program reads {FORMAT_VERSION}",
+            f"the plan has format version {mapped.get('format_version')!r}, "
+            f"this program reads {FORMAT_VERSION}",
             "Open it with the program that wrote it, or plan again.",
         )
     plan = _read(PlanDocument, mapped, "plan")

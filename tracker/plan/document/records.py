@@ -62,8 +62,9 @@ class VertebraPlan:
         ):
             raise PlanError(
                 "VERTEBRA_INVALID",
-                f"vertebra '{self.name}' has pedicles {sides}, channels {ways}, {len(self.references)} reference "
-                f"slices and up to {screws} screws to a channel; needed a name and at most one of each to a side",
+                f"vertebra '{self.name}' has pedicles {sides}, channels {ways}, "
+                f"{len(self.references)} reference slices and up to {screws} screws to a channel; "
+                "needed a name and at most one of each to a side",
                 "Take away what is there twice.",
                 {"name": self.name},
             )

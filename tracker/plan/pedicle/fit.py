@@ -13,7 +13,7 @@ from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.search import Bar
 
 LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
-MOST_VOXELS = 6000
+MOST_VOXELS = 3500
 ROUNDS = 3
 OUTSIDE_BAND_MM = 1.2
 LEAST_VOXELS = 60
@@ -186,7 +186,7 @@ def _voxels(near: Neighbourhood, origin: Array, half: float) -> tuple[Array, Arr
 
 
 def _open(bar: Bar, points: Array) -> npt.NDArray[np.bool_]:
-    """Points (n,) in directions in which the coarse outline found no wall, or one that is no part of the bar."""
+    """Points (n,) where the coarse outline found no wall, or one that is no part of the bar."""
     cut = bar.sections
     along = (points - bar.centre_mm) @ bar.axis
     row = np.argmin(np.abs(along[:, None] - bar.along_mm), axis=1)

@@ -145,7 +145,7 @@ def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:
     length = front.distance_mm + back.distance_mm
     if front.found and back.found and not USUAL_LENGTH_MM[0] <= length <= USUAL_LENGTH_MM[1]:
         out.append(
-            f"a length of {length:.1f} mm is unusual ({USUAL_LENGTH_MM[0]:.0f} to {USUAL_LENGTH_MM[1]:.0f} mm "
-            "are usual); check entry and front wall"
+            f"a length of {length:.1f} mm is unusual "
+            f"({USUAL_LENGTH_MM[0]:.0f} to {USUAL_LENGTH_MM[1]:.0f} mm are usual); check entry and front wall"
         )
     return out

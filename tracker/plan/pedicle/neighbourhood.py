@@ -96,7 +96,8 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
 
 def _near(block: npt.NDArray[np.float32], affine: Array, centre: Array) -> Array:
     """HU of the voxels within 14 mm."""
-    k, j, i = np.indices(block.shape, sparse=True)
+    slices, rows, columns = block.shape
+    k, j, i = np.ogrid[:slices, :rows, :columns]
     offset = affine[:3, 3] - centre
     squared = np.zeros(block.shape, dtype=np.float32)
     for row in range(3):

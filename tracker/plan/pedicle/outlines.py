@@ -73,7 +73,7 @@ def angles(rays: int) -> Array:
 
 
 def planes_across(axis: Array) -> tuple[Array, Array]:
-    """For unit axes (m, 3): directions across them, nearest to the patient's left, and nearest to the head."""
+    """For unit axes (m, 3): directions across, nearest to the patient's left, and to the head."""
     up = np.array([0.0, 0.0, 1.0]) - axis * axis[:, 2:3]
     up /= np.linalg.norm(up, axis=1, keepdims=True)
     across = np.cross(up, axis)
@@ -84,7 +84,7 @@ def planes_across(axis: Array) -> tuple[Array, Array]:
 def outlines_of(
     near: Neighbourhood, centre_mm: Array, axis: Array, *, rays: int = 24, recentred: int = 2
 ) -> Outlines:
-    """Outlines of sections with centres (m, 3) across unit axes (m, 3); each centre moves into its outline."""
+    """Outlines across unit axes (m, 3) around centres (m, 3), each of which moves into its outline."""
     centre = np.array(centre_mm, dtype=np.float64)
     across, up = planes_across(axis)
     for turn in range(recentred + 1):

@@ -28,8 +28,8 @@ class PedicleSpread:
 class PedicleMeasure:
     """One pedicle, measured at its isthmus: the narrowest section across its own axis.
 
-    Angles stand against the patient's axes (LPS) as they show on an axial and on a sagittal slice, not against
-    the vertebra's own endplates.
+    Angles stand against the patient's axes (LPS) as they show on an axial and on a sagittal slice, not
+    against the vertebra's own endplates.
 
     Attributes:
         side: the patient's left or right.

@@ -45,7 +45,7 @@ def checked_seed(volume: Volume, seed_lps_mm: npt.ArrayLike) -> Array:
             "SEED_OUTSIDE_CT",
             f"the click at {_words(seed)} mm lies outside the CT, which reaches from {_words(low)} "
             f"to {_words(high)} mm (LPS)",
-            "Give a point inside the CT, in mm of the patient's LPS coordinates (x to the left, y backwards).",
+            "Give a point inside the CT, in LPS mm (x to the patient's left, y backwards).",
             {"seed_lps_mm": seed.tolist(), "low_lps_mm": low.tolist(), "high_lps_mm": high.tolist()},
         )
     return seed
@@ -118,8 +118,9 @@ def refuse_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array
     if distance > allowed + 0.35 * beyond or beyond > 9.0:
         raise PlanError(
             "SEED_NOT_IN_PEDICLE",
-            f"the nearest bar of bone does not hold the click: it lies {max(distance, 0.0):.1f} mm beside its wall "
-            f"(allowed {allowed:.1f} mm) and {beyond:.1f} mm beyond its end (allowed 9 mm)",
+            "the nearest bar of bone does not hold the click: it lies "
+            f"{max(distance, 0.0):.1f} mm beside its wall (allowed {allowed:.1f} mm) "
+            f"and {beyond:.1f} mm beyond its end (allowed 9 mm)",
             CLICK,
             {"beside_mm": distance, "beyond_mm": beyond},
         )

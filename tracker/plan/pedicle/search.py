@@ -1,8 +1,9 @@
-"""From a click to the bar of bone that holds it: the coarse centre line, by sections in all likely directions."""
+"""From a click to the bar of bone that holds it: a coarse line, by sections in all likely directions."""
 
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 from scipy import ndimage
 
 from tracker.geometry import Array
@@ -175,7 +176,7 @@ def _largest_around(
     return np.where(largest > 0.0, largest, np.nan), centres
 
 
-def _around(cut: Outlines, seed_mm: Array, axis: Array) -> Array:
+def _around(cut: Outlines, seed_mm: Array, axis: Array) -> npt.NDArray[np.bool_]:
     """Which outlines (m,) have the click inside, looked at along their axis."""
     away = seed_mm - cut.centre_mm
     away = away - (away * axis).sum(axis=1, keepdims=True) * axis
@@ -272,7 +273,7 @@ def _line(sections: Outlines, along: Array, start: Start) -> Bar | None:
 def _line_through(
     points: Array, weight: Array, lowest: float, start: Start, along: Array
 ) -> tuple[Array, Array]:
-    """Point and direction of the line through centres (n, 3); where they are few, the first direction holds."""
+    """The line through centres (n, 3), point and direction; where they are few, the first direction holds."""
     axis = start.axis
     mean = (weight[:, None] * points).sum(axis=0) / weight.sum()
     from_mean = (points - mean) @ axis
@@ -282,9 +283,8 @@ def _line_through(
     pull = (weight * from_mean**2).sum() + hold
     slope = ((weight * from_mean)[:, None] * across).sum(axis=0) / pull + wanted * (hold / pull)
     turned = axis + TURN_SHARE * slope
-    length = np.linalg.norm(turned)
     row = int(np.argmin(np.abs(along - lowest)))
-    return mean + turned * from_mean[row], turned / length
+    return mean + turned * from_mean[row], turned / np.linalg.norm(turned)
 
 
 def _running_median(area: Array) -> Array:

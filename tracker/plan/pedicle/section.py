@@ -80,14 +80,27 @@ def _numbers(parameters: Array, at: float, half_mm: float) -> Array:
     c = parameters[tube.CENTRE]
     return np.array(
         [
-            np.ptp(points @ direction),
-            np.ptp(points @ across),
+            _extent(points - [section.x_mm[0], section.y_mm[0]], direction),
+            _extent(points - [section.x_mm[0], section.y_mm[0]], across),
             section.x_mm[0],
             section.y_mm[0],
             (c[1] + 2.0 * c[2] * at) / half_mm,
             (c[4] + 2.0 * c[5] * at) / half_mm,
         ]
     )
+
+
+def _extent(points: Array, direction: Array) -> float:
+    """From wall to wall (mm) along a direction (2,): the mean of callipers and of the chord by the centre.
+
+    For an ellipse both are the same. A few waves cannot follow a corner: callipers are too wide there, and
+    the chord between the corners too narrow.
+    """
+    turned = np.arctan2(points @ [-direction[1], direction[0]], points @ direction)
+    order = np.argsort(turned)
+    radius = np.linalg.norm(points, axis=1)[order]
+    ends = np.interp([0.0, np.pi], turned[order], radius, period=2.0 * np.pi)
+    return float(0.5 * (ends.sum() + np.ptp(points @ direction)))
 
 
 def _width_direction(parameters: Array, section: tube.Section) -> Array:

@@ -1,4 +1,4 @@
-"""The shape that is fitted to the voxels of a pedicle: a bar that bends and widens, with cortex around marrow."""
+"""The shape that is fitted to a pedicle: a bar that bends and widens, with cortex around marrow."""
 
 from dataclasses import dataclass
 

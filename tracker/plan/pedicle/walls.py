@@ -112,5 +112,7 @@ def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool
     rays = np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * up
     steps = np.arange(0.0, LOOK_ACROSS_MM, 0.5)
     points = point_mm + steps[:, None] * rays[:, None, :]
-    bone = (near.smooth_hu(points) > bone_limit_hu(near)) & near.holds(points)
+    # In thick slices an endplate is faint.
+    faint = near.tissue_hu + max(100.0, 0.25 * (near.cortex_hu - near.tissue_hu))
+    bone = (near.smooth_hu(points) > faint) & near.holds(points)
     return bool(bone.any(axis=1).mean() >= ENCLOSED_RATIO)

@@ -28,7 +28,8 @@ class ScrewCatalogue:
             if not values or not all(np.isfinite(value) and 0.0 < value < 200.0 for value in values):
                 raise PlanError(
                     "CATALOGUE_INVALID",
-                    f"the screw catalogue's {name} are {list(values)}, needed one or more between 0 and 200 mm",
+                    f"the screw catalogue's {name} are {list(values)}, "
+                    "needed one or more between 0 and 200 mm",
                     "Correct plan.screws in the config.",
                     {name: list(values)},
                 )

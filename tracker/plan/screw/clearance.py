@@ -89,7 +89,7 @@ def clearance_of(
 
 
 def wall_gaps_mm(channel: Channel, measure: PedicleMeasure) -> Array:
-    """From the channel's axis to the wall, outwards, for each point (n,) of the outline: the least of three planes.
+    """From the channel's axis outwards to each point (n,) of the outline: the least of three planes.
 
     Negative where the axis itself lies outside the pedicle.
     """

@@ -34,7 +34,7 @@ def propose_screw(
     wall_margin_mm: float = WALL_MARGIN_MM,
     front_margin_mm: float = FRONT_MARGIN_MM,
 ) -> tuple[float, float]:
-    """Diameter and length: the thickest that keeps its margin to each wall, the longest before the front wall.
+    """Diameter and length: the thickest with its margin to each wall, the longest before the front wall.
 
     Raises:
         PlanError: NO_SCREW_FITS.
@@ -46,8 +46,8 @@ def propose_screw(
     if not diameters or not lengths:
         raise PlanError(
             "NO_SCREW_FITS",
-            f"the path leaves {room.least_mm:.1f} mm to the nearest wall and {room.anterior_mm:.1f} mm to the "
-            f"front; the smallest screw is {thinnest:.1f} x {shortest:.0f} mm and needs "
+            f"the path leaves {room.least_mm:.1f} mm to the nearest wall and {room.anterior_mm:.1f} mm to "
+            f"the front; the smallest screw is {thinnest:.1f} x {shortest:.0f} mm and needs "
             f"{0.5 * thinnest + wall_margin_mm:.1f} and {shortest + front_margin_mm:.1f} mm",
             "Move the path to the middle of the pedicle, or add a thinner or shorter screw to the catalogue.",
             {"nearest_wall_mm": room.least_mm, "front_mm": room.anterior_mm},
@@ -66,7 +66,8 @@ def plan_screw(
     if not (0.0 < diameter_mm < 20.0 and 0.0 < length_mm < 200.0):
         raise PlanError(
             "SCREW_INVALID",
-            f"the screw is {diameter_mm} x {length_mm} mm, allowed are diameters under 20 and lengths under 200 mm",
+            f"the screw is {diameter_mm} x {length_mm} mm, "
+            "allowed are diameters under 20 and lengths under 200 mm",
             "Give diameter and length of the screw in mm.",
             {"diameter_mm": diameter_mm, "length_mm": length_mm},
         )

@@ -1,4 +1,4 @@
-"""What a pedicle leaves for navigation: how far off entry and angle may be before the screw breaks through."""
+"""What a pedicle leaves for navigation: how far off entry and angle may be before it breaks out."""
 
 from dataclasses import dataclass
 

@@ -26,8 +26,8 @@ class PedicleTruth:
 class VertebraPhantom:
     """Body, arch, processes and two pedicles with a shell of cortex and a core of marrow.
 
-    The solids live in the phantom's own frame (LPS-like, origin in the canal); the phantom lies in the patient
-    with `rotation` and `place_mm`.
+    The solids live in the phantom's own frame (LPS-like, origin in the canal); it lies in the patient with
+    `rotation` and `place_mm`.
 
     Attributes:
         pedicles: by side, `left` and `right`.
@@ -111,8 +111,8 @@ def pedicle_tube(
 ) -> EllipticTube:
     """A pedicle from its numbers; `waist_mm` is given for the left side and mirrored for the right.
 
-    The angles are those of the axis as it shows on an axial and on a sagittal slice: positive where it runs to
-    the middle, and to the head, going forwards.
+    The angles are those of the axis as it shows on an axial and on a sagittal slice: positive where it runs
+    to the middle, and to the head, going forwards.
     """
     mirror = 1.0 if side == "left" else -1.0
     axis = np.array([-mirror * np.tan(np.radians(transverse_deg)), -1.0, np.tan(np.radians(sagittal_deg))])

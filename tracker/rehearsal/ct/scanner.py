@@ -1,4 +1,4 @@
-"""A scanner that exists only in software: any Hounsfield field becomes voxels, with partial volume and noise."""
+"""A scanner in software: a Hounsfield field becomes voxels, with partial volume and noise."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -78,7 +78,7 @@ class ScanGrid:
 def scan(hu_at: HuAt, grid: ScanGrid) -> Volume:
     """The CT that a scanner makes of a field of Hounsfield units.
 
-    A voxel is the mean of the field over its own box (partial volume), blurred within the slice and made noisy.
+    A voxel is the mean of the field over its own box (partial volume), blurred in the slice and made noisy.
 
     Args:
         hu_at: from points (n, 3) in LPS mm to HU (n,).

@@ -9,7 +9,7 @@ from tracker.rehearsal.ct.scanner import ScanGrid
 
 
 def random_phantom(seed: int) -> VertebraPhantom:
-    """A vertebra with two unlike pedicles, tilted in the patient, with neighbours; the same for the same seed."""
+    """A vertebra with two unlike pedicles, tilted, with neighbours; a seed makes the same one again."""
     random = np.random.default_rng(seed)
     width = random.uniform(5.5, 12.0)
     pedicles = {
@@ -42,7 +42,7 @@ def random_phantom(seed: int) -> VertebraPhantom:
 
 
 def random_grid(phantom: VertebraPhantom, seed: int) -> ScanGrid:
-    """A scan of this phantom: 0.35 to 0.9 mm in the slice, 0.6 to 3 mm from slice to slice, perhaps tilted."""
+    """A scan of this phantom: 0.35 to 0.9 mm in the slice, 0.6 to 3 mm between slices, perhaps tilted."""
     random = np.random.default_rng(seed + 10_000)
     inside = random.uniform(0.35, 0.9)
     slices = random.choice([random.uniform(0.6, 1.5), random.uniform(1.5, 3.0)])

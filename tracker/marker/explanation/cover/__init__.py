@@ -1,5 +1,12 @@
 """What lies over a square from outside, and what inside it contradicts the model."""
 
-from tracker.marker.explanation.cover.cover import PART_CONTRAST, Left, Mask, covered, weights_beside_a_cover
+from tracker.marker.explanation.cover.cover import (
+    LEAST_AREA_RATIO,
+    PART_CONTRAST,
+    Left,
+    Mask,
+    covered,
+    weights_beside_a_cover,
+)
 
-__all__ = ["PART_CONTRAST", "Left", "Mask", "covered", "weights_beside_a_cover"]
+__all__ = ["LEAST_AREA_RATIO", "PART_CONTRAST", "Left", "Mask", "covered", "weights_beside_a_cover"]

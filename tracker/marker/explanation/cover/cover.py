@@ -8,11 +8,13 @@ import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.marker.explanation.cover.kernels import grown, weights_of_a_part, wrong_pieces
-from tracker.marker.explanation.kernels import RING
+from tracker.marker.explanation.kernels import FIELDS, RING
 
 Mask = npt.NDArray[np.bool_]
 HIDDEN_CONTRAST, CLEAR_CONTRAST = 0.35, 0.2
 LEAST_PIECE = 3
+# Under this part of the square, a piece is a speck (dirt, a highlight) and not another shape.
+LEAST_AREA_RATIO = LEAST_PIECE / FIELDS**2 - 1e-9
 # What is left of a cover beside it: its rim in other light.
 MOST_RIM = 10
 WIDE_BLUR_FIELDS = 0.6

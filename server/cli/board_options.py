@@ -1,44 +1,10 @@
 """The board that was described on the command line."""
 
 import re
-from dataclasses import dataclass
-from enum import StrEnum
 
+from server.cli.board_names import BoardOptions, Layout, Pattern
 from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 from tracker.errors import InvalidInput
-
-
-class Pattern(StrEnum):
-    """What is printed on the board."""
-
-    DOTS = "dots"
-    CHECKERBOARD = "checkerboard"
-    CHARUCO = "charuco"
-
-
-class Layout(StrEnum):
-    """Of dots: symmetric or asymmetric; of ChArUco: newer or older."""
-
-    SYMMETRIC = "symmetric"
-    ASYMMETRIC = "asymmetric"
-    NEWER = "newer"
-    OLDER = "older"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BoardOptions:
-    """The options that describe a board, None where they were left out."""
-
-    pattern: Pattern
-    size: str
-    pitch_mm: float | None = None
-    square_mm: float | None = None
-    marker_mm: float | None = None
-    dictionary: str | None = None
-    fiducials: str | None = None
-    layout: Layout | None = None
-    inset: str | None = None
-    inset_square_mm: float | None = None
 
 
 def boards_of(given: BoardOptions) -> tuple[Board, ...]:
@@ -47,7 +13,7 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
     Raises:
         InvalidInput: BOARD_OPTION_MISSING, BOARD_OPTION_UNUSED, BOARD_OPTION_INVALID or BOARD_INVALID.
     """
-    columns, rows = _pair("--size", given.size)
+    columns, rows = size_of("--size", given.size)
     board: Board
     if given.pattern is Pattern.DOTS:
         _refuse_unused(given, "square_mm", "marker_mm", "dictionary")
@@ -56,7 +22,7 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
             rows=rows,
             pitch_mm=_needed(given, "pitch_mm"),
             layout=DotLayout(_layout(given, Layout.SYMMETRIC, Layout.ASYMMETRIC) or Layout.SYMMETRIC),
-            fiducials=_indexes(given.fiducials),
+            fiducials=indexes_of(given.fiducials),
         )
     elif given.pattern is Pattern.CHECKERBOARD:
         _refuse_unused(given, "pitch_mm", "marker_mm", "dictionary", "fiducials", "layout")
@@ -77,7 +43,7 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
     if given.inset is None:
         _refuse_unused(given, "inset_square_mm")
         return (board,)
-    inner_columns, inner_rows = _pair("--inset", given.inset)
+    inner_columns, inner_rows = size_of("--inset", given.inset)
     square_mm = _needed(given, "inset_square_mm")
     return board, CheckerBoard(columns=inner_columns, rows=inner_rows, square_mm=square_mm)
 
@@ -105,7 +71,12 @@ def described(board: Board) -> dict[str, object]:
     }
 
 
-def _pair(option: str, text: str) -> tuple[int, int]:
+def size_of(option: str, text: str) -> tuple[int, int]:
+    """Columns and rows as a person types them after an option: "14x16".
+
+    Raises:
+        InvalidInput: BOARD_OPTION_INVALID.
+    """
     found = re.fullmatch(r"\s*(\d{1,4})\s*[x×X,]\s*(\d{1,4})\s*", text)
     if not found:
         raise InvalidInput(
@@ -116,11 +87,16 @@ def _pair(option: str, text: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def _indexes(text: str | None) -> tuple[int, ...]:
+def indexes_of(text: str | None) -> tuple[int, ...]:
+    """Indexes with commas between; none where nothing was typed.
+
+    Raises:
+        InvalidInput: BOARD_OPTION_INVALID.
+    """
     if text is None or not text.strip():
         return ()
     parts = [part.strip() for part in text.split(",")]
-    if not all(part.isdigit() for part in parts):
+    if not all(part.isascii() and part.isdigit() for part in parts):
         raise InvalidInput(
             "BOARD_OPTION_INVALID",
             f"--fiducials {text} is no list of indexes",

@@ -1,0 +1,45 @@
+"""Do a calibration's 95 % intervals hold the truth in 95 of 100 cameras?"""
+
+from collections import Counter
+
+import numpy as np
+
+from tests.benchmarks.asked import Asked
+from tests.benchmarks.calibration.cameras import BOARD, known_camera, seen_view
+from tests.benchmarks.measured import Measured
+from tests.benchmarks.tables import Table
+from tracker.camera.calibration import calibrate
+
+RUNS, VIEWS, NOISE_PX = 400, 12, 0.2
+
+
+def measure_calibration(asked: Asked) -> Measured:
+    """Cameras with known numbers, each calibrated from views with known noise."""
+    inside: dict[str, list[bool]] = {}
+    off_sds: dict[str, list[float]] = {}
+    models: Counter[int] = Counter()
+    for run in range(RUNS):
+        rng = np.random.default_rng(asked.seed + run)
+        camera = known_camera(rng)
+        views = [seen_view(camera.model, BOARD, rng, noise_px=NOISE_PX) for _ in range(VIEWS)]
+        report = calibrate(views, size_wh_px=camera.model.size_wh_px)
+        models[report.choice.coefficients] += 1
+        true_value = camera.true_value_from_name
+        for one in report.parameters:
+            inside.setdefault(one.name, []).append(one.low_95 <= true_value[one.name] <= one.high_95)
+            off_sds.setdefault(one.name, []).append((one.value - true_value[one.name]) / one.sd)
+    taken = ", ".join(f"{count} times {model}" for model, count in sorted(models.items()))
+    rows = [
+        (name, f"{100 * np.mean(hits):.1f} %", f"{np.std(off_sds[name]):.2f}", f"{len(hits)}")
+        for name, hits in inside.items()
+    ]
+    return Measured(
+        tables=[
+            Table(
+                title=f"Calibration: {RUNS} cameras, {VIEWS} views each, {NOISE_PX:g} px of noise",
+                columns=("number", "inside its 95 % interval", "spread in stated sd", "cameras"),
+                rows=rows,
+                note=f"Aim: 92 to 98 %. Lens coefficients taken: {taken}.",
+            )
+        ]
+    )

@@ -1,0 +1,133 @@
+"""The plan as a document: what is written is read back, and what is wrong is named."""
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.tracker.plan.test_screw import pedicle, shifted
+from tracker.errors import PlanError
+from tracker.plan import (
+    PedicleRecord,
+    PlanDocument,
+    PlannedChannel,
+    VertebraPlan,
+    Volume,
+    draw_reference,
+    plan_from_mapping,
+    plan_screw,
+    plan_to_mapping,
+    propose_middle,
+    propose_slice,
+)
+
+
+def volume() -> Volume:
+    affine = np.diag([0.5, 0.5, 2.0, 1.0])
+    affine[:3, 3] = [-30.0, -50.0, -21.0]
+    return Volume(hu=np.full((20, 180, 120), 100, np.int16), lps_from_ijk=affine)
+
+
+def document() -> PlanDocument:
+    screw = plan_screw(volume(), shifted(0.0), pedicle(), diameter_mm=5.0, length_mm=40.0)
+    reference = draw_reference(
+        volume(), slice_index=10, middle_lps_mm=(-14.0, 0.0, 0.0), apart_mm=7.5, channels=[shifted(0.0)]
+    )
+    vertebra = VertebraPlan(
+        name="L3",
+        references=(reference,),
+        pedicles=(PedicleRecord(measured=pedicle(), corrected={"width_mm": 7.5}),),
+        channels=(PlannedChannel(side="left", channel=shifted(0.0), by_hand=True, screws=(screw,)),),
+    )
+    return PlanDocument(vertebrae=(vertebra, VertebraPlan(name="L4")))
+
+
+def test_a_plan_survives_json() -> None:
+    written = plan_to_mapping(document())
+    again = plan_from_mapping(json.loads(json.dumps(written)))
+    assert plan_to_mapping(again) == written
+    assert again.vertebrae[0].pedicles[0].corrected == {"width_mm": 7.5}
+
+
+def changed(path: tuple[Any, ...], value: object) -> dict[str, Any]:
+    mapped = json.loads(json.dumps(plan_to_mapping(document())))
+    inner = mapped
+    for key in path[:-1]:
+        inner = inner[key]
+    inner[path[-1]] = value
+    return dict(mapped)
+
+
+FIRST = ("vertebrae", 0)
+
+
+@pytest.mark.parametrize(
+    ("mapped", "said"),
+    [
+        pytest.param([], "is no mapping", id="a-list"),
+        pytest.param(changed(("format_version",), 99), "format version 99", id="of-a-later-program"),
+        pytest.param(changed((*FIRST, "nmae"), "L3"), "unknown keys nmae", id="a-slip-of-the-pen"),
+        pytest.param(changed((*FIRST, "name"), 3), "vertebrae[0].name is 3", id="a-number-for-a-name"),
+        pytest.param(changed((*FIRST, "name"), "L4"), "different ones", id="one-name-twice"),
+        pytest.param(
+            changed((*FIRST, "pedicles", 0, "measured", "width_mm"), float("nan")),
+            "finite",
+            id="not-a-number",
+        ),
+        pytest.param(
+            changed((*FIRST, "pedicles", 0, "measured", "side"), "port"), "left, right", id="no-such-side"
+        ),
+        pytest.param(
+            changed((*FIRST, "pedicles", 0, "corrected"), {"width_mm": 400.0}), "1 to 30", id="out-of-range"
+        ),
+        pytest.param(
+            changed((*FIRST, "channels", 0, "channel", "radius_mm"), -1.0), "radius", id="no-cylinder"
+        ),
+        pytest.param(
+            changed((*FIRST, "channels", 0, "channel", "entry_in_vertebra_mm"), [1.0, 2.0]),
+            "cannot be read",
+            id="2-d",
+        ),
+    ],
+)
+def test_a_plan_that_cannot_be_read_is_refused_with_the_place(mapped: object, said: str) -> None:
+    with pytest.raises(PlanError) as caught:
+        plan_from_mapping(mapped)
+    assert said in caught.value.message
+
+
+def test_a_correction_keeps_what_was_measured_and_changes_what_is_used() -> None:
+    record = PedicleRecord(
+        measured=pedicle(), corrected={"width_mm": 6.0, "transverse_deg": 10.0, "length_mm": 45.0}
+    )
+    assert record.measured.width_mm == 8.0
+    used = record.used
+    assert (used.width_mm, used.height_mm, used.length_mm) == (6.0, 12.0, 45.0)
+    assert np.linalg.norm(used.front_lps_mm - used.entry_lps_mm) == pytest.approx(45.0)
+    # Ten degrees to the middle: on the left side to the patient's right.
+    assert used.axis_lps[0] == pytest.approx(-np.sin(np.radians(10.0)))
+    span = used.outline_lps_mm - used.isthmus_lps_mm
+    assert np.abs(span @ used.axis_lps).max() < 1e-9
+    assert np.linalg.norm(span, axis=1).min() == pytest.approx(3.0, abs=0.01)
+
+
+def test_three_vertical_lines_at_the_measured_distance_in_mm_and_pixels() -> None:
+    reference = document().vertebrae[0].references[0]
+    middle, left, right = reference.lines
+    assert [line.name for line in reference.lines] == ["middle", "left", "right"]
+    assert left.ends_lps_mm[0, 0] - middle.ends_lps_mm[0, 0] == pytest.approx(7.5)
+    assert middle.ends_lps_mm[0, 0] - right.ends_lps_mm[0, 0] == pytest.approx(7.5)
+    assert np.ptp(middle.ends_px[:, 0]) == pytest.approx(0.0)
+    assert left.ends_px[0, 0] - middle.ends_px[0, 0] == pytest.approx(15.0)
+    assert reference.paths[0].ends_px == pytest.approx(np.array([[60.0, 130.0], [60.0, 40.0]]))
+
+
+def test_the_slice_through_the_isthmus_is_proposed() -> None:
+    assert propose_slice(volume(), [pedicle()]) in {10, 11}
+    with pytest.raises(PlanError, match="0 pedicles"):
+        propose_slice(volume(), [])
+    with pytest.raises(PlanError, match="middle lies between 2"):
+        propose_middle([pedicle()])
+    with pytest.raises(PlanError, match="the CT has 20"):
+        draw_reference(volume(), slice_index=20, middle_lps_mm=(0, 0, 0), apart_mm=5.0)
