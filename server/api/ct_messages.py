@@ -120,7 +120,9 @@ def ct_message(heading: HeadingMessage, content: Mapping[str, object], volume: V
             name: WindowMessage(window_hu=one.width_hu, level_hu=one.centre_hu)
             for name, one in WINDOWS.items()
         },
-        **{name: content[name] for name in ("description", "warnings", "left_out")},  # type: ignore[arg-type]  pydantic checks what the store gives
+        description=mapping_of(content.get("description")),
+        warnings=[str(one) for one in list_of(content.get("warnings"))],
+        left_out=[mapping_of(one) for one in list_of(content.get("left_out"))],
     )
 
 
@@ -143,3 +145,13 @@ def slice_message(one: Slice, *, at_mm: float | None = None) -> SliceMessage:
         edges=EdgesMessage(left=edges.left, right=edges.right, top=edges.top, bottom=edges.bottom),
         at_mm=at_mm,
     )
+
+
+def mapping_of(value: object) -> dict[str, object]:
+    """What a document holds as a mapping; an empty one where it holds something else."""
+    return {str(key): one for key, one in value.items()} if isinstance(value, Mapping) else {}
+
+
+def list_of(value: object) -> list[object]:
+    """What a document holds as a list; an empty one where it holds something else."""
+    return list(value) if isinstance(value, list | tuple) else []

@@ -1,7 +1,5 @@
 """A CT through the door: sent, read, looked at, refused, cancelled, and there again after a restart."""
 
-import os
-import signal
 from pathlib import Path
 from typing import Any
 
