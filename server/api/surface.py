@@ -13,7 +13,8 @@ from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import KEEP
 from server.api.uploads import received
-from server.procedure.surface import BoneOrder, MeshOrder, SurfaceStep
+from server.planning.surface import MeshOrder
+from server.procedure.surface import BoneOrder, SurfaceStep
 from server.store import CaseStore, Home
 from server.stream.messages import Message
 from tracker.plan.mesh.intake import Space

@@ -1,16 +1,14 @@
 """The CT of the open case: its voxels mapped from the disk, not read into memory."""
 
 import threading
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from server.errors import SetupOrderError
+from server.planning.volume import volume_of
 from server.procedure.ct.step import MAIN_CT
 from server.procedure.opened import opened_case
 from server.store import CaseStore, Document, DocumentKind, StoredFile
-from tracker.errors import InvalidInput, PlanError
+from tracker.errors import InvalidInput
 from tracker.plan import Volume
 
 
@@ -63,34 +61,11 @@ class OpenedCt:
         if len(document.files) != 1:
             raise _invalid(document, f"it has {len(document.files)} files, needed 1")
         file = self._store.file(document.case_id, document.files[0])
-        return CtInUse(document=document, file=file, volume=mapped_volume(file, document))
-
-
-def mapped_volume(file: StoredFile, document: Document) -> Volume:
-    """The voxels of a CT's file with the place that its document tells.
-
-    Raises:
-        InvalidInput: CT_DOCUMENT_INVALID.
-    """
-    return volume_from(str(file.path), document.content, title=document.title)
-
-
-def volume_from(path: str, content: Mapping[str, object], *, title: str = "the CT") -> Volume:
-    """The same where the store is not at hand, as in a job.
-
-    Raises:
-        InvalidInput: CT_DOCUMENT_INVALID.
-    """
-    try:
-        hu = np.load(path, mmap_mode="r")
-        affine = np.array(content["lps_from_ijk"], dtype=np.float64)
-        return Volume(hu=hu, lps_from_ijk=affine).in_patient_order()
-    except (PlanError, OSError, ValueError, TypeError, KeyError) as error:
-        raise InvalidInput(
-            "CT_DOCUMENT_INVALID",
-            f"{title} cannot be used: {error}",
-            "Send the CT again.",
-        ) from error
+        return CtInUse(
+            document=document,
+            file=file,
+            volume=volume_of(str(file.path), document.content.get("lps_from_ijk"), title=document.title),
+        )
 
 
 def _invalid(document: Document, why: str) -> InvalidInput:

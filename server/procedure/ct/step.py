@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from server.jobs import Job, Jobs
-from server.procedure.ct.reading import PREVIEW, VOXELS, read_upload
+from server.planning.ct import PREVIEW, VOXELS, read_upload
 from server.procedure.opened import opened_case
 from server.store import CaseStore, DocumentKind, told
 from tracker.errors import NavigationError

@@ -7,9 +7,9 @@ from typing import TypeAlias
 import numpy as np
 
 from server.config import PlanConfig
-from server.jobs import Job, Jobs, Report
+from server.jobs import Job, Jobs
+from server.planning.pedicle import measure_in_ct
 from server.procedure.ct import OpenedCt
-from server.procedure.ct.opened import volume_from
 from server.procedure.plan.kept import KeptPlan, PlanShelf
 from server.store import CaseStore
 from tracker.errors import PlanError
@@ -19,12 +19,11 @@ from tracker.plan import (
     ScrewCatalogue,
     Volume,
     channel_from_points,
-    measure_pedicle,
     propose_middle,
     propose_screw,
     propose_slice,
 )
-from tracker.plan.document import changes, measure_from_mapping, plain, refuse_odd
+from tracker.plan.document import changes, measure_from_mapping, refuse_odd
 from tracker.plan.pedicle import Side
 from tracker.plan.slices import reach_mm
 
@@ -268,15 +267,6 @@ class PlanStep:
                 f"{_told(catalogue.lengths_mm)} mm, or add yours under plan in the config.",
                 {"diameter_mm": size_mm[0], "length_mm": size_mm[1]},
             )
-
-
-def measure_in_ct(
-    report: Report, *, path: str, lps_from_ijk: list[list[float]], seed_lps_mm: list[float], side: str
-) -> object:
-    """The work itself, in a process of its own: the pedicle's numbers."""
-    report(0.1, "looking for the pedicle")
-    volume = volume_from(path, {"lps_from_ijk": lps_from_ijk})
-    return plain(measure_pedicle(volume, seed_lps_mm, side))
 
 
 def _refused_odd(plan: PlanDocument) -> PlanDocument:
