@@ -1,5 +1,6 @@
 """A CT through the door: sent, read, looked at, refused, cancelled, and there again after a restart."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,10 @@ def opened(server: Server) -> str:
 
 def sent(server: Server, content: bytes) -> Any:  # noqa: ANN401  JSON
     return server.done(server.ask("POST", "/api/ct", 202, content=content, params=BY))
+
+
+def two_series() -> bytes:
+    return zip_of(dicom_slices(scanned()), dicom_slices(scanned(), series="1.2.3.9", number=2)[:20])
 
 
 def picture(server: Server, path: str) -> np.ndarray:
@@ -84,8 +89,7 @@ def test_slices_along_and_across_a_channel(server: Server) -> None:
 
 def test_one_of_several_series_is_chosen(server: Server) -> None:
     case_id = opened(server)
-    two = zip_of(dicom_slices(scanned()), dicom_slices(scanned(), series="1.2.3.9", number=2)[:20])
-    begun = server.ask("POST", "/api/ct", 202, content=two, params=BY)
+    begun = server.ask("POST", "/api/ct", 202, content=two_series(), params=BY)
     job = server.done(begun)
     assert [one["images"] for one in job["result"]["series"]] == [40, 20]
     assert server.store.files(case_id) == ()
@@ -116,3 +120,18 @@ def test_nothing_is_sent_where_no_case_is_open(server: Server) -> None:
     opened(server)
     assert server.ask("GET", "/api/ct", 409)["code"] == "CT_MISSING"
     assert server.ask("GET", "/api/ct/uploads/nothing/preview.png", 404)["code"] == "UPLOAD_UNKNOWN"
+
+
+def test_the_ct_is_there_again_after_a_restart(server: Server, restarted: Callable[[], Server]) -> None:
+    opened(server)
+    sent(server, dicom_zip())
+    before = server.ask("GET", "/api/ct", 200)
+    shown_before = server.door.get("/api/ct/slices/coronal.png")
+    begun = server.ask("POST", "/api/ct", 202, content=two_series(), params=BY)
+    server.done(begun)
+    again = restarted()
+    assert again.ask("GET", "/api/ct", 200) == before
+    assert again.door.get("/api/ct/slices/coronal.png").content == shown_before.content
+    # An upload that waited for a choice is not kept over a restart.
+    again.ask("POST", f"/api/ct/uploads/{begun['upload_id']}/series/1.2.3.9", 404)
+    assert leftovers(again) == []
