@@ -8,6 +8,8 @@ from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, TroubleMessage, trouble_message
 from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 
+SHOW_IT = "Show the board to the camera."
+
 Millimetres: TypeAlias = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]
 Count: TypeAlias = Annotated[int, Field(ge=2, le=200)]
 
@@ -180,7 +182,7 @@ def collection_message(collection: BoardCollection) -> CollectionMessage:
         coverage_ratio=0.0 if progress is None else progress.coverage_ratio,
         covered=[] if progress is None else progress.covered.tolist(),
         tilt_deg=[0.0] * 4 if progress is None else list(progress.tilt_deg),
-        missing=[] if progress is None else list(progress.missing),
+        missing=[SHOW_IT] if progress is None else list(progress.missing),
         image_number=status.image_number,
         said=status.said,
         points_px=status.points_px.round(2).tolist(),

@@ -10,6 +10,8 @@ from server.live import Instant, LiveHub, Trouble
 from tracker.errors import NavigationError
 
 WAIT_S = 0.2
+# After a look that took long the machine is left to the video for as long again, and half of it more.
+REST_BY_LOOK = 1.5
 
 log = structlog.get_logger(__name__)
 
@@ -77,4 +79,5 @@ class Follower:
                     remedy="Start it again; if it comes back, send the server's log to the maintainer.",
                 )
                 return
-            self._stop.wait(max(0.0, self._rest_s - (time.monotonic() - began_s)))
+            took_s = time.monotonic() - began_s
+            self._stop.wait(max(self._rest_s - took_s, REST_BY_LOOK * took_s))

@@ -1,6 +1,6 @@
 """Benchmarks: how true and how fast the tracker is beside its peers and the bound, as Markdown tables.
 
-python -m tests.benchmarks [SECTION] [--write], the sections being those of `sections.py`: limits, rehearsal ...
+python -m tests.benchmarks [SECTION ...] [--write]; the sections are those of `sections.py`.
 """
 
 import argparse

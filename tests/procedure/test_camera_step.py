@@ -117,7 +117,8 @@ def test_a_withdrawn_camera_is_used_no_more(server: Server) -> None:
 
 def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> None:
     _, images = shown()
-    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    begun = server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    assert begun["missing"] == ["Show the board to the camera."]
     for index, image in enumerate(images[:3]):
         for late_s in (0.0, 0.3):
             server.show(at_s=index * 2.0 + late_s, image=image)

@@ -55,6 +55,13 @@ class CameraModel:
         object.__setattr__(self, "size_wh_px", (width, height))
         object.__setattr__(self, "lens", lens)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Made anew in another process, where its arrays have to be read-only too.
+
+        For arrays that may be written the compiled loops would be compiled once more, while tracking.
+        """
+        return _made, (self.matrix, self.distortion, self.size_wh_px)
+
     @classmethod
     def from_mapping(cls, values: Mapping[str, object]) -> "CameraModel":
         """From the keys `matrix`, `distortion`, `size_wh_px` of a camera file; other keys are let be."""
@@ -92,6 +99,10 @@ class CameraModel:
         points = np.asarray(px, dtype=np.float64).reshape(-1, 1, 2)
         out = cv2.undistortPoints(points, self.matrix, self.distortion, criteria=UNDISTORT_CRITERIA)
         return np.asarray(out, dtype=np.float64).reshape(-1, 2)
+
+
+def _made(matrix: Array, distortion: Array, size_wh_px: tuple[int, int]) -> CameraModel:
+    return CameraModel(matrix=matrix, distortion=distortion, size_wh_px=size_wh_px)
 
 
 def _problem(matrix: Array, distortion: Array, width: int, height: int) -> str:

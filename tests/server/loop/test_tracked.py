@@ -124,6 +124,7 @@ def test_a_case_that_is_opened_while_tracking_brings_its_camera(
     assert not before.snapshot.setup.camera_calibrated
     running[0].tracked.adopt(CaseSetup(camera=nominal_camera((64, 48))))
     hub.until(lambda instant: instant.snapshot is not None and instant.snapshot.setup.camera_calibrated)
+    assert hub.instants[-1].process.restarts == 0
     running[0].tracked.adopt(CaseSetup())
     seen = len(hub.instants)
     hub.until(

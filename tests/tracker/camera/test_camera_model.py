@@ -1,5 +1,6 @@
 """The camera: what is refused, and that the compiled lens is OpenCV's."""
 
+import pickle
 from collections.abc import Sequence
 
 import cv2
@@ -167,3 +168,11 @@ def test_the_lens_of_these_tests_bends() -> None:
     bent, straight = camera_of(), camera_of(distortion=STRAIGHT)
     corner = [[100.0, 80.0, 250.0]]
     assert np.linalg.norm(bent.px_from_camera(corner) - straight.px_from_camera(corner)) > 5.0
+
+
+def test_a_camera_from_another_process_is_as_read_only_as_before() -> None:
+    camera = CameraModel(matrix=np.array(K), distortion=np.array(LENSES[5]), size_wh_px=(640, 480))
+    arrived = pickle.loads(pickle.dumps(camera))  # noqa: S301  our own bytes
+    for name in ("matrix", "distortion", "lens"):
+        np.testing.assert_array_equal(getattr(arrived, name), getattr(camera, name))
+        assert not getattr(arrived, name).flags.writeable, name
