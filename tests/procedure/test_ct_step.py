@@ -1,6 +1,7 @@
 """A CT through the door: sent, read, looked at, refused, cancelled, and there again after a restart."""
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.procedure.conftest import Server
+from tests.procedure.conftest import Server, serving
 from tests.procedure.uploads import dicom_slices, dicom_zip, nifti, scanned, zip_of
 from tests.server.imaging.made_ct import BORN, NAME, NUMBER
 from tracker.plan.slices import WINDOWS, patient_slice, shown
@@ -135,3 +136,58 @@ def test_the_ct_is_there_again_after_a_restart(server: Server, restarted: Callab
     # An upload that waited for a choice is not kept over a restart.
     again.ask("POST", f"/api/ct/uploads/{begun['upload_id']}/series/1.2.3.9", 404)
     assert leftovers(again) == []
+
+
+def test_the_ct_and_plan_of_a_case_come_along_in_its_archive(server: Server) -> None:
+    case_id = opened(server)
+    sent(server, dicom_zip())
+    server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3"})
+    shown_before = server.door.get("/api/ct/slices/axial.png").content
+    archive = server.door.get(f"/api/cases/{case_id}/archive").content
+    server.ask("POST", f"/api/cases/{case_id}/close", 200)
+    server.ask("POST", f"/api/cases/{case_id}/deletion", 204, json={"confirm": "L3"})
+    copied = server.ask("POST", "/api/cases/archive", 201, content=archive)
+    server.ask("POST", f"/api/cases/{copied['id']}/open", 200)
+    assert server.door.get("/api/ct/slices/axial.png").content == shown_before
+    assert server.ask("GET", "/api/plan", 200)["heading"]["current"]
+
+
+@pytest.mark.skipif(not Path("/proc/self/maps").exists(), reason="the system does not tell what is mapped")
+def test_nothing_of_a_closed_case_stays_mapped(server: Server) -> None:
+    case_id = opened(server)
+    sent(server, dicom_zip())
+    server.door.get("/api/ct/slices/axial.png")
+    assert case_id in Path("/proc/self/maps").read_text()
+    server.ask("POST", f"/api/cases/{case_id}/close", 200)
+    gc.collect()
+    assert case_id not in Path("/proc/self/maps").read_text()
+
+
+@pytest.mark.parametrize(
+    ("path", "status", "code"),
+    [
+        pytest.param("slices/axial.png?at_mm=9000", 409, "SLICE_OUTSIDE", id="beyond-the-ct"),
+        pytest.param("slices/axial?at_mm=nan", 422, "REQUEST_INVALID", id="nowhere"),
+        pytest.param("slices/upside.png", 422, "REQUEST_INVALID", id="another-plane"),
+        pytest.param("slices/axial.png?window=0", 422, "REQUEST_INVALID", id="no-window"),
+        pytest.param("slices/axial.png?preset=x-ray", 422, "PRESET_UNKNOWN", id="another-preset"),
+        pytest.param("slices/axial.png?slab_mm=1e9", 422, "REQUEST_INVALID", id="thick-slab"),
+        pytest.param("oblique.png?entry=1,2&target=1,2,3", 422, "POINT_INVALID", id="two-numbers"),
+        pytest.param("oblique.png?entry=1,2,inf&target=1,2,3", 422, "POINT_INVALID", id="infinite"),
+        pytest.param("oblique.png?entry=1,2,3&target=1,2,3", 409, "CHANNEL_INVALID", id="no-length"),
+        pytest.param(
+            "oblique?entry=0,0,0&target=0,9,0&pixel_mm=0.05&height_mm=400", 409, "SLICE_TOO_LARGE", id="huge"
+        ),
+    ],
+)
+def test_slices_that_cannot_be_shown_are_told(viewed: Server, path: str, status: int, code: str) -> None:
+    assert viewed.ask("GET", f"/api/ct/{path}", status)["code"] == code
+
+
+@pytest.fixture(scope="module")
+def viewed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    """A server with a CT that nobody changes."""
+    with serving(tmp_path_factory.mktemp("viewed")) as server:
+        opened(server)
+        sent(server, dicom_zip())
+        yield server

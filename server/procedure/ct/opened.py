@@ -34,6 +34,7 @@ class OpenedCt:
         self._store = store
         self._lock = threading.Lock()
         self._in_use: CtInUse | None = None
+        store.call_after_writing(self._let_go)
 
     def current(self) -> CtInUse:
         """The newest CT of the open case.
@@ -56,6 +57,15 @@ class OpenedCt:
             if self._in_use is None or self._in_use.document.id != document.id:
                 self._in_use = self._mapped(document)
             return self._in_use
+
+    def _let_go(self) -> None:
+        """Of a CT whose case is closed: a deleted one must be gone from the disk."""
+        with self._lock:
+            if self._in_use is None:
+                return
+            case = self._store.opened()
+            if case is None or case.id != self._in_use.document.case_id:
+                self._in_use = None
 
     def _mapped(self, document: Document) -> CtInUse:
         if len(document.files) != 1:
