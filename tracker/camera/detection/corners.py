@@ -15,9 +15,11 @@ SADDLE_SMOOTHING_PX = (1.5, 3.0)
 MOST_SADDLES = 3000
 
 
-def refined(grey: GreyImage, corners_px: Array, sides_px: Array) -> Array:
+def refined(
+    grey: GreyImage, corners_px: Array, sides_px: Array, *, window_ratio: float = WINDOW_RATIO
+) -> Array:
     """Corners (n, 2) where the edges around them point to; `sides_px` (n,) is the shortest side at each."""
-    windows = np.clip(np.rint(WINDOW_RATIO * sides_px), SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX).astype(int)
+    windows = np.clip(np.rint(window_ratio * sides_px), SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX).astype(int)
     placed = corners_px.copy()
     for window in np.unique(windows):
         some = windows == window
