@@ -20,6 +20,9 @@ LEAST_VOXELS = 60
 COARSE_SD_DEG = 4.0
 # Bone is not made of even layers: what a voxel may differ by before it counts less.
 LEAST_SCALE_HU, SCALE_RATIO = 12.0, 0.06
+# Noise is alike in neighbouring voxels only; bone that is not as the model has it, over a few millimetres.
+ALIKE_VOXELS, ALIKE_MM3 = 2.0, 20.0
+_HELD_SLOPES: Array = np.array([0.0, 0.0, 0.02])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,6 +35,7 @@ class FittedBar:
         parameters: (26,), see `tube`.
         covariance: (26, 26).
         residual_hu: robust standard deviation of what the fit leaves.
+        misfit_ratio: what the fit leaves beyond noise, by the contrast of bone: how unlike a bar this bone is.
         fitted: whether the fit came to an end; if not, these are the coarse numbers.
     """
 
@@ -43,11 +47,15 @@ class FittedBar:
     parameters: Array
     covariance: Array
     residual_hu: float
+    misfit_ratio: float
     fitted: bool
 
 
-def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
-    """The bar around its narrowest section, refitted until window and axis agree with themselves."""
+def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
+    """The bar around its narrowest section, refitted until window and axis agree with themselves.
+
+    Held, it keeps the direction that it was given, and only the place and shape of its section are fitted.
+    """
     half = float(np.clip(0.8 * min(bar.behind_mm, bar.ahead_mm), LEAST_HALF_MM, MOST_HALF_MM))
     origin, axis = bar.centre_mm, bar.axis
     parameters = _first_parameters(near, bar)
@@ -57,9 +65,8 @@ def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
         samples = _samples(near, bar, parameters, origin, np.stack([axis, left, up]), half)
         if len(samples.hu) < LEAST_VOXELS:
             break
-        parameters, covariance, residual, done = _solve(
-            near, samples, parameters, _coarse_slopes(bar, axis, left, up, half)
-        )
+        slopes = _HELD_SLOPES if held else _coarse_slopes(bar, axis, left, up, half)
+        parameters, covariance, residual, done = _solve(near, samples, parameters, slopes)
         fitted = FittedBar(
             origin_mm=origin,
             axis=axis,
@@ -69,10 +76,12 @@ def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
             parameters=parameters,
             covariance=covariance,
             residual_hu=residual,
+            misfit_ratio=_misfit_ratio(near, residual),
             fitted=done,
         )
         if round_number < ROUNDS - 1:
-            origin, axis, parameters = _moved(fitted)
+            origin, turned, parameters = _moved(fitted)
+            axis = axis if held else turned
     return fitted if fitted is not None else _unfitted(near, bar, parameters, half)
 
 
@@ -224,9 +233,20 @@ def _solve(
     residual = float(1.4826 * np.median(np.abs(left)))
     information = result.jac.T @ result.jac
     spread = max(residual, 2.0) / scale
-    # Neighbouring voxels are off alike, so that they tell less than their number says.
-    covariance = np.linalg.pinv(information) * max(spread, 0.2) ** 2 * 2.0
+    covariance = np.linalg.pinv(information) * max(spread, 0.2) ** 2 * _alike(near, residual)
     return result.x, covariance, residual, bool(result.status >= 0)
+
+
+def _alike(near: Neighbourhood, residual: float) -> float:
+    """How many voxels are off alike, so that they tell no more than one."""
+    noise = min(near.noise_hu / max(residual, 1e-6), 1.0) ** 2
+    voxel = float(abs(np.linalg.det(near.lps_from_index[:3, :3])))
+    return noise * ALIKE_VOXELS + (1.0 - noise) * max(ALIKE_VOXELS, ALIKE_MM3 / voxel)
+
+
+def _misfit_ratio(near: Neighbourhood, residual: float) -> float:
+    misfit = np.sqrt(max(residual**2 - near.noise_hu**2, 0.0))
+    return float(misfit / max(near.cortex_hu - near.tissue_hu, 50.0))
 
 
 def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, Array]:
@@ -274,5 +294,6 @@ def _unfitted(near: Neighbourhood, bar: Bar, parameters: Array, half: float) -> 
         parameters=parameters,
         covariance=np.diag(spread**2),
         residual_hu=near.noise_hu,
+        misfit_ratio=1.0,
         fitted=False,
     )

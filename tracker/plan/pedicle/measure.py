@@ -1,29 +1,36 @@
 """From one click to the pedicle's numbers."""
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.plan.pedicle import refusals, tube
+from tracker.plan.pedicle.course import Course, course_through
 from tracker.plan.pedicle.fit import FittedBar, fit_bar
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.record import (
     PedicleMeasure,
     PedicleSpread,
     Side,
+    axis_from_angles,
     checked_side,
     sagittal_deg_of,
     transverse_deg_of,
 )
-from tracker.plan.pedicle.search import Bar, find_bar
+from tracker.plan.pedicle.search import Bar, bar_along, find_bar
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.sides import body_side, canal_side
+from tracker.plan.pedicle.solid import solid_around
 from tracker.plan.pedicle.walls import WallAhead, back_wall, front_wall
 from tracker.plan.volume import Volume
 
 WALL_SD_VOXELS = 0.3
 USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
+# A smaller turn of the axis changes no section.
+TURNED_DEG = 1.0
 
 
 def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> PedicleMeasure:
@@ -49,16 +56,37 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     seed = refusals.checked_seed(volume, seed_lps_mm)
     near = neighbourhood_of(volume, seed)
     refusals.refuse_air(near, seed)
-    bar = find_bar(near, seed, named)
+    solid = solid_around(near, seed)
+    bar = find_bar(near, seed, named, course_through(solid, seed, named))
     if bar is None:
         raise refusals.not_found(near, seed)
     refusals.refuse_cut(near, bar)
     fitted = fit_bar(near, bar)
     refusals.refuse_outside(near, bar, fitted, seed)
     isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
+    course = course_through(solid, isthmus.centre_mm, named)
+    isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, named)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
     return _record(near, seed, named, bar, fitted, isthmus, warnings)
+
+
+def _along_course(
+    near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Isthmus, course: Course, side: Side
+) -> tuple[Isthmus, FittedBar]:
+    """The isthmus across the axis that walls and surroundings tell together, each as surely as it is."""
+    own = np.array([transverse_deg_of(isthmus.axis, side), sagittal_deg_of(isthmus.axis)])
+    expected = np.array([course.transverse_deg, course.sagittal_deg])
+    own_weight = 1.0 / np.square(isthmus.slope_sd_deg)
+    course_weight = 1.0 / np.square([course.transverse_sd_deg, course.sagittal_sd_deg])
+    both = (own_weight * own + course_weight * expected) / (own_weight + course_weight)
+    spread = 1.0 / np.sqrt(own_weight + course_weight)
+    axis = axis_from_angles(side, transverse_deg=float(both[0]), sagittal_deg=float(both[1]))
+    turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
+    if turned_deg >= TURNED_DEG:
+        fitted = fit_bar(near, bar_along(near, bar, isthmus.centre_mm, axis), held=True)
+        isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
+    return replace(isthmus, axis=axis, slope_sd_deg=(float(spread[0]), float(spread[1]))), fitted
 
 
 def _record(
