@@ -95,8 +95,8 @@ def measure_ct_upload(asked: Asked) -> list[Table]:
             columns=["slices", "first slice s", "CT open s", "axial ms", "sagittal ms", "server", "all"],
             rows=rows,
             note="Times begin when the last byte was sent. Memory is over the 200 MiB of the voxels: "
-            "`server` is the most that the web server held, with what it had before; `all` is what it and every "
-            "process under it (tracking, reading, decoding) held more than before, what they share and the "
+            "`server` is the most that the web server held, with what it had before; `all` is what it and "
+            "every process under it (tracking, reading, decoding) held more than before, what they share and the "
             "mapped file counted once.",
         )
     ]
