@@ -26,6 +26,11 @@ KINDS = {"uncompressed": uid.ExplicitVRLittleEndian, "JPEG 2000": uid.JPEG2000Lo
 RATE_HZ = 30.0
 VOLUME_MIB = SIZE_WH[0] * SIZE_WH[1] * SLICES * 2 / 2**20
 WATCH_EVERY_S = 0.1
+NOTE = (
+    "Times begin when the last byte was sent. Memory is over the 200 MiB of the voxels: `server` is the most "
+    "that the web server held, with what it had before; `all` is what it and every process under it "
+    "(tracking, reading, decoding) held more than before, what they share and the mapped file counted once."
+)
 PATIENCE_S = 300.0
 Told: TypeAlias = dict[str, object]
 
@@ -94,10 +99,7 @@ def measure_ct_upload(asked: Asked) -> list[Table]:
             title="Sent to a running server as a zip, which tracks 30 images a second meanwhile",
             columns=["slices", "first slice s", "CT open s", "axial ms", "sagittal ms", "server", "all"],
             rows=rows,
-            note="Times begin when the last byte was sent. Memory is over the 200 MiB of the voxels: "
-            "`server` is the most that the web server held, with what it had before; `all` is what it and "
-            "every process under it (tracking, reading, decoding) held more than before, what they share and the "
-            "mapped file counted once.",
+            note=NOTE,
         )
     ]
 
