@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 from pydicom import uid
 
@@ -25,7 +26,13 @@ KINDS = {"uncompressed": uid.ExplicitVRLittleEndian, "JPEG 2000": uid.JPEG2000Lo
 RATE_HZ = 30.0
 VOLUME_MIB = SIZE_WH[0] * SIZE_WH[1] * SLICES * 2 / 2**20
 WATCH_EVERY_S = 0.1
+NOTE = (
+    "Times begin when the last byte was sent. Memory is over the 200 MiB of the voxels: `server` is the most "
+    "that the web server held, with what it had before; `all` is what it and every process under it "
+    "(tracking, reading, decoding) held more than before, what they share and the mapped file counted once."
+)
 PATIENCE_S = 300.0
+Told: TypeAlias = dict[str, object]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -54,15 +61,15 @@ class Door:
         finally:
             connection.close()
 
-    def mapping(self, method: str, path: str, asked: Mapping[str, object] | None = None) -> dict[str, object]:
+    def mapping(self, method: str, path: str, asked: Mapping[str, object] | None = None) -> Told:
         """The answer as JSON; RuntimeError where it is a refusal."""
         status, content = self.ask(method, path, None if asked is None else json.dumps(asked).encode())
         if status >= 300:
             raise RuntimeError(f"{method} {path}: {status} {content[:300]!r}")
-        answer: dict[str, object] = json.loads(content)
+        answer: Told = json.loads(content)
         return answer
 
-    def send(self, path: str, file: Path) -> tuple[dict[str, object], float]:
+    def send(self, path: str, file: Path) -> tuple[Told, float]:
         """Send a file as the body; the answer, and when its last byte was sent."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE_S)
         with file.open("rb") as content:
@@ -72,7 +79,7 @@ class Door:
             while chunk := content.read(2**20):
                 connection.send(chunk)
         sent_s = time.perf_counter()
-        answer: dict[str, object] = json.loads(connection.getresponse().read())
+        answer: Told = json.loads(connection.getresponse().read())
         connection.close()
         return answer, sent_s
 
@@ -92,10 +99,7 @@ def measure_ct_upload(asked: Asked) -> list[Table]:
             title="Sent to a running server as a zip, which tracks 30 images a second meanwhile",
             columns=["slices", "first slice s", "CT open s", "axial ms", "sagittal ms", "server", "all"],
             rows=rows,
-            note="Times begin when the last byte was sent. Memory is over the 200 MiB of the voxels: `server` "
-            "is the most that the web server held, with what it had before; `all` is what it and every "
-            "process under it (tracking, reading, decoding) held more than before, what they share and the "
-            "mapped file counted once.",
+            note=NOTE,
         )
     ]
 
