@@ -167,6 +167,9 @@ def board_message(board: Board) -> BoardMessage:
             )
 
 
+BEFORE_THE_FIRST = "Hold the board into the image."
+
+
 def collection_message(collection: BoardCollection) -> CollectionMessage:
     """How far a collection has come, as it is told."""
     status: CollectionStatus = collection.status
@@ -180,7 +183,7 @@ def collection_message(collection: BoardCollection) -> CollectionMessage:
         coverage_ratio=0.0 if progress is None else progress.coverage_ratio,
         covered=[] if progress is None else progress.covered.tolist(),
         tilt_deg=[0.0] * 4 if progress is None else list(progress.tilt_deg),
-        missing=[] if progress is None else list(progress.missing),
+        missing=[BEFORE_THE_FIRST] if progress is None else list(progress.missing),
         image_number=status.image_number,
         said=status.said,
         points_px=status.points_px.round(2).tolist(),
