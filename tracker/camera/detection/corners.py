@@ -17,8 +17,6 @@ MOST_SADDLES = 3000
 # Light on a ring around a corner, so many smoothings away, is a wave of two periods before all others.
 RING_SMOOTHINGS, RING_POINTS, LEAST_CROSSED_RATIO = 2.5, 24, 0.7
 
-FloatImage = npt.NDArray[np.float32]
-
 
 def refined(
     grey: GreyImage, corners_px: Array, sides_px: Array, *, window_ratio: float = WINDOW_RATIO
@@ -39,7 +37,7 @@ def refined(
 
 def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
     """Points (n, 2) at which two dark and two light quarters meet, strongest first."""
-    smooth = cv2.GaussianBlur(grey.astype(np.float32), (0, 0), smoothing_px)
+    smooth = np.asarray(cv2.GaussianBlur(grey.astype(np.float32), (0, 0), smoothing_px), dtype=np.float32)
     xx = cv2.Sobel(smooth, cv2.CV_32F, 2, 0)
     yy = cv2.Sobel(smooth, cv2.CV_32F, 0, 2)
     xy = cv2.Sobel(smooth, cv2.CV_32F, 1, 1)
@@ -53,7 +51,7 @@ def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
     return points[_crossed(smooth, points, radius_px=RING_SMOOTHINGS * smoothing_px)]
 
 
-def _crossed(smooth: FloatImage, points: Array, *, radius_px: float) -> npt.NDArray[np.bool_]:
+def _crossed(smooth: npt.NDArray[np.float32], points: Array, *, radius_px: float) -> npt.NDArray[np.bool_]:
     """At which points (n,) light goes up and down twice around, as at crossing edges and not in noise."""
     if not len(points):
         return np.zeros(0, dtype=bool)
