@@ -14,6 +14,7 @@ from tracker.camera.detection import (
     board_as_seen,
     find_board,
 )
+from tracker.camera.detection.corners import saddles
 from tracker.errors import InvalidInput
 
 DOTS = DotBoard(columns=12, rows=9, pitch_mm=9.0, fiducials=(26, 33, 62))
@@ -87,6 +88,25 @@ def test_a_board_partly_out_of_view_gives_what_is_seen(board: Board) -> None:
         assert off.max() < 2.0
     else:
         assert isinstance(board, CheckerBoard)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_finger_on_a_checkerboard_costs_only_the_corners_that_it_hides(seed: int) -> None:
+    image = picture(CHECKER, POSES[seed]).astype(np.float64)
+    finger = cv2.ellipse(np.zeros(image.shape), (250, 430), (40, 170), 20, 0, 360, 1.0, -1)
+    grain = cv2.GaussianBlur(np.random.default_rng(seed).normal(0.0, 9.0, image.shape), (0, 0), 1.5)
+    image = np.where(finger > 0, 130.0, image) + grain
+    view = find_board(np.asarray(np.clip(image, 0, 255), dtype=np.uint8), CHECKER)
+    assert isinstance(view, BoardView), view
+    truth_px = true_px(CHECKER, POSES[seed])
+    points = saddles(np.asarray(np.clip(image, 0, 255), dtype=np.uint8), smoothing_px=1.5)
+    near = np.linalg.norm(points[:, None] - truth_px[None], axis=2).min(axis=1) < 3.0
+    # The rest are where squares meet the paper, and not the grain.
+    assert near.mean() > 0.5
+    hidden = np.array([finger[round(y), round(x)] > 0 for x, y in truth_px])
+    assert view.ids.size >= 0.85 * (~hidden).sum()
+    off = np.linalg.norm(view.image_points_px[:, None] - truth_px[None], axis=2).min(axis=1)
+    assert np.median(off) < 0.2
 
 
 def test_larger_dots_and_charuco_layout_are_found_by_themselves() -> None:

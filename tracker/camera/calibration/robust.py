@@ -14,7 +14,7 @@ from tracker.geometry import Array
 # A view is out when its RMS is so many times the usual one; honest views differ by less than twice.
 MOST_VIEW_RATIO = 3.0
 # Below this a view is never out, whatever the others reach: nobody measures better than that in a photo.
-GOOD_VIEW_PX = 0.15
+GOOD_VIEW_PX = 0.3
 # A point is out beyond so many standard deviations of the noise: of 10 000 honest points none.
 MOST_POINT_SDS = 5.5
 MOST_POINTS_OUT_RATIO = 0.25
