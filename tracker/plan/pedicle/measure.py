@@ -29,6 +29,7 @@ from tracker.plan.volume import Volume
 WALL_SD_VOXELS = 0.3
 USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
+LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
 MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
@@ -70,7 +71,7 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, named)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
-    return _record(near, seed, named, bar, fitted, isthmus, warnings)
+    return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
 
 
 def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar | None:
@@ -125,6 +126,7 @@ def _is_same(one: Isthmus, other: Isthmus) -> bool:
 
 def _record(
     near: Neighbourhood,
+    solid: Solid,
     seed: Array,
     side: Side,
     bar: Bar,
@@ -132,10 +134,11 @@ def _record(
     isthmus: Isthmus,
     warnings: list[str],
 ) -> PedicleMeasure:
-    front = front_wall(near, isthmus.centre_mm, isthmus.axis)
-    back = back_wall(near, isthmus.centre_mm, isthmus.axis)
+    front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
+    back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
     warnings += _fit_warnings(near, bar, fitted, isthmus) + _length_warnings(front, back)
+    warnings += _front_warnings(front)
     return PedicleMeasure(
         side=side,
         width_mm=isthmus.width_mm,
@@ -155,7 +158,7 @@ def _record(
             height_mm=isthmus.height_sd_mm,
             transverse_deg=isthmus.slope_sd_deg[0],
             sagittal_deg=isthmus.slope_sd_deg[1],
-            length_mm=float(np.sqrt(2.0) * WALL_SD_VOXELS * voxel),
+            length_mm=_length_sd_mm(front, back, isthmus, WALL_SD_VOXELS * voxel),
             isthmus_mm=isthmus.centre_sd_mm,
         ),
         warnings=tuple(warnings),
@@ -196,6 +199,28 @@ def _fit_warnings(near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Ist
     if fitted.half_mm <= 3.0 and bar.length_mm < 4.0:
         out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less sure")
     return out
+
+
+def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
+    """Each wall's own spread, and what the axis's spread makes of it where the wall is met aslant."""
+    parts = [wall_sd_mm, wall_sd_mm]
+    for wall in (front, back):
+        aslant = np.sqrt(max(1.0 - wall.faced_ratio**2, 0.0)) / max(wall.faced_ratio, LEAST_FACED)
+        parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
+    return float(np.linalg.norm(parts))
+
+
+def _front_warnings(front: WallAhead) -> list[str]:
+    """Where the axis does not leave through the front wall."""
+    if not front.found or front.faced_ratio >= LEAST_FACED:
+        return []
+    up = float(front.outwards[2])
+    where = "side" if abs(up) < ENDPLATE_RATIO else ("upper endplate" if up > 0.0 else "lower endplate")
+    slant_deg = float(np.degrees(np.arccos(np.clip(front.faced_ratio, -1.0, 1.0))))
+    return [
+        f"the axis leaves the body through its {where} ({slant_deg:.0f} deg aslant), not through the front "
+        "wall; the length ends there, check it"
+    ]
 
 
 def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:
