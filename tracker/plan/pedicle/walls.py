@@ -18,11 +18,14 @@ FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
 VESSEL_FROM_MM = 24.0
 DISC_MM = 0.9
 # Behind a true outer wall most directions across the axis meet no bone soon.
+GAP_BEYOND_MM = 2.0
 LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
 
 
 # Where the solid ends, the wall is the fall of the profile that is so near to it.
 NEAR_EXIT_MM = 4.0
+# Where bone and vessel have grown together in the solid, their joint is shallow, and far ahead.
+NECK_FROM_MM, NECK_MM = 24.0, 3.0
 # Deeper outside than this the line has left the bone, and not only passed a gap in its wall.
 LEFT_MM = 1.0
 
@@ -72,15 +75,20 @@ def _wall(
     What is soft and closed in, as marrow, belongs to the solid, so that no gap within the body ends it.
     """
     exit_mm = _exit_mm(solid, isthmus_mm, direction, from_mm)
-    if exit_mm is None:
-        distance, found = _outer_wall(near, isthmus_mm, direction, from_mm, vessel_mm)
-    else:
+    distance, found = _outer_wall(near, isthmus_mm, direction, from_mm, vessel_mm)
+    if exit_mm is not None and not (found and _is_neck(solid, isthmus_mm, direction, distance, exit_mm)):
         found = bool(near.holds(isthmus_mm + (exit_mm + 1.0) * direction))
         distance = _fall_near(near, isthmus_mm, direction, exit_mm)
     outwards = solid.outwards_at(isthmus_mm + distance * direction) if found else direction
     return WallAhead(
         distance_mm=distance, found=found, outwards=outwards, faced_ratio=float(outwards @ direction)
     )
+
+
+def _is_neck(solid: Solid, isthmus_mm: Array, direction: Array, at_mm: float, exit_mm: float) -> bool:
+    """Whether a wall well before the solid's end is one all the same: bone and a vessel grown together."""
+    depth = float(solid.depth_at((isthmus_mm + at_mm * direction)[None])[0])
+    return at_mm < exit_mm - NEAR_EXIT_MM and at_mm > NECK_FROM_MM and depth < NECK_MM
 
 
 def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float | None:
@@ -120,8 +128,10 @@ def _outer_wall(
         for distance_mm, trough in _falls(profile, share * near.least_fall_hu, behind):
             if distance_mm < from_mm or (trough > limit and distance_mm < vessel_from_mm):
                 continue
-            beyond = isthmus_mm + (distance_mm + LOOK_BEYOND_MM) * direction
-            if not _is_enclosed(near, beyond, direction):
+            # In a narrow gap before a vessel the nearer look sees that nothing stands around.
+            looks = (LOOK_BEYOND_MM,) if trough > limit else (GAP_BEYOND_MM, LOOK_BEYOND_MM)
+            points = [isthmus_mm + (distance_mm + look_mm) * direction for look_mm in looks]
+            if not all(_is_enclosed(near, point, direction) for point in points):
                 return distance_mm, True
     return max(len(profile) - 1, 0) * STEP_MM, False
 
