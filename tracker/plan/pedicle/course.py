@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.geometry import Array
+from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.solid import Solid
 
 # The path of a screw around the isthmus, over which bone must stand around it.
@@ -24,6 +25,7 @@ USUAL_RANGE_DEG = (0.0, 28.0)
 KNOWN_SD_DEG, UNKNOWN_SD_DEG = 6.0, 11.0
 # Nothing around a pedicle tells its direction better than this.
 LEAST_SD_DEG = 3.0
+ASIDE_MM = np.arange(-5.0, 5.1, 1.0)
 TRANSVERSE_DEG = np.arange(-24.0, 45.0, 3.0)
 SAGITTAL_DEG = np.arange(-30.0, 31.0, 3.0)
 
@@ -36,6 +38,12 @@ class Course:
     sagittal_deg: float
     transverse_sd_deg: float
     sagittal_sd_deg: float
+
+    def axis(self, side: str) -> Array:
+        """The unit axis (3,) of these angles, forwards."""
+        return _ways(
+            np.array([self.transverse_deg]), np.array([self.sagittal_deg]), 1.0 if side == "left" else -1.0
+        )[0]
 
     def off_deg(self, axis: Array, side: str) -> Array:
         """By how many degrees (n, 2) unit axes (n, 3) are off, transverse and sagittal."""
@@ -72,17 +80,25 @@ def course_through(solid: Solid, isthmus_mm: Array, side: str) -> Course:
     )
 
 
+def middle_of_bone(solid: Solid, point_mm: Array, axis: Array) -> Array:
+    """The deepest place (3,) across an axis within a few mm of a point."""
+    (across,), (up,) = planes_across(axis[None])
+    x, y = (grid.ravel() for grid in np.meshgrid(ASIDE_MM, ASIDE_MM))
+    near_by = point_mm + x[:, None] * across + y[:, None] * up
+    # Of equal places the nearest, so that nothing is left for one just as good.
+    return np.asarray(near_by[np.argmax(solid.depth_at(near_by) - 0.3 * np.hypot(x, y))])
+
+
+def _ways(transverse: Array, sagittal: Array, outwards: float) -> Array:
+    """Unit directions (n, 3) of angles (n,) in degrees."""
+    medial = np.tan(np.radians(transverse))
+    way = np.stack([-outwards * medial, -np.ones_like(medial), np.tan(np.radians(sagittal))], axis=1)
+    return np.asarray(way / np.linalg.norm(way, axis=1, keepdims=True))
+
+
 def _clearance_mm(solid: Solid, at: Array, transverse: Array, sagittal: Array, outwards: float) -> Array:
     """Mean clearance (n,) of paths through a point, as far as clearance matters."""
-    way = np.stack(
-        [
-            -outwards * np.tan(np.radians(transverse)),
-            -np.ones_like(transverse),
-            np.tan(np.radians(sagittal)),
-        ],
-        axis=1,
-    )
-    way /= np.linalg.norm(way, axis=1, keepdims=True)
+    way = _ways(transverse, sagittal, outwards)
     along = np.arange(-BEHIND_MM, AHEAD_MM + 0.1, STEP_MM)
     depth = solid.depth_at(at + along[:, None, None] * way)
     return np.asarray(np.clip(depth, LEAST_DEPTH_MM, MOST_DEPTH_MM).mean(axis=0))

@@ -20,7 +20,7 @@ USUAL_DEG, UNUSUAL_SD_DEG = 12.0, 20.0
 ASIDE_MM = (-3.0, -1.5, 0.0, 1.5, 3.0)
 LEAST_MM2 = 12.0
 LEAST_FOUND, LEAST_FOUND_ALONG = 0.8, 0.72
-SHORT_MM = 5.0
+SHORT_MM, LEAST_END_MM = 5.0, 2.0
 MOST_GAP_DEG = 75.0
 WALK_MM, WALK_STEP_MM = 16.0, 1.0
 # A section that is so much larger than the narrowest one belongs to body or arch already.
@@ -76,6 +76,16 @@ class Bar:
         """From where it opens behind to where it opens in front."""
         return self.behind_mm + self.ahead_mm
 
+    @property
+    def is_clear(self) -> bool:
+        """Whether it opens at both ends, and not at once."""
+        return (
+            self.opens_ahead
+            and self.opens_behind
+            and self.length_mm >= SHORT_MM
+            and min(self.behind_mm, self.ahead_mm) >= LEAST_END_MM
+        )
+
     def holds(self, point_mm: Array) -> bool:
         """Whether a point lies inside the outlines, or less than half a millimetre outside."""
         along = float((point_mm - self.centre_mm) @ self.axis)
@@ -105,7 +115,7 @@ def find_bar(near: Neighbourhood, seed_mm: Array, side: str, course: Course) -> 
         bar = None if start is None else _settled(near, start)
         if bar is None:
             continue
-        if bar.opens_ahead and bar.opens_behind and bar.length_mm >= SHORT_MM and bar.holds(seed_mm):
+        if bar.is_clear and bar.holds(seed_mm):
             return bar
         bars.append(bar)
     return max(bars, key=lambda bar: (bar.holds(seed_mm), bar.length_mm)) if bars else None

@@ -17,6 +17,7 @@ GAP_MM = 2.0
 AIR_HU = -200.0
 SOFT_HU, ABOVE_TISSUE_HU = (-50.0, 110.0), (40.0, 80.0)
 SMOOTH_VOXELS = 0.6
+NORMAL_MM = 2.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +39,18 @@ class Solid:
             self.depth_mm, index.T, output=np.float64, order=1, mode="constant", cval=-20.0
         )
         return np.asarray(values.reshape(points_mm.shape[:-1]))
+
+    def holds(self, points_mm: Array) -> npt.NDArray[np.bool_]:
+        """Which points (..., 3) lie within the grid."""
+        index = (points_mm - self.corner_mm) / STEP_MM
+        return np.asarray(((index >= 0.0) & (index <= np.array(self.depth_mm.shape) - 1.0)).all(axis=-1))
+
+    def outwards_at(self, point_mm: Array) -> Array:
+        """The surface's normal (3,) near a point, outwards, over a few millimetres."""
+        offsets = NORMAL_MM * np.concatenate([np.eye(3), -np.eye(3)])
+        depth = self.depth_at(point_mm + offsets)
+        normal = depth[3:] - depth[:3]
+        return np.asarray(normal / max(float(np.linalg.norm(normal)), 1e-9))
 
 
 def solid_around(near: Neighbourhood, isthmus_mm: Array) -> Solid:
