@@ -142,7 +142,7 @@ def _split(line: str) -> list[str]:
 
 
 def _is_unseen(numbers: list[float]) -> bool:
-    """Whether a row says, as many trackers do, that the marker was not seen: nothing but NaN after the time."""
+    """Whether a row says that the marker was not seen: nothing but NaN after the time."""
     return all(isnan(number) for number in numbers[-QUATERNION_ROW:])
 
 
