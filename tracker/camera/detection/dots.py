@@ -105,13 +105,13 @@ def _on_board(cells: Cells, board: DotBoard) -> tuple[Cells, npt.NDArray[np.bool
 
 
 def _across(cells: Cells, basis: npt.NDArray[np.int64]) -> Cells:
-    """Cells counted along rows and columns of an asymmetric board, whose nearest dots are on its diagonals."""
+    """Cells along rows and columns of an asymmetric board, whose nearest dots are on its diagonals."""
     diagonal = np.rint(cells @ np.linalg.inv(basis)).astype(np.int64)
     return np.column_stack([diagonal[:, 0] - diagonal[:, 1], diagonal[:, 0] + diagonal[:, 1]])
 
 
 def _fill(cells: Cells) -> float:
-    """How full the rectangle around the cells is: a board that is counted slantwise leaves much of it empty."""
+    """How full the rectangle around the cells is: counted slantwise, a board leaves much of it empty."""
     return len(cells) / float(np.prod(cells.max(axis=0) - cells.min(axis=0) + 1))
 
 
