@@ -1,7 +1,7 @@
 """Which way a pedicle leads, by what stands around it: the canal, the body, and the clearance to its walls.
 
-A real pedicle is hardly longer than it is wide, so that its own walls tell little of its direction. Its axis is
-then what an anatomist means by it: from behind through the middle of the isthmus into the body, well inside.
+A real pedicle is hardly longer than it is wide, so that its own walls tell little of its direction. Its axis
+is then what an anatomist means: from behind through the middle of the isthmus into the body, inside bone.
 """
 
 from dataclasses import dataclass
@@ -41,9 +41,9 @@ class Course:
 
     def axis(self, side: str) -> Array:
         """The unit axis (3,) of these angles, forwards."""
-        return _ways(
-            np.array([self.transverse_deg]), np.array([self.sagittal_deg]), 1.0 if side == "left" else -1.0
-        )[0]
+        outwards = 1.0 if side == "left" else -1.0
+        ways = _ways(np.array([self.transverse_deg]), np.array([self.sagittal_deg]), outwards)
+        return np.asarray(ways[0])
 
     def off_deg(self, axis: Array, side: str) -> Array:
         """By how many degrees (n, 2) unit axes (n, 3) are off, transverse and sagittal."""

@@ -32,6 +32,7 @@ FEW_VOXELS = 5.0
 LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
+BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
 MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
 MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
 
@@ -137,7 +138,7 @@ def _record(
     front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
-    warnings += _fit_warnings(near, bar, fitted, isthmus) + _length_warnings(front, back)
+    warnings += _fit_warnings(near, solid, bar, fitted, isthmus) + _length_warnings(front, back)
     warnings += _front_warnings(front)
     return PedicleMeasure(
         side=side,
@@ -183,7 +184,16 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     return []
 
 
-def _fit_warnings(near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Isthmus) -> list[str]:
+def _widens(solid: Solid, isthmus: Isthmus) -> bool:
+    """Whether more bone stands around the axis in front than at the isthmus: the body, though far ahead."""
+    line = isthmus.centre_mm + np.arange(0.0, BODY_WITHIN_MM, 1.0)[:, None] * isthmus.axis
+    depth = solid.depth_at(line)
+    return bool(depth.max() > BODY_GROWTH * max(float(depth[0]), 1.0))
+
+
+def _fit_warnings(
+    near: Neighbourhood, solid: Solid, bar: Bar, fitted: FittedBar, isthmus: Isthmus
+) -> list[str]:
     out = []
     voxels = isthmus.width_mm / _voxel_across_mm(near, fitted)
     if voxels < FEW_VOXELS:
@@ -193,9 +203,11 @@ def _fit_warnings(near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Ist
         )
     if not fitted.fitted:
         out.append("too few voxels to fit its walls; the numbers are those of coarse sections")
-    if not bar.opens_ahead or not bar.opens_behind:
-        where = "in front" if not bar.opens_ahead else "behind"
-        out.append(f"it does not widen {where} within 16 mm; check that the click lies in a pedicle")
+    if not bar.opens_ahead and not _widens(solid, isthmus):
+        out.append(
+            f"it does not widen within {BODY_WITHIN_MM:.0f} mm in front; "
+            "check that the click lies in a pedicle"
+        )
     if fitted.half_mm <= 3.0 and bar.length_mm < 4.0:
         out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less sure")
     return out
