@@ -123,10 +123,15 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
     found = error.errors()
     first = found[0]
     where = ".".join(str(part) for part in first["loc"])
+    # curl -d says that it sends a form, and the framework then says only that a text is no object.
+    sent = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    is_form = sent in ("application/x-www-form-urlencoded", "text/plain")
     told = TroubleMessage(
         code="REQUEST_INVALID",
         message=f"{where}: {first['msg']}" + (f" (and {len(found) - 1} more)" if len(found) > 1 else ""),
-        remedy="Look at /api/docs for what this request takes.",
+        remedy=f"Send JSON and say so, with 'Content-Type: application/json' in place of {sent}."
+        if is_form
+        else "Look at /api/docs for what this request takes.",
         context={
             "path": request.url.path[:200],
             "problems": [

@@ -146,4 +146,4 @@ def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[str]
             f"  tolerance   {left.most_offset_mm:.1f} mm at the entry or {left.most_angle_deg:.1f} deg, "
             f"or {left.both_mm:.1f} mm with {left.both_deg:.1f} deg",
         ]
-    return [*lines, *(f"Note: {warning}." for warning in warnings)]
+    return [*lines, *(f"Note: {warning.removesuffix('.')}." for warning in warnings)]

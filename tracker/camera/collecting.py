@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
-from math import hypot, log
+from math import floor, hypot, log
 
 import cv2
 import numpy as np
@@ -244,7 +244,7 @@ class BoardCollector:
         )
         missing += [
             f"Tilt the board by {wanted.least_tilt_deg:g} degrees or more, {way} "
-            f"({max(float(reached), 0.0):.0f} so far)."
+            f"({floor(max(float(reached), 0.0))} so far)."
             for way, reached in ways
             if reached < wanted.least_tilt_deg
         ]

@@ -94,6 +94,8 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
         tell(report, entries, most_rms_px=most_rms_px)
         if written:
             typer.echo(f"Wrote {', '.join(map(str, written))}.")
+        if passed and order.output is None:
+            typer.echo("No camera file was written: name one with --output camera.yaml.")
     if not passed:
         typer.echo(
             f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {most_rms_px:g} px.\n"

@@ -146,7 +146,7 @@ def choose(series: dict[str, list[Frame]], asked: str | None) -> list[Frame]:
             raise InvalidInput(
                 "CT_SERIES_UNKNOWN",
                 f"none of the {len(series)} series has this identifier",
-                "List the series, and give the identifier of one of them.",
+                f"Give the identifier of one of them: {', '.join(sorted(series))}.",
                 {"series": sorted(series)},
             )
         _check_modality(series[asked])
@@ -167,7 +167,9 @@ def choose(series: dict[str, list[Frame]], asked: str | None) -> list[Frame]:
     raise InvalidInput(
         "CT_SERIES_UNCLEAR",
         f"there are {len(found)} CT series, of {', '.join(str(len(frames)) for frames in found)} slices",
-        "List the series, and name the one to plan on.",
+        "Name the one to plan on: "
+        + ", ".join(one.series for one in describe(series) if not one.trouble)
+        + ".",
         {"series": {one.series: one.words for one in describe(series) if not one.trouble}},
     )
 

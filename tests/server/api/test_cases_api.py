@@ -40,6 +40,16 @@ def made(door: TestClient, name: str = "one") -> str:
     return str(door.post("/api/cases", json={"name": name}).json()["id"])
 
 
+def test_json_that_is_called_a_form_is_told_how_to_be_sent(door: TestClient) -> None:
+    def sent_as(content_type: str, content: str) -> str:
+        answer = door.post("/api/cases", content=content, headers={"content-type": content_type})
+        assert answer.status_code == 422
+        return str(answer.json()["remedy"])
+
+    assert "Content-Type: application/json" in sent_as("application/x-www-form-urlencoded", '{"name": "L3"}')
+    assert "/api/docs" in sent_as("application/json", '{"nme": "L3"}')
+
+
 def with_file(store: CaseStore, case_id: str, content: bytes) -> str:
     with store.new_file(case_id, ".bin") as new:
         new.path.write_bytes(content)

@@ -69,6 +69,12 @@ def test_the_report_is_readable_and_the_gate_fails_with_status_1(images: Path, t
     assert not output.exists()
 
 
+def test_without_an_output_it_says_that_no_camera_file_is_there(images: Path) -> None:
+    status, text = typed(*BOARD, images)
+    assert status == 0, text
+    assert "No camera file was written: name one with --output" in text
+
+
 def test_a_file_of_another_camera_is_refused(images: Path, tmp_path: Path) -> None:
     output = tmp_path / "camera.yaml"
     assert typed(*BOARD, "--output", output, "--camera-name", "side", images)[0] == 0

@@ -57,6 +57,9 @@ def test_and_in_words(ct: Path) -> None:
     assert status == 0, text
     assert "width" in text
     assert "patient's axes (LPS)" in text
+    notes = [line for line in text.splitlines() if line.startswith("Note: ")]
+    assert notes
+    assert not [note for note in notes if note.endswith("..")]
 
 
 @pytest.mark.parametrize(
