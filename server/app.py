@@ -9,6 +9,7 @@ from fastapi import FastAPI
 
 from server.api.camera import camera_router
 from server.api.cases import cases_router
+from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import documentation_router
 from server.api.errors import install_errors, refusals
@@ -17,7 +18,9 @@ from server.api.jobs import jobs_router
 from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
+from server.api.plan import plan_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
+from server.api.surface import surface_router
 from server.api.tools import tools_router
 from server.config import Config
 from server.jobs import Jobs
@@ -104,6 +107,9 @@ def create_app(parts: AppParts) -> FastAPI:
     if parts.steps is not None and parts.store is not None:
         app.include_router(camera_router(parts.steps.camera, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
+        app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
+        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
         app,

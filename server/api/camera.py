@@ -116,7 +116,11 @@ def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
 
 
 def _picture(content: bytes, name: str) -> npt.NDArray[np.uint8]:
-    picture = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), AS_THE_CAMERA_MADE_IT)
+    try:
+        picture = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), AS_THE_CAMERA_MADE_IT)
+    except cv2.error:
+        # It says that it is larger than OpenCV reads at all.
+        picture = None
     if picture is None:
         raise InvalidInput(
             "IMAGE_UNREADABLE",

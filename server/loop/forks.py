@@ -5,7 +5,7 @@ import signal
 from multiprocessing import forkserver
 from multiprocessing.context import ForkServerContext
 
-PRELOAD = ["server.loop.preload"]
+PRELOAD = ["server.loop.preload", "server.planning.ct"]
 
 
 def forking_context() -> ForkServerContext:

@@ -108,7 +108,7 @@ def _told(file: Path, unit: Unit, *, in_folder: bool) -> Told | None:
         return poses_from_json(text, name=file.name, unit=unit)
     if in_folder and not holds_numbers(text) and text.strip():
         return None
-    return Told(poses=poses_from_text(text, name=file.name, unit=unit))
+    return poses_from_text(text, name=file.name, unit=unit)
 
 
 def _array(file: Path) -> np.ndarray:

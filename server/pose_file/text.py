@@ -1,10 +1,12 @@
 """Poses in text: rows of numbers, or columns with names."""
 
 import re
+from math import isnan
 
 import numpy as np
 
 from server.pose_file.record import PoseRecord, at_place, unreadable
+from server.pose_file.structured import Told
 from server.pose_file.unit import Unit
 from tracker.errors import InvalidInput
 from tracker.pose.tool import rigid_from_quaternion, rigid_from_written
@@ -22,11 +24,13 @@ NAMES = {
     "qy": ("qy", "q_y", "q2", "qj", "rot_y"),
     "qz": ("qz", "q_z", "q3", "qk", "rot_z"),
 }
+# x y z and four parts: the shortest row that is a whole pose.
+QUATERNION_ROW = 7
 Row = tuple[int, list[float]]
 
 
-def poses_from_text(text: str, *, name: str, unit: Unit) -> list[PoseRecord]:
-    """All poses in a text.
+def poses_from_text(text: str, *, name: str, unit: Unit) -> Told:
+    """All poses in a text; a row of nothing but NaN is an image that does not show the marker.
 
     Raises:
         InvalidInput: POSES_UNREADABLE or POSE_MATRIX_INVALID, with the file and its line.
@@ -42,11 +46,15 @@ def poses_from_text(text: str, *, name: str, unit: Unit) -> list[PoseRecord]:
         header = [word.strip().strip('"').lower() for word in _split(lines[0][1])]
         lines = lines[1:]
     rows: list[Row] = []
+    unseen = 0
     for number, line in lines:
         numbers = _numbers(line)
         if numbers is None:
             raise unreadable(f"{name}, line {number}", f"'{line[:40]}' is no row of numbers")
-        rows.append((number, numbers))
+        if _is_unseen(numbers):
+            unseen += 1
+        else:
+            rows.append((number, numbers))
     widths = {len(numbers) for _, numbers in rows}
     if len(widths) > 1 and "[" in text:
         # A printed array breaks its rows where the line is full.
@@ -57,7 +65,7 @@ def poses_from_text(text: str, *, name: str, unit: Unit) -> list[PoseRecord]:
     if len(widths) != 1:
         shown = ", ".join(str(width) for width in sorted(widths))
         raise unreadable(name, f"its rows have different lengths ({shown or 'no rows'})")
-    return _from_rows(rows, header, name=name, unit=unit)
+    return Told(poses=_from_rows(rows, header, name=name, unit=unit), unseen=unseen)
 
 
 def holds_numbers(text: str) -> bool:
@@ -133,7 +141,14 @@ def _split(line: str) -> list[str]:
     return [part.strip() for part in parts if part.strip()]
 
 
+def _is_unseen(numbers: list[float]) -> bool:
+    """Whether a row says that the marker was not seen: nothing but NaN after the time."""
+    return all(isnan(number) for number in numbers[-QUATERNION_ROW:])
+
+
 def _numbers(line: str) -> list[float] | None:
+    if ";" in line and "." not in line:
+        line = line.replace(",", ".")
     try:
         return [float(word) for word in NO_NUMBERS.sub(" ", COMMENT.sub("", line)).split()]
     except ValueError:

@@ -1,6 +1,5 @@
 """The step in which the camera is calibrated: views collected, the camera fitted, the result kept."""
 
-import threading
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,6 +9,7 @@ from server.errors import CaptureError, SetupOrderError
 from server.jobs import Job, Jobs, Report
 from server.live import LiveHub
 from server.procedure.board_collection import BoardCollection, TakenView
+from server.procedure.held import Held
 from server.procedure.opened import opened_case
 from server.store import Case, CaseStore, Document, DocumentKind
 from tracker.camera import Board, CameraModel
@@ -42,16 +42,14 @@ class CameraStep:
         self._jobs = jobs
         self._gate = gate
         self._source = source
-        self._lock = threading.Lock()
-        self._collection: BoardCollection | None = None
+        self._held: Held[BoardCollection] = Held(
+            "views of a calibration board are",
+            remedy="Start with POST /api/camera/collection, which says what board it is.",
+        )
 
     def begin(self, board: Board) -> BoardCollection:
         """Collect views of this board; a collection that was there is thrown away."""
-        with self._lock:
-            if self._collection is not None:
-                self._collection.stop()
-            self._collection = BoardCollection(self._hub, board)
-            return self._collection
+        return self._held.begin(lambda: BoardCollection(self._hub, board))
 
     @property
     def collection(self) -> BoardCollection:
@@ -60,21 +58,11 @@ class CameraStep:
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        with self._lock:
-            if self._collection is None:
-                raise SetupOrderError(
-                    "COLLECTION_MISSING",
-                    "no views of a calibration board are being collected",
-                    "Start with POST /api/camera/collection, which says what board it is.",
-                )
-            return self._collection
+        return self._held.get()
 
     def end(self) -> None:
         """Collect no more, and throw away what was collected."""
-        with self._lock:
-            if self._collection is not None:
-                self._collection.stop()
-            self._collection = None
+        self._held.end()
 
     def calibrate(self, *, made_by: str) -> Job:
         """Fit the camera to the collected views, and keep it in the open case if it passes the gate.

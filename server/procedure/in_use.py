@@ -6,11 +6,13 @@ from collections.abc import Callable, Mapping
 import structlog
 
 from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.tool import kept_tool
 from server.setup import CaseSetup
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.camera import CameraModel
 from tracker.errors import NavigationError
+from tracker.plan import Channel
 from tracker.pose import ToolModel
 
 log = structlog.get_logger(__name__)
@@ -50,20 +52,25 @@ class CaseInUse:
             return []
         kinds = (DocumentKind.CAMERA, DocumentKind.TOOL)
         newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
+        active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
+        newest += [] if active is None else [active]
         return [document for document in newest if isinstance(self._store.standing(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
         cameras: dict[str, CameraModel] = {}
         tools: dict[str, ToolModel] = {}
+        channel: Channel | None = None
         for document in documents:
             try:
                 if document.kind is DocumentKind.CAMERA:
                     cameras[document.name] = kept_camera(document, source=self._source)
+                elif document.kind is DocumentKind.PLAN:
+                    channel = kept_channel(document).channel
                 else:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        return CaseSetup(camera=cameras.get(MAIN_CAMERA), tools=tools)
+        return CaseSetup(camera=cameras.get(MAIN_CAMERA), tools=tools, channel=channel)
 
 
 def _named(name: str, tool: ToolModel | None) -> Mapping[str, ToolModel]:

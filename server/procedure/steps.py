@@ -8,7 +8,10 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
+from server.procedure.ct import CtStep, OpenedCt
 from server.procedure.in_use import CaseInUse
+from server.procedure.plan import PlanStep
+from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
 from server.store import CaseStore
@@ -22,10 +25,18 @@ class Steps:
     Attributes:
         camera: calibrates the camera.
         tool: calibrates tools.
+        ct: takes a CT in.
+        opened_ct: the CT that the others look at and plan on.
+        plan: measures pedicles, lays channels, chooses screws.
+        surface: makes the surface of the bone.
     """
 
     camera: CameraStep
     tool: ToolStep
+    ct: CtStep
+    opened_ct: OpenedCt
+    plan: PlanStep
+    surface: SurfaceStep
 
     @classmethod
     def of(
@@ -53,6 +64,7 @@ class Steps:
         store.call_after_writing(in_use.refresh)
         # A case that was open when the server stopped is open again.
         in_use.refresh()
+        opened_ct = OpenedCt(store)
         return cls(
             camera=CameraStep(
                 hub=hub,
@@ -68,6 +80,10 @@ class Steps:
                 side_mm_from_marker=side_mm_from_marker,
                 tools=config.tools,
             ),
+            ct=CtStep(store=store, jobs=jobs),
+            opened_ct=opened_ct,
+            plan=PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan),
+            surface=SurfaceStep(store=store, jobs=jobs, opened=opened_ct),
         )
 
     def close(self) -> None:

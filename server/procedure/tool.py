@@ -1,6 +1,5 @@
 """The step in which a tool is calibrated: its tip by pivoting, its axis by spinning, the tip checked."""
 
-import threading
 from collections.abc import Mapping, Sequence
 from typing import Annotated
 
@@ -8,9 +7,9 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from server.config import Point, ToolConfig
-from server.errors import SetupOrderError
 from server.live import LiveHub
 from server.procedure.camera import MAIN_CAMERA
+from server.procedure.held import Held
 from server.procedure.opened import opened_case
 from server.procedure.tool_collection import ToolCollection
 from server.store import CaseStore, Current, Document, DocumentKind
@@ -87,8 +86,10 @@ class ToolStep:
         self._gate = gate
         self._side_mm = side_mm_from_marker
         self._tools = tools
-        self._lock = threading.Lock()
-        self._collection: ToolCollection | None = None
+        self._held: Held[ToolCollection] = Held(
+            "poses of a tool are",
+            remedy="Start with POST /api/tools/collection, which says which tool and what for.",
+        )
 
     def begin(self, tool: str, *, marker: str | None, purpose: Purpose) -> ToolCollection:
         """Gather poses of this tool; a collection that was there is thrown away.
@@ -115,13 +116,11 @@ class ToolStep:
                 {"tool": tool},
             )
         tip = None if kept is None or purpose is Purpose.PIVOT else np.array(kept.pivot.tip_in_marker_mm)
-        with self._lock:
-            if self._collection is not None:
-                self._collection.stop()
-            self._collection = ToolCollection(
+        return self._held.begin(
+            lambda: ToolCollection(
                 self._hub, tool=tool, marker=marker, purpose=purpose, tip_in_marker_mm=tip, gate=self._gate
             )
-            return self._collection
+        )
 
     @property
     def collection(self) -> ToolCollection:
@@ -130,21 +129,11 @@ class ToolStep:
         Raises:
             SetupOrderError: COLLECTION_MISSING.
         """
-        with self._lock:
-            if self._collection is None:
-                raise SetupOrderError(
-                    "COLLECTION_MISSING",
-                    "no poses of a tool are being gathered",
-                    "Start with POST /api/tools/collection, which says which tool and what for.",
-                )
-            return self._collection
+        return self._held.get()
 
     def end(self) -> None:
         """Gather no more, and throw away what was gathered."""
-        with self._lock:
-            if self._collection is not None:
-                self._collection.stop()
-            self._collection = None
+        self._held.end()
 
     def conclude(
         self,

@@ -37,10 +37,10 @@ def measure_ct_reading() -> list[Table]:
     with tempfile.TemporaryDirectory() as folder:
         for name, syntax in KINDS.items():
             made = Path(folder) / name
-            _write(made, syntax)
+            write_series(made, syntax)
             rows.append(_row(name, made))
             if name == "uncompressed":
-                rows.append(_row("zip", _zipped(made)))
+                rows.append(_row("zip", zipped(made)))
     return [
         Table(
             title="",
@@ -53,7 +53,7 @@ def measure_ct_reading() -> list[Table]:
     ]
 
 
-def _write(folder: Path, syntax: uid.UID) -> None:
+def write_series(folder: Path, syntax: uid.UID) -> None:
     """A body of soft tissue with a spine and a scanner's noise; after some slices they begin again."""
     folder.mkdir()
     template = made_ct(count=1, size_wh=SIZE_WH).slices[0]
@@ -78,7 +78,7 @@ def _write(folder: Path, syntax: uid.UID) -> None:
         (folder / f"{k:04d}.dcm").write_bytes(file_of(one_slice, syntax, content=contents[k % DIFFERENT]))
 
 
-def _zipped(folder: Path) -> Path:
+def zipped(folder: Path) -> Path:
     path = folder.with_suffix(".zip")
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         for file in sorted(folder.iterdir()):

@@ -6,6 +6,7 @@ from tests.benchmarks import accuracy, live, timing
 from tests.benchmarks.asked import Asked
 from tests.benchmarks.calibration.coverage import measure_calibration
 from tests.benchmarks.ct_reading import measure_ct_reading
+from tests.benchmarks.ct_upload import measure_ct_upload
 from tests.benchmarks.figures import Figure, Share, size_of
 from tests.benchmarks.limits.condition_tables import condition_tables
 from tests.benchmarks.limits.limit_figures import limit_figures
@@ -121,9 +122,9 @@ def measure_server(asked: Asked) -> Measured:
         return Measured(tables=measure_viewer(server))
 
 
-def measure_ct(_asked: Asked) -> Measured:
-    """Reading a large CT."""
-    return Measured(tables=measure_ct_reading())
+def measure_ct(asked: Asked) -> Measured:
+    """Reading a large CT, and sending it to a running server."""
+    return Measured(tables=[*measure_ct_reading(), *measure_ct_upload(asked)])
 
 
 def measure_phantoms(_asked: Asked) -> Measured:

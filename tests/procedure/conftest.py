@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -83,13 +84,14 @@ class Server:
             time.sleep(0.002)
 
 
-@pytest.fixture
-def server(tmp_path: Path) -> Iterator[Server]:
+@contextmanager
+def serving(home_folder: Path) -> Iterator[Server]:
+    """The whole inside of a server that keeps its things in this folder."""
     config = Config.model_validate({"rehearsal": {"brings_setup": False}})
     hub, adopted = LiveHub(), list[CaseSetup]()
     jobs = Jobs(log=LogSettings(as_json=True))
     preparation = build_setup(config)
-    with Home(tmp_path / "home") as home, CaseStore(home) as store:
+    with Home(home_folder) as home, CaseStore(home) as store:
         steps = Steps.of(
             hub=hub,
             store=store,
@@ -102,6 +104,29 @@ def server(tmp_path: Path) -> Iterator[Server]:
         with TestClient(app, base_url="http://127.0.0.1:8000", raise_server_exceptions=False) as door:
             yield Server(door=door, hub=hub, store=store, jobs=jobs, preparation=preparation, adopted=adopted)
         jobs.close()
+
+
+@pytest.fixture
+def turns() -> Iterator[ExitStack]:
+    """Holds the server that runs now."""
+    with ExitStack() as stack:
+        yield stack
+
+
+@pytest.fixture
+def server(tmp_path: Path, turns: ExitStack) -> Server:
+    return turns.enter_context(serving(tmp_path / "home"))
+
+
+@pytest.fixture
+def restarted(tmp_path: Path, turns: ExitStack) -> Callable[[], Server]:
+    """Ends the server, and gives another one with the same folder."""
+
+    def restart() -> Server:
+        turns.close()
+        return turns.enter_context(serving(tmp_path / "home"))
+
+    return restart
 
 
 def sighting(theatre: Theatre, at_s: float, random: np.random.Generator) -> Seen:

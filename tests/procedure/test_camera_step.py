@@ -127,6 +127,7 @@ def test_views_are_taken_by_themselves_from_the_live_images(server: Server) -> N
             )
     told = server.ask("GET", "/api/camera/collection", 200)
     assert told["running"]
+    assert told["missing"]
     assert told["views"] == ["image 2", "image 4", "image 6"]
     assert (told["width_px"], told["height_px"]) == SIZE
     assert len(told["points_px"]) == 140
@@ -164,6 +165,11 @@ def test_views_that_say_too_little_are_refused_and_nothing_is_kept(
     [
         pytest.param(b"", "UPLOAD_EMPTY", id="nothing"),
         pytest.param(b"this is text", "IMAGE_UNREADABLE", id="text"),
+        pytest.param(
+            b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x02\0\0\0\x0f\xb0\xe2\x15",
+            "IMAGE_UNREADABLE",
+            id="says-it-has-60000-by-60000-px",
+        ),
         pytest.param(png(np.full((200, 300), 128, np.uint8)), "BOARD_NOT_FOUND", id="no-board-in-it"),
     ],
 )

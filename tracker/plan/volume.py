@@ -1,5 +1,6 @@
 """A CT as an array of Hounsfield units with its place in the patient."""
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,6 +62,20 @@ class Volume:
     def voxel_mm3(self) -> float:
         """What one voxel holds."""
         return float(abs(np.linalg.det(self.lps_from_ijk[:3, :3])))
+
+    def in_patient_order(self) -> "Volume":
+        """The same CT with i nearest to left-right, j to front-back, k to feet-head; nothing is copied.
+
+        So that "slice" means an axial one, however a file orders its axes. Their directions stay.
+        """
+        along = np.abs(self.lps_from_ijk[:3, :3] / self.spacing_mm)
+        orders = list(itertools.permutations(range(3)))
+        best = max(orders, key=lambda order: sum(along[axis, order[axis]] for axis in range(3)))
+        if best == (0, 1, 2):
+            return self
+        # The array has its axes the other way round: k, j, i.
+        hu = self.hu.transpose([2 - axis for axis in reversed(best)])
+        return Volume(hu=hu, lps_from_ijk=self.lps_from_ijk[:, [*best, 3]])
 
     def lps_from_index(self, index_ijk: npt.ArrayLike) -> Array:
         """Points (..., 3) in LPS mm of indexes (..., 3), which need not be whole numbers."""

@@ -239,3 +239,13 @@ def test_rounded_rotations_are_made_whole(tmp_path: Path) -> None:
         rotations @ rotations.transpose(0, 2, 1), np.tile(np.eye(3), (12, 1, 1)), atol=1e-12
     )
     np.testing.assert_allclose(rotations, MADE.rotations, atol=2e-3)
+
+
+def test_decimal_commas_and_rows_of_an_unseen_marker_are_read(tmp_path: Path) -> None:
+    flat = np.hstack([np.arange(12)[:, None] / 30.0, MATRICES.reshape(12, 16)])
+    flat[3, 1:] = np.nan
+    (tmp_path / "p.csv").write_text(rows(flat, ";").replace(".", ","))
+    told = read_poses(tmp_path / "p.csv")
+    assert told.unseen == 1
+    assert len(told.records) == 11
+    np.testing.assert_allclose(told.records[3].pose.matrix, MATRICES[4], atol=1e-7)

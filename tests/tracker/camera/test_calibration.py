@@ -59,6 +59,15 @@ def test_the_rms_is_the_noise_and_all_views_are_used(camera: KnownCamera, views:
     )
 
 
+def test_a_view_that_is_good_in_any_photo_stays_among_better_ones(camera: KnownCamera) -> None:
+    rng = np.random.default_rng(11)
+    noises_px = [0.02] * 9 + [0.15]
+    views = [seen_view(camera.model, BOARD, rng, noise_px=noise_px) for noise_px in noises_px]
+    report = calibrated(views, camera)
+    assert report.views_used == 10
+    assert report.is_noise_alike
+
+
 def test_errors_that_are_alike_within_a_view_widen_the_intervals(
     camera: KnownCamera, views: list[BoardView]
 ) -> None:

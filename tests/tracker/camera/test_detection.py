@@ -1,5 +1,6 @@
 """Boards found in pictures whose truth is known."""
 
+import cv2
 import numpy as np
 import pytest
 
@@ -13,11 +14,13 @@ from tracker.camera.detection import (
     board_as_seen,
     find_board,
 )
+from tracker.camera.detection.corners import saddles
 from tracker.errors import InvalidInput
 
 DOTS = DotBoard(columns=12, rows=9, pitch_mm=9.0, fiducials=(26, 33, 62))
 PLAIN_DOTS = DotBoard(columns=12, rows=9, pitch_mm=9.0)
 ASYMMETRIC = DotBoard(columns=5, rows=11, pitch_mm=8.0, layout=DotLayout.ASYMMETRIC)
+NARROW_ASYMMETRIC = DotBoard(columns=4, rows=11, pitch_mm=8.0, layout=DotLayout.ASYMMETRIC)
 CHECKER = CheckerBoard(columns=9, rows=6, square_mm=12.0)
 CHARUCO = CharucoBoard(columns=8, rows=6, square_mm=14.0, marker_mm=10.0, dictionary="DICT_4X4_50")
 OLDER = CharucoBoard(
@@ -38,6 +41,7 @@ def found(board: Board, pose: int) -> BoardView:
         pytest.param(CHECKER, 0.2, id="checkerboard"),
         pytest.param(CHARUCO, 0.35, id="charuco"),
         pytest.param(ASYMMETRIC, 0.25, id="asymmetric-dots"),
+        pytest.param(NARROW_ASYMMETRIC, 0.25, id="asymmetric-dots-higher-than-wide"),
     ],
 )
 @pytest.mark.parametrize("pose", [0, 4, 6])
@@ -49,6 +53,16 @@ def test_every_point_is_where_and_which_it_is(board: Board, pose: int, within_px
     # Larger than the noise of a corner, far smaller than a step: no point has another one's name.
     assert off.max() < 6 * within_px
     assert np.median(off) < within_px
+
+
+def test_corners_of_large_charuco_squares_are_placed_to_a_few_hundredths_of_a_pixel() -> None:
+    wide, high = 8 * 61, 6 * 61
+    drawn = CHARUCO.opencv_board().generateImage((wide, high), marginSize=0)
+    around = cv2.copyMakeBorder(drawn, 20, 20, 20, 20, cv2.BORDER_CONSTANT, value=255)
+    view = find_board(np.asarray(cv2.GaussianBlur(around, (0, 0), 1.0), dtype=np.uint8), CHARUCO)
+    assert isinstance(view, BoardView), view
+    truth_px = view.object_points_mm[:, :2] / CHARUCO.square_mm * 61 + 20 - 0.5
+    assert np.linalg.norm(view.image_points_px - truth_px, axis=1).max() < 0.1
 
 
 def test_a_grid_of_equal_dots_may_be_turned_by_half_and_says_so() -> None:
@@ -74,6 +88,25 @@ def test_a_board_partly_out_of_view_gives_what_is_seen(board: Board) -> None:
         assert off.max() < 2.0
     else:
         assert isinstance(board, CheckerBoard)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_finger_on_a_checkerboard_costs_only_the_corners_that_it_hides(seed: int) -> None:
+    image = picture(CHECKER, POSES[seed]).astype(np.float64)
+    finger = cv2.ellipse(np.zeros(image.shape), (250, 430), (40, 170), 20, 0, 360, 1.0, -1)
+    grain = cv2.GaussianBlur(np.random.default_rng(seed).normal(0.0, 9.0, image.shape), (0, 0), 1.5)
+    image = np.where(finger > 0, 130.0, image) + grain
+    view = find_board(np.asarray(np.clip(image, 0, 255), dtype=np.uint8), CHECKER)
+    assert isinstance(view, BoardView), view
+    truth_px = true_px(CHECKER, POSES[seed])
+    points = saddles(np.asarray(np.clip(image, 0, 255), dtype=np.uint8), smoothing_px=1.5)
+    near = np.linalg.norm(points[:, None] - truth_px[None], axis=2).min(axis=1) < 3.0
+    # The rest are where squares meet the paper, and not the grain.
+    assert near.mean() > 0.5
+    hidden = np.array([finger[round(y), round(x)] > 0 for x, y in truth_px])
+    assert view.ids.size >= 0.85 * (~hidden).sum()
+    off = np.linalg.norm(view.image_points_px[:, None] - truth_px[None], axis=2).min(axis=1)
+    assert np.median(off) < 0.2
 
 
 def test_larger_dots_and_charuco_layout_are_found_by_themselves() -> None:

@@ -77,3 +77,15 @@ def test_index_and_millimetre_undo_each_other(
 def test_what_is_no_volume_is_refused(hu: np.ndarray, affine: np.ndarray, said: str) -> None:
     with pytest.raises(PlanError, match=said):
         Volume(hu=hu, lps_from_ijk=affine)
+
+
+def test_the_axes_are_put_in_the_patients_order_whatever_that_of_the_file() -> None:
+    truth = ramp(SHEARED)
+    # As a file would have it whose first axis runs to the head, and whose last to the left.
+    turned = Volume(hu=truth.hu.transpose(2, 1, 0).copy(), lps_from_ijk=SHEARED[:, [2, 1, 0, 3]])
+    seen = turned.in_patient_order()
+    assert np.array_equal(seen.hu, truth.hu)
+    assert seen.lps_from_ijk == pytest.approx(truth.lps_from_ijk)
+    cyclic = Volume(hu=truth.hu.transpose(1, 2, 0).copy(), lps_from_ijk=SHEARED[:, [2, 0, 1, 3]])
+    assert np.array_equal(cyclic.in_patient_order().hu, truth.hu)
+    assert truth.in_patient_order() is truth

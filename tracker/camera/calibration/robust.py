@@ -14,7 +14,7 @@ from tracker.geometry import Array
 # A view is out when its RMS is so many times the usual one; honest views differ by less than twice.
 MOST_VIEW_RATIO = 3.0
 # Below this a view is never out, whatever the others reach: nobody measures better than that in a photo.
-GOOD_VIEW_PX = 0.15
+GOOD_VIEW_PX = 0.3
 # A point is out beyond so many standard deviations of the noise: of 10 000 honest points none.
 MOST_POINT_SDS = 5.5
 MOST_POINTS_OUT_RATIO = 0.25
@@ -79,11 +79,14 @@ def without_odd_points(
     for turn in range(ROUNDS):
         if has_dots and turn < DOT_ROUNDS:
             moved = [_unshifted(views[i], fit, at) for at, i in enumerate(indexes)]
+            # Moved points are judged by a camera that was fitted to where they are now.
+            fit = fit_camera(
+                [v.part(points[i]) for i, v in zip(indexes, moved, strict=True)], size_wh_px, coefficients
+            )
         changed = has_dots and turn < DOT_ROUNDS
         sigma = _noise_px(fit)
-        for at, i in enumerate(list(indexes)):
-            off = np.linalg.norm(_all_residuals(fit, at, moved[at]), axis=1)
-            now = off <= MOST_POINT_SDS * sigma
+        for at, i in enumerate(indexes):
+            now = _sound_points(_all_residuals(fit, at, moved[at]), sigma)
             changed |= bool((now != points[i]).any())
             points[i] = now
         too_few = [
@@ -122,6 +125,15 @@ def _unshifted(view: BoardView, fit: Fit, at: int) -> BoardView:
         dot_radii_mm=view.dot_radii_mm,
         sureness=view.sureness,
     )
+
+
+def _sound_points(residuals_px: Array, sigma_px: float) -> npt.NDArray[np.bool_]:
+    """Which points of a view (n,) have a say; what is good in any photo never costs a view."""
+    off = np.linalg.norm(residuals_px, axis=1)
+    near = off <= MOST_POINT_SDS * sigma_px
+    if near.mean() < 1 - MOST_POINTS_OUT_RATIO:
+        near |= off <= GOOD_VIEW_PX
+    return np.asarray(near, dtype=bool)
 
 
 def _all_residuals(fit: Fit, at: int, view: BoardView) -> Array:

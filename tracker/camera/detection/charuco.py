@@ -7,6 +7,7 @@ import numpy as np
 
 from tracker.camera.boards import CharucoBoard, CharucoLayout
 from tracker.camera.detection.blobs import GreyImage
+from tracker.camera.detection.corners import refined
 from tracker.camera.detection.lattice import Cells, step_lengths_px
 from tracker.camera.detection.plane import off_plane_px
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, Sureness
@@ -15,6 +16,9 @@ from tracker.geometry import Array
 LEAST_CORNERS, LEAST_MARKERS = 6, 4
 # A corner farther than this from where its neighbours expect it, in sides of a square, is another one.
 OFF_NEIGHBOURS_RATIO = 0.15
+# Of the margin between a square and the marker in it, how much is free of the blur of the marker's edge.
+MARGIN_PART = 0.8
+LEAST_WINDOW_PX = 3.0
 
 
 def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
@@ -96,8 +100,18 @@ def _detected(
     named, px, cells = named[kept], px[kept], cells[kept]
     if len(named) < LEAST_CORNERS:
         return np.zeros(0, dtype=np.int64), np.zeros((0, 2)), markers
-    # OpenCV places a corner in a window that ends before the markers; a larger one only made it worse.
-    return named, px, markers
+    return named, _placed_finely(grey, px, cells, board), markers
+
+
+def _placed_finely(grey: GreyImage, px: Array, cells: Cells, board: CharucoBoard) -> Array:
+    """Corners (n, 2) placed anew, as OpenCV ends at a tenth of a pixel; not where squares are small.
+
+    The window ends before the markers, whose edges are no part of the corner.
+    """
+    window_ratio = MARGIN_PART * 0.5 * (1.0 - board.marker_mm / board.square_mm)
+    sides_px, _ = step_lengths_px(px, cells)
+    large = window_ratio * sides_px >= LEAST_WINDOW_PX
+    return np.where(large[:, None], refined(grey, px, sides_px, window_ratio=window_ratio), px)
 
 
 def _count(found: object) -> int:

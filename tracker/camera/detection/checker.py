@@ -68,10 +68,16 @@ def _part_viewed(
     usual = odd == round(float(odd.mean()))
     inside, kept = within(cells[usual], board.columns, board.rows)
     seen = points[usual][kept]
-    if len(seen) < min(LEAST_CORNERS, board.columns * board.rows) or usual.mean() < LEAST_REGULAR_RATIO:
+    needed = min(LEAST_CORNERS, board.columns * board.rows)
+    if len(seen) < needed or usual.mean() < LEAST_REGULAR_RATIO:
+        few = f"{len(seen)} corners where dark and light take turns, at least {needed} are needed"
+        mixed = (
+            f"dark and light take turns at {100 * usual.mean():.0f} % of {len(points)} corners in a grid, "
+            f"needed {100 * LEAST_REGULAR_RATIO:.0f} %"
+        )
         return BoardNotFound(
             reason=NotFoundReason.TOO_FEW_POINTS,
-            sentence=f"{len(seen)} corners where dark and light take turns, at least {LEAST_CORNERS} needed",
+            sentence=few if len(seen) < needed else mixed,
             seen_points=len(seen),
         )
     return _viewed(grey, board, seen, inside)

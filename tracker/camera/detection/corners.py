@@ -2,6 +2,7 @@
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
 from tracker.camera.detection.blobs import GreyImage
 from tracker.geometry import Array
@@ -13,11 +14,15 @@ WINDOW_RATIO = 0.3
 SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX = 2, 12
 SADDLE_SMOOTHING_PX = (1.5, 3.0)
 MOST_SADDLES = 3000
+# Light on a ring around a corner, so many smoothings away, is a wave of two periods before all others.
+RING_SMOOTHINGS, RING_POINTS, LEAST_CROSSED_RATIO = 2.5, 24, 0.7
 
 
-def refined(grey: GreyImage, corners_px: Array, sides_px: Array) -> Array:
+def refined(
+    grey: GreyImage, corners_px: Array, sides_px: Array, *, window_ratio: float = WINDOW_RATIO
+) -> Array:
     """Corners (n, 2) where the edges around them point to; `sides_px` (n,) is the shortest side at each."""
-    windows = np.clip(np.rint(WINDOW_RATIO * sides_px), SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX).astype(int)
+    windows = np.clip(np.rint(window_ratio * sides_px), SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX).astype(int)
     placed = corners_px.copy()
     for window in np.unique(windows):
         some = windows == window
@@ -32,7 +37,7 @@ def refined(grey: GreyImage, corners_px: Array, sides_px: Array) -> Array:
 
 def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
     """Points (n, 2) at which two dark and two light quarters meet, strongest first."""
-    smooth = cv2.GaussianBlur(grey.astype(np.float32), (0, 0), smoothing_px)
+    smooth = np.asarray(cv2.GaussianBlur(grey.astype(np.float32), (0, 0), smoothing_px), dtype=np.float32)
     xx = cv2.Sobel(smooth, cv2.CV_32F, 2, 0)
     yy = cv2.Sobel(smooth, cv2.CV_32F, 0, 2)
     xy = cv2.Sobel(smooth, cv2.CV_32F, 1, 1)
@@ -42,7 +47,21 @@ def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
     floor = 0.1 * float(np.percentile(peak, 99.0))
     y, x = np.nonzero((strength >= peak) & (strength > max(floor, 1.0)))
     strongest = np.argsort(-strength[y, x])[:MOST_SADDLES]
-    return np.stack([x[strongest], y[strongest]], axis=1).astype(np.float64)
+    points = np.stack([x[strongest], y[strongest]], axis=1).astype(np.float64)
+    return points[_crossed(smooth, points, radius_px=RING_SMOOTHINGS * smoothing_px)]
+
+
+def _crossed(smooth: npt.NDArray[np.float32], points: Array, *, radius_px: float) -> npt.NDArray[np.bool_]:
+    """At which points (n,) light goes up and down twice around, as at crossing edges and not in noise."""
+    if not len(points):
+        return np.zeros(0, dtype=bool)
+    angle = 2.0 * np.pi * np.arange(RING_POINTS) / RING_POINTS
+    ring = points[:, None, :] + radius_px * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    x, y = (ring[..., axis].astype(np.float32) for axis in (0, 1))
+    # A ring that reaches out of the image is judged by what is inside.
+    values = cv2.remap(smooth, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).reshape(x.shape)
+    waves = np.abs(np.fft.rfft(values, axis=1))[:, 1:] ** 2
+    return np.asarray(waves[:, 1] >= LEAST_CROSSED_RATIO * waves.sum(axis=1), dtype=bool)
 
 
 def quarter_signs(grey: GreyImage, corners_px: Array, a_px: Array, b_px: Array) -> Array:

@@ -5,7 +5,7 @@ import numpy.typing as npt
 
 from tracker.camera.boards import DotBoard, DotLayout
 from tracker.camera.detection.blobs import WINDOW_RATIOS, Blobs, GreyImage, dark_blobs
-from tracker.camera.detection.lattice import Cells, Lattice, largest_lattice, step_lengths_px
+from tracker.camera.detection.lattice import BASES, Cells, Lattice, largest_lattice, step_lengths_px
 from tracker.camera.detection.placing import placed, within
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
 from tracker.geometry import Array
@@ -100,9 +100,19 @@ def _on_board(cells: Cells, board: DotBoard) -> tuple[Cells, npt.NDArray[np.bool
     """Cells in steps of the board's pitch; lines at the rim that hold next to nothing are no part of it."""
     asymmetric = board.layout is DotLayout.ASYMMETRIC
     if asymmetric:
-        # The nearest dots of an asymmetric board stand on its diagonals.
-        cells = np.column_stack([cells[:, 0] - cells[:, 1], cells[:, 0] + cells[:, 1]])
+        cells = max((_across(cells, basis) for basis in BASES), key=_fill)
     return within(cells, 2 * board.columns if asymmetric else board.columns, board.rows)
+
+
+def _across(cells: Cells, basis: npt.NDArray[np.int64]) -> Cells:
+    """Cells along rows and columns of an asymmetric board, whose nearest dots are on its diagonals."""
+    diagonal = np.rint(cells @ np.linalg.inv(basis)).astype(np.int64)
+    return np.column_stack([diagonal[:, 0] - diagonal[:, 1], diagonal[:, 0] + diagonal[:, 1]])
+
+
+def _fill(cells: Cells) -> float:
+    """How full the rectangle around the cells is: counted slantwise, a board leaves much of it empty."""
+    return len(cells) / float(np.prod(cells.max(axis=0) - cells.min(axis=0) + 1))
 
 
 def _cells_of(board: DotBoard) -> npt.NDArray[np.int64]:

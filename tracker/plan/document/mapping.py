@@ -1,6 +1,7 @@
 """A plan to and from plain mappings, lists, numbers and words, which JSON can hold."""
 
 import dataclasses
+import math
 import typing
 from collections.abc import Mapping
 from enum import Enum
@@ -9,7 +10,11 @@ from typing import Any
 import numpy as np
 
 from tracker.errors import NavigationError, PlanError
+from tracker.plan.channel import Channel
 from tracker.plan.document.records import FORMAT_VERSION, PlanDocument
+from tracker.plan.pedicle import PedicleMeasure
+
+LARGEST = 1e300
 
 
 def plan_to_mapping(plan: PlanDocument) -> dict[str, Any]:
@@ -53,6 +58,28 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
     return plan
 
 
+def measure_from_mapping(mapped: object) -> PedicleMeasure:
+    """The measured pedicle of what `plain` made of it.
+
+    Raises:
+        PlanError: PLAN_INVALID.
+    """
+    measure = _read(PedicleMeasure, mapped, "pedicle")
+    assert isinstance(measure, PedicleMeasure)  # noqa: S101  what was asked for; said for the type checker
+    return measure
+
+
+def channel_from_mapping(mapped: object) -> Channel:
+    """The channel of what `plain` made of it.
+
+    Raises:
+        PlanError: PLAN_INVALID, CHANNEL_INVALID.
+    """
+    channel = _read(Channel, mapped, "channel")
+    assert isinstance(channel, Channel)  # noqa: S101  what was asked for; said for the type checker
+    return channel
+
+
 def _read(kind: Any, value: object, where: str) -> Any:  # noqa: ANN401  kinds are told by annotations
     origin, given = typing.get_origin(kind), typing.get_args(kind)
     if dataclasses.is_dataclass(kind) and isinstance(kind, type):
@@ -63,7 +90,7 @@ def _read(kind: Any, value: object, where: str) -> Any:  # noqa: ANN401  kinds a
         return tuple(_read(given[0], one, f"{where}[{n}]") for n, one in enumerate(_list(value, where)))
     if origin is typing.Literal:
         if value not in given:
-            raise _invalid(where, f"is {value!r}, allowed are {', '.join(map(str, given))}")
+            raise _invalid(where, f"is {repr(value)[:60]}, allowed are {', '.join(map(str, given))}")
         return value
     if origin is not None and isinstance(origin, type) and issubclass(origin, Mapping):
         if not isinstance(value, Mapping):
@@ -78,15 +105,17 @@ def _single(kind: Any, value: object, where: str) -> object:  # noqa: ANN401  as
             return kind(value)
         except ValueError as error:
             raise _invalid(
-                where, f"is {value!r}, allowed are {', '.join(str(one.value) for one in kind)}"
+                where, f"is {repr(value)[:60]}, allowed are {', '.join(str(one.value) for one in kind)}"
             ) from error
     if kind is float and isinstance(value, int | float) and not isinstance(value, bool):
-        if not np.isfinite(value):
-            raise _invalid(where, f"is {value}, needed a finite number")
-        return float(value)
+        # A whole number of JSON may have more digits than a float holds.
+        number = float(value) if abs(value) < LARGEST else math.inf
+        if not math.isfinite(number):
+            raise _invalid(where, "is no finite number")
+        return number
     if isinstance(kind, type) and type(value) is kind:
         return value
-    raise _invalid(where, f"is {value!r}, needed {getattr(kind, '__name__', kind)}")
+    raise _invalid(where, f"is {repr(value)[:60]}, needed {getattr(kind, '__name__', kind)}")
 
 
 def _record(kind: type, value: object, where: str) -> object:
@@ -96,7 +125,7 @@ def _record(kind: type, value: object, where: str) -> object:
     fields = {field.name: field for field in dataclasses.fields(kind)}
     unknown = sorted(str(key) for key in value if key not in fields)
     if unknown:
-        raise _invalid(where, f"has unknown keys {', '.join(unknown)}")
+        raise _invalid(where, f"has unknown keys {', '.join(unknown)[:200]}")
     missing = [name for name, field in fields.items() if name not in value and _is_needed(field)]
     if missing:
         raise _invalid(where, f"lacks {', '.join(missing)}")
@@ -116,7 +145,7 @@ def _is_needed(field: "dataclasses.Field[Any]") -> bool:
 def _array(value: object, where: str) -> object:
     try:
         array = np.array(_list(value, where), dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise _invalid(where, "is no even list of numbers") from error
     if not np.isfinite(array).all():
         raise _invalid(where, "holds a number that is not finite")

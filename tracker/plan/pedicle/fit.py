@@ -13,13 +13,17 @@ from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.search import Bar
 
 LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
-MOST_VOXELS = 3500
-ROUNDS = 3
+# The rounds that only find the place need fewer voxels than the one that tells the numbers.
+MOST_VOXELS = (900, 1200, 3500)
+MOST_STEPS = (8, 10, 20)
 OUTSIDE_BAND_MM = 1.2
 LEAST_VOXELS = 60
 COARSE_SD_DEG = 4.0
 # Bone is not made of even layers: what a voxel may differ by before it counts less.
 LEAST_SCALE_HU, SCALE_RATIO = 12.0, 0.06
+# Noise is alike in neighbouring voxels only; bone that is not as the model has it, over a few millimetres.
+ALIKE_VOXELS, ALIKE_MM3 = 2.0, 20.0
+_HELD_SLOPES: Array = np.array([0.0, 0.0, 0.02])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,6 +36,7 @@ class FittedBar:
         parameters: (26,), see `tube`.
         covariance: (26, 26).
         residual_hu: robust standard deviation of what the fit leaves.
+        misfit_ratio: what it leaves beyond noise, by the contrast of bone: how unlike a bar this is.
         fitted: whether the fit came to an end; if not, these are the coarse numbers.
     """
 
@@ -43,22 +48,28 @@ class FittedBar:
     parameters: Array
     covariance: Array
     residual_hu: float
+    misfit_ratio: float
     fitted: bool
 
 
-def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
-    """The bar around its narrowest section, refitted until window and axis agree with themselves."""
+def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
+    """The bar around its narrowest section, refitted until window and axis agree with themselves.
+
+    Held, it keeps the direction that it was given, and only the place and shape of its section are fitted.
+    """
     half = float(np.clip(0.8 * min(bar.behind_mm, bar.ahead_mm), LEAST_HALF_MM, MOST_HALF_MM))
     origin, axis = bar.centre_mm, bar.axis
     parameters = _first_parameters(near, bar)
     fitted: FittedBar | None = None
-    for round_number in range(ROUNDS):
+    for round_number in range(len(MOST_VOXELS)):
         (left,), (up,) = planes_across(axis[None])
-        samples = _samples(near, bar, parameters, origin, np.stack([axis, left, up]), half)
+        frame = np.stack([axis, left, up])
+        samples = _samples(near, bar, parameters, origin, frame, half, MOST_VOXELS[round_number])
         if len(samples.hu) < LEAST_VOXELS:
             break
+        slopes = _HELD_SLOPES if held else _coarse_slopes(bar, axis, left, up, half)
         parameters, covariance, residual, done = _solve(
-            near, samples, parameters, _coarse_slopes(bar, axis, left, up, half)
+            near, samples, parameters, slopes, MOST_STEPS[round_number]
         )
         fitted = FittedBar(
             origin_mm=origin,
@@ -69,10 +80,12 @@ def fit_bar(near: Neighbourhood, bar: Bar) -> FittedBar:
             parameters=parameters,
             covariance=covariance,
             residual_hu=residual,
+            misfit_ratio=_misfit_ratio(near, residual),
             fitted=done,
         )
-        if round_number < ROUNDS - 1:
-            origin, axis, parameters = _moved(fitted)
+        if round_number < len(MOST_VOXELS) - 1:
+            origin, turned, parameters = _moved(fitted)
+            axis = axis if held else turned
     return fitted if fitted is not None else _unfitted(near, bar, parameters, half)
 
 
@@ -149,7 +162,7 @@ def _usual_blur_mm(near: Neighbourhood) -> float:
 
 
 def _samples(
-    near: Neighbourhood, bar: Bar, parameters: Array, origin: Array, frame: Array, half: float
+    near: Neighbourhood, bar: Bar, parameters: Array, origin: Array, frame: Array, half: float, most: int
 ) -> tube.Samples:
     """Voxels of the window that lie in the bar, or in a thin band around it that holds no other bone."""
     points, hu = _voxels(near, origin, half)
@@ -166,8 +179,8 @@ def _samples(
     band = OUTSIDE_BAND_MM + 2.2 * np.sqrt(box + np.exp(2.0 * parameters[tube.BLUR]))
     used = (np.abs(along) <= 1.0) & (distance < band) & ~_open(bar, points)
     rows = np.flatnonzero(used)
-    if len(rows) > MOST_VOXELS:
-        rows = np.random.default_rng(1).choice(rows, MOST_VOXELS, replace=False)
+    if len(rows) > most:
+        rows = np.random.default_rng(1).choice(rows, most, replace=False)
     return tube.Samples(along=along[rows], across_mm=local[rows, 1:], hu=hu[rows], box_mm2=box[rows])
 
 
@@ -202,7 +215,7 @@ def _open(bar: Bar, points: Array) -> npt.NDArray[np.bool_]:
 
 
 def _solve(
-    near: Neighbourhood, samples: tube.Samples, start: Array, slopes: Array
+    near: Neighbourhood, samples: tube.Samples, start: Array, slopes: Array, most_steps: int
 ) -> tuple[Array, Array, float, bool]:
     scale = max(LEAST_SCALE_HU, near.noise_hu, SCALE_RATIO * (near.cortex_hu - near.tissue_hu))
     centre, width = _expected(near, start, slopes)
@@ -218,15 +231,26 @@ def _solve(
         bounds=(low, high),
         loss="soft_l1",
         x_scale=np.minimum(width, 50.0),
-        max_nfev=25,
+        max_nfev=most_steps,
     )
     left = tube.model_hu(result.x, samples) - samples.hu
     residual = float(1.4826 * np.median(np.abs(left)))
     information = result.jac.T @ result.jac
     spread = max(residual, 2.0) / scale
-    # Neighbouring voxels are off alike, so that they tell less than their number says.
-    covariance = np.linalg.pinv(information) * max(spread, 0.2) ** 2 * 2.0
+    covariance = np.linalg.pinv(information) * max(spread, 0.2) ** 2 * _alike(near, residual)
     return result.x, covariance, residual, bool(result.status >= 0)
+
+
+def _alike(near: Neighbourhood, residual: float) -> float:
+    """How many voxels are off alike, so that they tell no more than one."""
+    noise = min(near.noise_hu / max(residual, 1e-6), 1.0) ** 2
+    voxel = float(abs(np.linalg.det(near.lps_from_index[:3, :3])))
+    return noise * ALIKE_VOXELS + (1.0 - noise) * max(ALIKE_VOXELS, ALIKE_MM3 / voxel)
+
+
+def _misfit_ratio(near: Neighbourhood, residual: float) -> float:
+    misfit = np.sqrt(max(residual**2 - near.noise_hu**2, 0.0))
+    return float(misfit / max(near.cortex_hu - near.tissue_hu, 50.0))
 
 
 def _expected(near: Neighbourhood, start: Array, slopes: Array) -> tuple[Array, Array]:
@@ -274,5 +298,6 @@ def _unfitted(near: Neighbourhood, bar: Bar, parameters: Array, half: float) -> 
         parameters=parameters,
         covariance=np.diag(spread**2),
         residual_hu=near.noise_hu,
+        misfit_ratio=1.0,
         fitted=False,
     )

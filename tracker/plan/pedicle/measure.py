@@ -1,29 +1,40 @@
 """From one click to the pedicle's numbers."""
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.plan.pedicle import refusals, tube
+from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
 from tracker.plan.pedicle.fit import FittedBar, fit_bar
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.record import (
     PedicleMeasure,
     PedicleSpread,
     Side,
+    axis_from_angles,
     checked_side,
     sagittal_deg_of,
     transverse_deg_of,
 )
-from tracker.plan.pedicle.search import Bar, find_bar
+from tracker.plan.pedicle.search import Bar, bar_along, find_bar
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.sides import body_side, canal_side
+from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.plan.pedicle.walls import WallAhead, back_wall, front_wall
 from tracker.plan.volume import Volume
 
 WALL_SD_VOXELS = 0.3
 USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
+LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
+# A smaller turn of the axis changes no section.
+TURNED_DEG = 1.0
+BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
+MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
+MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
 
 
 def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> PedicleMeasure:
@@ -49,20 +60,74 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     seed = refusals.checked_seed(volume, seed_lps_mm)
     near = neighbourhood_of(volume, seed)
     refusals.refuse_air(near, seed)
-    bar = find_bar(near, seed, named)
+    solid = solid_around(near, seed)
+    bar = _bar_at(near, solid, seed, named)
     if bar is None:
         raise refusals.not_found(near, seed)
     refusals.refuse_cut(near, bar)
-    fitted = fit_bar(near, bar)
+    fitted = _fitted(near, bar)
     refusals.refuse_outside(near, bar, fitted, seed)
     isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
+    course = course_through(solid, isthmus.centre_mm, named)
+    isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, named)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
-    return _record(near, seed, named, bar, fitted, isthmus, warnings)
+    return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
+
+
+def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar | None:
+    """The bar at the click; where it is doubtful, the one at the middle of the bone that holds the click."""
+    bars: list[tuple[bool, float, Bar]] = []
+    course = course_through(solid, seed, side)
+    for at in (seed, middle_of_bone(solid, seed, course.axis(side))):
+        bar = find_bar(near, at, side, course)
+        if bar is None:
+            continue
+        off_deg = float(np.linalg.norm(course.off_deg(bar.axis[None], side)))
+        if bar.is_clear and off_deg <= MOST_OFF_COURSE_DEG and bar.holds(seed):
+            return bar
+        bars.append((bar.holds(seed), min(bar.behind_mm, bar.ahead_mm) - 0.1 * off_deg, bar))
+    return max(bars, key=lambda one: one[:2])[2] if bars else None
+
+
+def _fitted(near: Neighbourhood, bar: Bar) -> FittedBar:
+    """The fit to the voxels; one that turned right away from its sections is made again, held."""
+    fitted = fit_bar(near, bar)
+    if fitted.axis @ bar.axis >= np.cos(np.radians(MOST_TURN_DEG)):
+        return fitted
+    return replace(fit_bar(near, bar, held=True), misfit_ratio=1.0)
+
+
+def _along_course(
+    near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Isthmus, course: Course, side: Side
+) -> tuple[Isthmus, FittedBar]:
+    """The isthmus across the axis that walls and surroundings tell together, each as surely as it is."""
+    own = np.array([transverse_deg_of(isthmus.axis, side), sagittal_deg_of(isthmus.axis)])
+    expected = np.array([course.transverse_deg, course.sagittal_deg])
+    own_weight = 1.0 / np.square(isthmus.slope_sd_deg)
+    course_weight = 1.0 / np.square([course.transverse_sd_deg, course.sagittal_sd_deg])
+    both = (own_weight * own + course_weight * expected) / (own_weight + course_weight)
+    spread = 1.0 / np.sqrt(own_weight + course_weight)
+    axis = axis_from_angles(side, transverse_deg=float(both[0]), sagittal_deg=float(both[1]))
+    turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
+    if turned_deg >= TURNED_DEG:
+        held = fit_bar(near, bar_along(near, bar, isthmus.centre_mm, axis), held=True)
+        across = isthmus_of(held, _voxel_across_mm(near, held))
+        if _is_same(isthmus, across):
+            isthmus, fitted = across, held
+    return replace(isthmus, axis=axis, slope_sd_deg=(float(spread[0]), float(spread[1]))), fitted
+
+
+def _is_same(one: Isthmus, other: Isthmus) -> bool:
+    """Whether two sections across different axes are of one pedicle, and not of what joins it."""
+    moved_mm = float(np.linalg.norm(one.centre_mm - other.centre_mm))
+    ratios = np.array([other.width_mm / one.width_mm, other.height_mm / one.height_mm])
+    return moved_mm <= MOST_MOVE_MM and bool((np.abs(np.log(ratios)) <= np.log(MOST_GROWTH)).all())
 
 
 def _record(
     near: Neighbourhood,
+    solid: Solid,
     seed: Array,
     side: Side,
     bar: Bar,
@@ -70,10 +135,11 @@ def _record(
     isthmus: Isthmus,
     warnings: list[str],
 ) -> PedicleMeasure:
-    front = front_wall(near, isthmus.centre_mm, isthmus.axis)
-    back = back_wall(near, isthmus.centre_mm, isthmus.axis)
+    front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
+    back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
-    warnings += _fit_warnings(near, bar, fitted, isthmus) + _length_warnings(front, back)
+    warnings += _fit_warnings(near, solid, bar, fitted, isthmus) + _length_warnings(front, back)
+    warnings += _front_warnings(front)
     return PedicleMeasure(
         side=side,
         width_mm=isthmus.width_mm,
@@ -93,7 +159,7 @@ def _record(
             height_mm=isthmus.height_sd_mm,
             transverse_deg=isthmus.slope_sd_deg[0],
             sagittal_deg=isthmus.slope_sd_deg[1],
-            length_mm=float(np.sqrt(2.0) * WALL_SD_VOXELS * voxel),
+            length_mm=_length_sd_mm(front, back, isthmus, WALL_SD_VOXELS * voxel),
             isthmus_mm=isthmus.centre_sd_mm,
         ),
         warnings=tuple(warnings),
@@ -118,7 +184,16 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     return []
 
 
-def _fit_warnings(near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Isthmus) -> list[str]:
+def _widens(solid: Solid, isthmus: Isthmus) -> bool:
+    """Whether more bone stands around the axis in front than at the isthmus: the body, though far ahead."""
+    line = isthmus.centre_mm + np.arange(0.0, BODY_WITHIN_MM, 1.0)[:, None] * isthmus.axis
+    depth = solid.depth_at(line)
+    return bool(depth.max() > BODY_GROWTH * max(float(depth[0]), 1.0))
+
+
+def _fit_warnings(
+    near: Neighbourhood, solid: Solid, bar: Bar, fitted: FittedBar, isthmus: Isthmus
+) -> list[str]:
     out = []
     voxels = isthmus.width_mm / _voxel_across_mm(near, fitted)
     if voxels < FEW_VOXELS:
@@ -128,12 +203,36 @@ def _fit_warnings(near: Neighbourhood, bar: Bar, fitted: FittedBar, isthmus: Ist
         )
     if not fitted.fitted:
         out.append("too few voxels to fit its walls; the numbers are those of coarse sections")
-    if not bar.opens_ahead or not bar.opens_behind:
-        where = "in front" if not bar.opens_ahead else "behind"
-        out.append(f"it does not widen {where} within 16 mm; check that the click lies in a pedicle")
+    if not bar.opens_ahead and not _widens(solid, isthmus):
+        out.append(
+            f"it does not widen within {BODY_WITHIN_MM:.0f} mm in front; "
+            "check that the click lies in a pedicle"
+        )
     if fitted.half_mm <= 3.0 and bar.length_mm < 4.0:
         out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less sure")
     return out
+
+
+def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
+    """Each wall's own spread, and what the axis's spread makes of it where the wall is met aslant."""
+    parts = [wall_sd_mm, wall_sd_mm]
+    for wall in (front, back):
+        aslant = np.sqrt(max(1.0 - wall.faced_ratio**2, 0.0)) / max(wall.faced_ratio, LEAST_FACED)
+        parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
+    return float(np.linalg.norm(parts))
+
+
+def _front_warnings(front: WallAhead) -> list[str]:
+    """Where the axis does not leave through the front wall."""
+    if not front.found or front.faced_ratio >= LEAST_FACED:
+        return []
+    up = float(front.outwards[2])
+    where = "side" if abs(up) < ENDPLATE_RATIO else ("upper endplate" if up > 0.0 else "lower endplate")
+    slant_deg = float(np.degrees(np.arccos(np.clip(front.faced_ratio, -1.0, 1.0))))
+    return [
+        f"the axis leaves the body through its {where} ({slant_deg:.0f} deg aslant), not through the front "
+        "wall; the length ends there, check it"
+    ]
 
 
 def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:

@@ -1,12 +1,13 @@
 """From a click to the bar of bone that holds it: a coarse line, by sections in all likely directions."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
 
 from tracker.geometry import Array
+from tracker.plan.pedicle.course import Course
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import Outlines, outlines_of, planes_across
 
@@ -14,11 +15,12 @@ TRANSVERSE_DEG = np.arange(-24.0, 49.0, 12.0)
 SAGITTAL_DEG = np.arange(-36.0, 37.0, 12.0)
 # First around the click itself, then further away.
 ALONG_MM = ((0.0,), (-3.5, 3.5), (-7.0, 7.0))
-USUAL_DEG, UNUSUAL_SD_DEG = 20.0, 25.0
+# A direction that is so far from the expected one is as good, and how quickly it becomes worse beyond.
+USUAL_DEG, UNUSUAL_SD_DEG = 12.0, 20.0
 ASIDE_MM = (-3.0, -1.5, 0.0, 1.5, 3.0)
 LEAST_MM2 = 12.0
 LEAST_FOUND, LEAST_FOUND_ALONG = 0.8, 0.72
-SHORT_MM = 5.0
+SHORT_MM, LEAST_END_MM = 5.0, 2.0
 MOST_GAP_DEG = 75.0
 WALK_MM, WALK_STEP_MM = 16.0, 1.0
 # A section that is so much larger than the narrowest one belongs to body or arch already.
@@ -74,6 +76,16 @@ class Bar:
         """From where it opens behind to where it opens in front."""
         return self.behind_mm + self.ahead_mm
 
+    @property
+    def is_clear(self) -> bool:
+        """Whether it opens at both ends, and not at once."""
+        return (
+            self.opens_ahead
+            and self.opens_behind
+            and self.length_mm >= SHORT_MM
+            and min(self.behind_mm, self.ahead_mm) >= LEAST_END_MM
+        )
+
     def holds(self, point_mm: Array) -> bool:
         """Whether a point lies inside the outlines, or less than half a millimetre outside."""
         along = float((point_mm - self.centre_mm) @ self.axis)
@@ -91,7 +103,7 @@ def forward_directions(side: str) -> Array:
     return np.asarray(flat / np.linalg.norm(flat, axis=1, keepdims=True))
 
 
-def find_bar(near: Neighbourhood, seed_mm: Array, side: str) -> Bar | None:
+def find_bar(near: Neighbourhood, seed_mm: Array, side: str, course: Course) -> Bar | None:
     """The bar of bone around a click, or None where no section around it is closed.
 
     The section through the click itself tells most; those before and behind it are looked at where that one
@@ -99,14 +111,23 @@ def find_bar(near: Neighbourhood, seed_mm: Array, side: str) -> Bar | None:
     """
     bars: list[Bar] = []
     for some_mm in ALONG_MM:
-        start = _best_start(near, seed_mm, side, some_mm)
+        start = _best_start(near, seed_mm, side, some_mm, course)
         bar = None if start is None else _settled(near, start)
         if bar is None:
             continue
-        if bar.opens_ahead and bar.opens_behind and bar.length_mm >= SHORT_MM and bar.holds(seed_mm):
+        if bar.is_clear and bar.holds(seed_mm):
             return bar
         bars.append(bar)
     return max(bars, key=lambda bar: (bar.holds(seed_mm), bar.length_mm)) if bars else None
+
+
+def bar_along(near: Neighbourhood, bar: Bar, centre_mm: Array, axis: Array) -> Bar:
+    """The same bar, with its sections across another axis that is kept; as it was where none is closed."""
+    start = Start(centre_mm=centre_mm, axis=axis, first_axis=axis, area_mm2=bar.area_mm2)
+    walked = _walk(near, start)
+    if walked is None:
+        return bar
+    return replace(walked, axis=axis)
 
 
 def _settled(near: Neighbourhood, first: Start) -> Bar | None:
@@ -124,13 +145,14 @@ def _settled(near: Neighbourhood, first: Start) -> Bar | None:
     return bar
 
 
-def _best_start(near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...]) -> Start | None:
+def _best_start(
+    near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[float, ...], course: Course
+) -> Start | None:
     """Centre and direction of the smallest closed section around the click, of nested ones the outer."""
     directions = forward_directions(side)
     grid = (len(TRANSVERSE_DEG), len(SAGITTAL_DEG))
-    unusual = (
-        0.5 * (np.maximum(_away_from_usual_deg(directions, side) - USUAL_DEG, 0.0) / UNUSUAL_SD_DEG) ** 2
-    )
+    away = np.linalg.norm(course.off_deg(directions, side), axis=1)
+    unusual = 0.5 * (np.maximum(away - USUAL_DEG, 0.0) / UNUSUAL_SD_DEG) ** 2
     best: tuple[float, Start] | None = None
     for along_mm in some_mm:
         areas, centres = _largest_around(near, seed_mm, directions, along_mm)
@@ -147,12 +169,6 @@ def _best_start(near: Neighbourhood, seed_mm: Array, side: str, some_mm: tuple[f
             found = Start(centre_mm=centres[way], axis=axis, first_axis=axis, area_mm2=float(known[way]))
             best = (float(score[way]), found)
     return None if best is None else best[1]
-
-
-def _away_from_usual_deg(directions: Array, side: str) -> Array:
-    """Angle (n,) from where pedicles usually point: forwards and a little to the middle."""
-    usual = np.array([-0.21 if side == "left" else 0.21, -0.978, 0.0])
-    return np.asarray(np.degrees(np.arccos(np.clip(directions @ usual, -1.0, 1.0))))
 
 
 def _largest_around(

@@ -11,6 +11,8 @@ from tracker.plan.pedicle.fit import FittedBar, narrowest
 ROUND_RATIO = 1.08
 # What the model of a bar leaves out moves a wall by this share of a voxel, whatever the noise.
 MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
+# Bone that is unlike a bar by this share of its contrast may lead elsewhere by so much, over a short window.
+UNLIKE_RATIO, UNLIKE_DEG, UNLIKE_HALF_MM, MOST_UNLIKE_DEG = 0.1, 10.0, 3.0, 20.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +60,8 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
     )
     floor = MODEL_VOXELS * voxel_mm
     slopes = np.degrees(spread[4:6])
+    unlike = UNLIKE_DEG * (fitted.misfit_ratio / UNLIKE_RATIO) ** 3 * UNLIKE_HALF_MM / fitted.half_mm
+    model_deg = float(np.hypot(MODEL_DEG, min(unlike, MOST_UNLIKE_DEG)))
     return Isthmus(
         centre_mm=centre,
         axis=axis / np.linalg.norm(axis),
@@ -67,7 +71,7 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
         width_sd_mm=float(np.hypot(spread[0], floor)),
         height_sd_mm=float(np.hypot(spread[1], floor)),
         centre_sd_mm=float(np.linalg.norm([spread[2], spread[3], floor])),
-        slope_sd_deg=(float(np.hypot(slopes[0], MODEL_DEG)), float(np.hypot(slopes[1], MODEL_DEG))),
+        slope_sd_deg=(float(np.hypot(slopes[0], model_deg)), float(np.hypot(slopes[1], model_deg))),
     )
 
 

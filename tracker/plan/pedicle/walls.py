@@ -7,6 +7,7 @@ import numpy as np
 from tracker.geometry import Array
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import angles, planes_across
+from tracker.plan.pedicle.solid import Solid
 
 STEP_MM = 0.2
 FARTHEST_MM = 64.0
@@ -17,20 +18,33 @@ FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
 VESSEL_FROM_MM = 24.0
 DISC_MM = 0.9
 # Behind a true outer wall most directions across the axis meet no bone soon.
+GAP_BEYOND_MM = 2.0
 LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
+
+
+# Where the solid ends, the wall is the fall of the profile that is so near to it.
+NEAR_EXIT_MM = 4.0
+# Where bone and vessel have grown together in the solid, their joint is shallow, and far ahead.
+NECK_FROM_MM, NECK_MM = 24.0, 3.0
+# Deeper outside than this the line has left the bone, and not only passed a gap in its wall.
+LEFT_MM = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WallAhead:
-    """The first outer wall in one direction.
+    """The outer wall in one direction.
 
     Attributes:
         distance_mm: from the isthmus.
         found: whether a wall was met; if not, the bone goes on to this distance at least.
+        outwards: unit (3,), the wall's normal; the direction itself where no wall was met.
+        faced_ratio: cosine between direction and normal: 1 where the wall is met squarely, 0 along it.
     """
 
     distance_mm: float
     found: bool
+    outwards: Array
+    faced_ratio: float
 
 
 def outside_limit_hu(near: Neighbourhood) -> float:
@@ -43,19 +57,65 @@ def bone_limit_hu(near: Neighbourhood) -> float:
     return near.tissue_hu + max(120.0, 0.4 * (near.cortex_hu - near.tissue_hu))
 
 
-def front_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
+def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
     """Where the axis leaves the body in front, perhaps towards a vessel with contrast."""
-    return _outer_wall(near, isthmus_mm, axis, FRONT_FROM_MM, VESSEL_FROM_MM)
+    return _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, VESSEL_FROM_MM)
 
 
-def back_wall(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> WallAhead:
+def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
     """Where the axis, followed backwards, leaves the arch: the entry."""
-    return _outer_wall(near, isthmus_mm, -axis, ENTRY_FROM_MM, np.inf)
+    return _wall(near, solid, isthmus_mm, -axis, ENTRY_FROM_MM, np.inf)
+
+
+def _wall(
+    near: Neighbourhood, solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float, vessel_mm: float
+) -> WallAhead:
+    """Where the filled solid ends, to the fall of the profile there; where it does not, the profile alone.
+
+    What is soft and closed in, as marrow, belongs to the solid, so that no gap within the body ends it.
+    """
+    exit_mm = _exit_mm(solid, isthmus_mm, direction, from_mm)
+    distance, found = _outer_wall(near, isthmus_mm, direction, from_mm, vessel_mm)
+    if exit_mm is not None and not (found and _is_neck(solid, isthmus_mm, direction, distance, exit_mm)):
+        found = bool(near.holds(isthmus_mm + (exit_mm + 1.0) * direction))
+        distance = _fall_near(near, isthmus_mm, direction, exit_mm)
+    outwards = solid.outwards_at(isthmus_mm + distance * direction) if found else direction
+    return WallAhead(
+        distance_mm=distance, found=found, outwards=outwards, faced_ratio=float(outwards @ direction)
+    )
+
+
+def _is_neck(solid: Solid, isthmus_mm: Array, direction: Array, at_mm: float, exit_mm: float) -> bool:
+    """Whether a wall well before the solid's end is one all the same: bone and a vessel grown together."""
+    depth = float(solid.depth_at((isthmus_mm + at_mm * direction)[None])[0])
+    return at_mm < exit_mm - NEAR_EXIT_MM and at_mm > NECK_FROM_MM and depth < NECK_MM
+
+
+def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float | None:
+    """Where the line leaves the solid for good, or None where it does not within the grid."""
+    along = np.arange(from_mm, FARTHEST_MM, STEP_MM)
+    line = isthmus_mm + along[:, None] * direction
+    depth = solid.depth_at(line)[solid.holds(line)]
+    left = np.flatnonzero(depth < -LEFT_MM)
+    inside = np.flatnonzero(depth[: left[0]] > 0.0) if len(left) else left
+    return float(along[inside[-1]]) if len(inside) else None
+
+
+def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm: float) -> float:
+    """The fall of the profile nearest to where the solid ends; the end itself where there is none."""
+    profile = _profile(near, isthmus_mm, direction)
+    behind = int(max(BEHIND_MM, float(near.voxel_width_mm(direction).max())) / STEP_MM)
+    for share in (1.0, 0.5):
+        falls = [one for one, _ in _falls(profile, share * near.least_fall_hu, behind)]
+        close = [one for one in falls if abs(one - exit_mm) <= NEAR_EXIT_MM]
+        if close:
+            return min(close, key=lambda one: abs(one - exit_mm))
+    return exit_mm
 
 
 def _outer_wall(
     near: Neighbourhood, isthmus_mm: Array, direction: Array, from_mm: float, vessel_from_mm: float
-) -> WallAhead:
+) -> tuple[float, bool]:
     """The first fall behind which the line is no longer enclosed by bone.
 
     Dense layers inside the bone fall to marrow, which can be as dark as muscle; but there walls stand around.
@@ -68,10 +128,12 @@ def _outer_wall(
         for distance_mm, trough in _falls(profile, share * near.least_fall_hu, behind):
             if distance_mm < from_mm or (trough > limit and distance_mm < vessel_from_mm):
                 continue
-            beyond = isthmus_mm + (distance_mm + LOOK_BEYOND_MM) * direction
-            if not _is_enclosed(near, beyond, direction):
-                return WallAhead(distance_mm=distance_mm, found=True)
-    return WallAhead(distance_mm=max(len(profile) - 1, 0) * STEP_MM, found=False)
+            # In a narrow gap before a vessel the nearer look sees that nothing stands around.
+            looks = (LOOK_BEYOND_MM,) if trough > limit else (GAP_BEYOND_MM, LOOK_BEYOND_MM)
+            points = [isthmus_mm + (distance_mm + look_mm) * direction for look_mm in looks]
+            if not all(_is_enclosed(near, point, direction) for point in points):
+                return distance_mm, True
+    return max(len(profile) - 1, 0) * STEP_MM, False
 
 
 def _profile(near: Neighbourhood, isthmus_mm: Array, direction: Array) -> Array:

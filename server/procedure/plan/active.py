@@ -1,0 +1,42 @@
+"""Which of the planned channels is to be drilled now: a document of its own, which stands on the plan."""
+
+from dataclasses import dataclass
+from typing import cast
+
+from server.store import Document
+from tracker.plan import Channel
+from tracker.plan.document import channel_from_mapping
+from tracker.plan.pedicle import Side, checked_side
+
+# It is of the plan's kind, beside the plan itself.
+ACTIVE_CHANNEL = "active channel"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActiveChannel:
+    """The channel that is to be drilled now.
+
+    Attributes:
+        vertebra: its name in the plan.
+        side: of the patient.
+        channel: as the plan had it when it was chosen.
+    """
+
+    vertebra: str
+    side: Side
+    channel: Channel
+
+
+def kept_channel(document: Document) -> ActiveChannel:
+    """The channel in a document of a case.
+
+    Raises:
+        PlanError: PLAN_INVALID, CHANNEL_INVALID.
+        InvalidInput: SIDE_INVALID.
+    """
+    content = document.content
+    return ActiveChannel(
+        vertebra=str(content.get("vertebra")),
+        side=checked_side(cast("str", content.get("side"))),
+        channel=channel_from_mapping(content.get("channel")),
+    )

@@ -1,0 +1,278 @@
+"""The step in which pedicles are measured, channels laid and screws chosen; each change is a new version."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from server.config import PlanConfig
+from server.jobs import Job, Jobs
+from server.planning.pedicle import measure_in_ct
+from server.procedure.ct import OpenedCt
+from server.procedure.plan.kept import KeptPlan, PlanShelf
+from server.store import CaseStore
+from tracker.errors import PlanError
+from tracker.plan import (
+    Channel,
+    PlanDocument,
+    ScrewCatalogue,
+    Volume,
+    channel_from_points,
+    propose_middle,
+    propose_screw,
+    propose_slice,
+)
+from tracker.plan.document import changes, measure_from_mapping, refuse_odd
+from tracker.plan.pedicle import Side
+from tracker.plan.slices import reach_mm
+
+Change: TypeAlias = Callable[[PlanDocument, Volume], PlanDocument]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Author:
+    """Who changes the plan, and which version was looked at; the newest if None."""
+
+    made_by: str
+    expected_version: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Proposal:
+    """The slice that may stand for a vertebra.
+
+    Attributes:
+        slice_index: its number, from 0.
+        at_mm: where it lies, as the axial slice nearest to it.
+        middle_lps_mm: (3,) half-way between the isthmuses; None while one of them is not measured.
+    """
+
+    slice_index: int
+    at_mm: float
+    middle_lps_mm: tuple[float, float, float] | None
+
+
+class PlanStep:
+    """Plans on the CT of the open case; safe to use from any thread.
+
+    Args:
+        store: where the plan is kept.
+        jobs: where pedicles are measured.
+        opened: the CT.
+        config: catalogue and margins.
+    """
+
+    def __init__(self, *, store: CaseStore, jobs: Jobs, opened: OpenedCt, config: PlanConfig) -> None:
+        self.shelf = PlanShelf(store, opened)
+        self._jobs = jobs
+        self._opened = opened
+        self._front_margin_mm = config.front_margin_mm
+        self._wall_margin_mm = config.wall_margin_mm
+        self.catalogue = ScrewCatalogue(
+            diameters_mm=tuple(config.screw_diameters_mm), lengths_mm=tuple(config.screw_lengths_mm)
+        )
+
+    def replace(self, plan: PlanDocument, by: Author) -> KeptPlan:
+        """Store a whole plan, on the CT that is there now; what follows from its numbers is made anew.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, CT_MISSING.
+            StoreConflict: VERSION_CONFLICT.
+            PlanError: what cannot be a plan on this CT.
+        """
+        refuse_odd(plan)
+        ct = self._opened.current()
+        whole = changes.settled(plan, volume=ct.volume)
+        return self.shelf.put(whole, ct, made_by=by.made_by, expected_version=by.expected_version)
+
+    def add_vertebra(self, name: str, by: Author) -> KeptPlan:
+        """One vertebra more; PlanError PLAN_INVALID if there is one of this name."""
+        return self._change(by, lambda plan, _: _refused_odd(changes.with_vertebra(plan, name)))
+
+    def remove_vertebra(self, name: str, by: Author) -> KeptPlan:
+        """One vertebra less; PlanError VERTEBRA_UNKNOWN."""
+        return self._change(by, lambda plan, _: changes.without_vertebra(plan, name))
+
+    def measure(self, name: str, side: Side, seed_lps_mm: Sequence[float], by: Author) -> Job:
+        """Measure the pedicle that was clicked on, in a job, and put it into the plan.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, CT_MISSING.
+            OutOfDateError: PLAN_OUT_OF_DATE.
+            PlanError: VERTEBRA_UNKNOWN.
+        """
+        plan, _, ct = self.shelf.to_change()
+        changes.vertebra_named(plan, name)
+        measured_on = ct.document.id
+
+        def keep(values: object) -> object:
+            measure = measure_from_mapping(values)
+
+            def put(now: PlanDocument, volume: Volume) -> PlanDocument:
+                if self._opened.current().document.id != measured_on:
+                    raise PlanError(
+                        "CT_CHANGED",
+                        "the CT was replaced while the pedicle was measured; nothing was kept",
+                        "Click into the pedicle on the new CT.",
+                    )
+                return changes.with_measure(
+                    now, name, measure, volume=volume, front_margin_mm=self._front_margin_mm
+                )
+
+            kept = self._change(by, put)
+            return {"version": kept.document.version, "vertebra": name, "side": side, "pedicle": values}
+
+        return self._jobs.start(
+            f"measuring the {side} pedicle",
+            measure_in_ct,
+            {
+                "path": str(ct.file.path),
+                "lps_from_ijk": ct.document.content["lps_from_ijk"],
+                "seed_lps_mm": list(seed_lps_mm),
+                "side": side,
+            },
+            conclude=keep,
+        )
+
+    def correct(self, name: str, side: Side, corrected: Mapping[str, float], by: Author) -> KeptPlan:
+        """These numbers in place of the measured ones, which are kept; none takes the corrections back."""
+        return self._change(
+            by,
+            lambda plan, volume: changes.with_corrections(
+                plan, name, side, corrected, volume=volume, front_margin_mm=self._front_margin_mm
+            ),
+        )
+
+    def lay_channel(
+        self, name: str, side: Side, ends: tuple[Sequence[float], Sequence[float], float] | None, by: Author
+    ) -> KeptPlan:
+        """The channel of the measured pedicle, or one by hand: entry and target in LPS mm, diameter in mm."""
+        channel: Channel | None = None
+        if ends is not None:
+            channel = channel_from_points(
+                changes.channel_name(name, side),
+                entry_lps_mm=ends[0],
+                target_lps_mm=ends[1],
+                diameter_mm=ends[2],
+            )
+        return self._change(
+            by,
+            lambda plan, volume: _refused_odd(
+                changes.with_channel(
+                    plan, name, side, channel, volume=volume, front_margin_mm=self._front_margin_mm
+                )
+            ),
+        )
+
+    def remove_channel(self, name: str, side: Side, by: Author) -> KeptPlan:
+        """No channel on this side; PlanError CHANNEL_MISSING."""
+        return self._change(by, lambda plan, volume: changes.without_channel(plan, name, side, volume=volume))
+
+    def propose_screw(self, name: str, side: Side) -> tuple[float, float]:
+        """Diameter and length of the largest screw of the catalogue that keeps the margins.
+
+        Raises:
+            SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
+            PlanError: CHANNEL_MISSING, PEDICLE_MISSING, NO_SCREW_FITS.
+        """
+        return self._proposed(self.shelf.latest().plan, name, side)
+
+    def choose_screw(
+        self, name: str, side: Side, size_mm: tuple[float, float] | None, by: Author
+    ) -> KeptPlan:
+        """A screw of the catalogue in this channel; the proposed one if no size is given.
+
+        Raises:
+            PlanError: SCREW_NOT_IN_CATALOGUE, NO_SCREW_FITS, CHANNEL_MISSING, PEDICLE_MISSING.
+        """
+        if size_mm is not None:
+            self._refuse_strange(size_mm)
+        return self._change(
+            by,
+            lambda plan, volume: changes.with_screw(
+                plan, name, side, size_mm or self._proposed(plan, name, side), volume=volume
+            ),
+        )
+
+    def remove_screw(self, name: str, side: Side, by: Author) -> KeptPlan:
+        """No screw in this channel; PlanError CHANNEL_MISSING."""
+        return self._change(
+            by, lambda plan, volume: changes.with_screw(plan, name, side, None, volume=volume)
+        )
+
+    def propose_slice(self, name: str) -> Proposal:
+        """The slice nearest to the isthmuses of a vertebra; PlanError NO_PEDICLE_MEASURED."""
+        volume = self._opened.current().volume
+        vertebra = changes.vertebra_named(self.shelf.latest().plan, name)
+        measures = [record.used for record in vertebra.pedicles]
+        index = propose_slice(volume, measures)
+        centre = volume.lps_from_index((np.array(volume.shape_ijk) - 1.0) / 2.0 * [1, 1, 0] + [0, 0, index])
+        low, high, _ = reach_mm(volume, "axial")
+        middle = propose_middle(measures) if len(measures) > 1 else None
+        return Proposal(
+            slice_index=index,
+            at_mm=float(np.clip(centre[2], low, high)),
+            middle_lps_mm=None if middle is None else (float(middle[0]), float(middle[1]), float(middle[2])),
+        )
+
+    def choose_slice(
+        self,
+        name: str,
+        *,
+        slice_index: int | None,
+        middle_lps_mm: Sequence[float] | None,
+        apart_mm: float,
+        by: Author,
+    ) -> KeptPlan:
+        """The slice that stands for a vertebra, with its lines; what is not given is as proposed.
+
+        Raises:
+            PlanError: NO_PEDICLE_MEASURED, MIDDLE_UNKNOWN, SLICE_OUTSIDE_CT, LINES_INVALID.
+        """
+
+        def change(plan: PlanDocument, volume: Volume) -> PlanDocument:
+            measures = [record.used for record in changes.vertebra_named(plan, name).pedicles]
+            return changes.with_reference(
+                plan,
+                name,
+                volume=volume,
+                slice_index=propose_slice(volume, measures) if slice_index is None else slice_index,
+                middle_lps_mm=propose_middle(measures) if middle_lps_mm is None else middle_lps_mm,
+                apart_mm=apart_mm,
+            )
+
+        return self._change(by, change)
+
+    def _change(self, by: Author, change: Change) -> KeptPlan:
+        return self.shelf.change(by.made_by, by.expected_version, lambda plan, ct: change(plan, ct.volume))
+
+    def _proposed(self, plan: PlanDocument, name: str, side: Side) -> tuple[float, float]:
+        vertebra = changes.vertebra_named(plan, name)
+        return propose_screw(
+            changes.channel_of(vertebra, side).channel,
+            changes.pedicle_of(vertebra, side).used,
+            self.catalogue,
+            wall_margin_mm=self._wall_margin_mm,
+            front_margin_mm=self._front_margin_mm,
+        )
+
+    def _refuse_strange(self, size_mm: tuple[float, float]) -> None:
+        catalogue = self.catalogue
+        if size_mm[0] not in catalogue.diameters_mm or size_mm[1] not in catalogue.lengths_mm:
+            raise PlanError(
+                "SCREW_NOT_IN_CATALOGUE",
+                f"there is no screw of {size_mm[0]:g} x {size_mm[1]:g} mm in the catalogue",
+                f"Choose a diameter of {_told(catalogue.diameters_mm)} and a length of "
+                f"{_told(catalogue.lengths_mm)} mm, or add yours under plan in the config.",
+                {"diameter_mm": size_mm[0], "length_mm": size_mm[1]},
+            )
+
+
+def _refused_odd(plan: PlanDocument) -> PlanDocument:
+    refuse_odd(plan)
+    return plan
+
+
+def _told(numbers: Sequence[float]) -> str:
+    return ", ".join(f"{number:g}" for number in numbers)

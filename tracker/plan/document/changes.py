@@ -1,0 +1,303 @@
+"""One change of a plan at a time; what follows from it is worked out anew, and the rest stays."""
+
+import dataclasses
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import PlanError
+from tracker.geometry import Array
+from tracker.plan.channel import Channel
+from tracker.plan.document.corrections import PedicleRecord
+from tracker.plan.document.records import PlanDocument, PlannedChannel, VertebraPlan
+from tracker.plan.pedicle import PedicleMeasure, Side
+from tracker.plan.reference_slice import AHEAD_MM, BEHIND_MM, ReferenceSlice, draw_reference
+from tracker.plan.screw import ScrewPlan, channel_from_measure, plan_screw
+from tracker.plan.volume import Volume
+
+
+def vertebra_named(plan: PlanDocument, name: str) -> VertebraPlan:
+    """One vertebra of the plan.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN.
+    """
+    for vertebra in plan.vertebrae:
+        if vertebra.name == name:
+            return vertebra
+    names = ", ".join(one.name for one in plan.vertebrae) or "none"
+    raise PlanError(
+        "VERTEBRA_UNKNOWN",
+        f"the plan has no vertebra '{name[:40]}', it has {names}",
+        "Add it to the plan, or name one that is there.",
+        {"name": name[:40]},
+    )
+
+
+def pedicle_of(vertebra: VertebraPlan, side: Side) -> PedicleRecord:
+    """The pedicle of a side.
+
+    Raises:
+        PlanError: PEDICLE_MISSING.
+    """
+    for record in vertebra.pedicles:
+        if record.measured.side == side:
+            return record
+    raise PlanError(
+        "PEDICLE_MISSING",
+        f"the {side} pedicle of {vertebra.name} is not measured",
+        "Click into it first.",
+        {"vertebra": vertebra.name, "side": side},
+    )
+
+
+def channel_of(vertebra: VertebraPlan, side: Side) -> PlannedChannel:
+    """The channel of a side.
+
+    Raises:
+        PlanError: CHANNEL_MISSING.
+    """
+    for planned in vertebra.channels:
+        if planned.side == side:
+            return planned
+    raise PlanError(
+        "CHANNEL_MISSING",
+        f"{vertebra.name} has no {side} channel",
+        "Lay the channel first, from the measured pedicle or by hand.",
+        {"vertebra": vertebra.name, "side": side},
+    )
+
+
+def with_vertebra(plan: PlanDocument, name: str) -> PlanDocument:
+    """One vertebra more.
+
+    Raises:
+        PlanError: PLAN_INVALID, there is one of this name; VERTEBRA_INVALID.
+    """
+    return dataclasses.replace(plan, vertebrae=(*plan.vertebrae, VertebraPlan(name=name)))
+
+
+def without_vertebra(plan: PlanDocument, name: str) -> PlanDocument:
+    """One vertebra less.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN.
+    """
+    gone = vertebra_named(plan, name)
+    return dataclasses.replace(plan, vertebrae=tuple(one for one in plan.vertebrae if one is not gone))
+
+
+def with_measure(
+    plan: PlanDocument, name: str, measure: PedicleMeasure, *, volume: Volume, front_margin_mm: float
+) -> PlanDocument:
+    """A pedicle as it was measured now; what was corrected before is gone with what it corrected."""
+    vertebra = vertebra_named(plan, name)
+    changed = _with_pedicle(vertebra, PedicleRecord(measured=measure))
+    return _with(plan, _followed(changed, measure.side, volume, front_margin_mm))
+
+
+def with_corrections(
+    plan: PlanDocument,
+    name: str,
+    side: Side,
+    corrected: Mapping[str, float],
+    *,
+    volume: Volume,
+    front_margin_mm: float,
+) -> PlanDocument:
+    """These numbers in place of the measured ones, which stay beside them; none takes all corrections back.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN, PEDICLE_MISSING, CORRECTION_INVALID.
+    """
+    vertebra = vertebra_named(plan, name)
+    record = dataclasses.replace(pedicle_of(vertebra, side), corrected=dict(corrected))
+    return _with(plan, _followed(_with_pedicle(vertebra, record), side, volume, front_margin_mm))
+
+
+def with_channel(
+    plan: PlanDocument,
+    name: str,
+    side: Side,
+    channel: Channel | None,
+    *,
+    volume: Volume,
+    front_margin_mm: float,
+) -> PlanDocument:
+    """A channel set by hand, or that of the measured pedicle where none is given; a screw in it goes along.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN, PEDICLE_MISSING, CHANNEL_INVALID, CHANNEL_OUTSIDE_CT.
+    """
+    vertebra = vertebra_named(plan, name)
+    by_hand = channel is not None
+    if channel is None:
+        measure = pedicle_of(vertebra, side).used
+        channel = channel_from_measure(channel_name(name, side), measure, front_margin_mm=front_margin_mm)
+    screws = tuple(screw for one in vertebra.channels if one.side == side for screw in one.screws)
+    planned = PlannedChannel(side=side, channel=channel, by_hand=by_hand, screws=screws)
+    return _with(plan, _followed(_with_channel(vertebra, planned), side, volume, front_margin_mm))
+
+
+def without_channel(plan: PlanDocument, name: str, side: Side, *, volume: Volume) -> PlanDocument:
+    """No channel on this side.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN, CHANNEL_MISSING.
+    """
+    vertebra = vertebra_named(plan, name)
+    gone = channel_of(vertebra, side)
+    left = tuple(one for one in vertebra.channels if one is not gone)
+    return _with(plan, _redrawn(dataclasses.replace(vertebra, channels=left), volume))
+
+
+def with_screw(
+    plan: PlanDocument, name: str, side: Side, size_mm: tuple[float, float] | None, *, volume: Volume
+) -> PlanDocument:
+    """A screw of this diameter and length in the channel, with all that follows from it; or none.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN, CHANNEL_MISSING, PEDICLE_MISSING, SCREW_INVALID.
+    """
+    vertebra = vertebra_named(plan, name)
+    planned = channel_of(vertebra, side)
+    screws: tuple[ScrewPlan, ...] = ()
+    if size_mm is not None:
+        measure = pedicle_of(vertebra, side).used
+        screws = (plan_screw(volume, planned.channel, measure, diameter_mm=size_mm[0], length_mm=size_mm[1]),)
+    return _with(plan, _with_channel(vertebra, dataclasses.replace(planned, screws=screws)))
+
+
+def with_reference(
+    plan: PlanDocument,
+    name: str,
+    *,
+    volume: Volume,
+    slice_index: int,
+    middle_lps_mm: npt.ArrayLike,
+    apart_mm: float,
+) -> PlanDocument:
+    """The slice that stands for the vertebra, with its three lines and the paths of its channels.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN, SLICE_OUTSIDE_CT, LINES_INVALID.
+    """
+    vertebra = vertebra_named(plan, name)
+    reference = draw_reference(
+        volume,
+        slice_index=slice_index,
+        middle_lps_mm=middle_lps_mm,
+        apart_mm=apart_mm,
+        channels=[one.channel for one in vertebra.channels],
+    )
+    return _with(plan, dataclasses.replace(vertebra, references=(reference,)))
+
+
+def settled(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
+    """A plan from elsewhere with everything worked out anew that follows from its other numbers.
+
+    Grades, clearances, bone, tolerances and lines are not believed but made again, from pedicles, channels
+    and the sizes of the screws, on this CT.
+
+    Raises:
+        PlanError: CHANNEL_OUTSIDE_CT, PEDICLE_MISSING, SLICE_OUTSIDE_CT, LINES_INVALID, SCREW_INVALID.
+    """
+    vertebrae = []
+    for vertebra in plan.vertebrae:
+        changed = vertebra
+        for planned in vertebra.channels:
+            refuse_outside(planned.channel, volume)
+            changed = _with_screw_anew(changed, planned.side, volume)
+        vertebrae.append(_redrawn(changed, volume))
+    return dataclasses.replace(plan, vertebrae=tuple(vertebrae))
+
+
+def refuse_outside(channel: Channel, volume: Volume) -> None:
+    """A channel that does not lie in the CT was planned on another one.
+
+    Raises:
+        PlanError: CHANNEL_OUTSIDE_CT.
+    """
+    ends = np.stack([channel.entry_in_vertebra_mm, channel.target_in_vertebra_mm])
+    if not volume.holds(ends).all():
+        raise PlanError(
+            "CHANNEL_OUTSIDE_CT",
+            f"channel '{channel.name}' runs from {_told(ends[0])} to {_told(ends[1])} mm, which is not all "
+            "within the CT",
+            "Give its ends in mm of this CT (LPS).",
+            {"entry_lps_mm": ends[0].tolist(), "target_lps_mm": ends[1].tolist()},
+        )
+
+
+def middle_of(reference: ReferenceSlice) -> Array:
+    """The point (3,) through which the middle line was laid."""
+    start, end = next(line for line in reference.lines if line.name == "middle").ends_lps_mm
+    return np.asarray(start + AHEAD_MM / (AHEAD_MM + BEHIND_MM) * (end - start))
+
+
+def channel_name(vertebra: str, side: Side) -> str:
+    """What the screen calls a channel."""
+    return f"{vertebra} {side}"
+
+
+def _followed(vertebra: VertebraPlan, side: Side, volume: Volume, front_margin_mm: float) -> VertebraPlan:
+    """The channel of a side after its pedicle or itself has changed, its screw, and the paths."""
+    planned = next((one for one in vertebra.channels if one.side == side), None)
+    if planned is None:
+        return vertebra
+    if not planned.by_hand:
+        measure = pedicle_of(vertebra, side).used
+        channel = channel_from_measure(planned.channel.name, measure, front_margin_mm=front_margin_mm)
+        planned = dataclasses.replace(planned, channel=channel)
+    refuse_outside(planned.channel, volume)
+    return _redrawn(_with_screw_anew(_with_channel(vertebra, planned), side, volume), volume)
+
+
+def _with_screw_anew(vertebra: VertebraPlan, side: Side, volume: Volume) -> VertebraPlan:
+    planned = channel_of(vertebra, side)
+    screws = tuple(
+        plan_screw(
+            volume,
+            planned.channel,
+            pedicle_of(vertebra, side).used,
+            diameter_mm=screw.diameter_mm,
+            length_mm=screw.length_mm,
+        )
+        for screw in planned.screws
+    )
+    return _with_channel(vertebra, dataclasses.replace(planned, screws=screws))
+
+
+def _redrawn(vertebra: VertebraPlan, volume: Volume) -> VertebraPlan:
+    references = tuple(
+        draw_reference(
+            volume,
+            slice_index=one.slice_index,
+            middle_lps_mm=middle_of(one),
+            apart_mm=one.apart_mm,
+            channels=[planned.channel for planned in vertebra.channels],
+        )
+        for one in vertebra.references
+    )
+    return dataclasses.replace(vertebra, references=references)
+
+
+def _with_pedicle(vertebra: VertebraPlan, record: PedicleRecord) -> VertebraPlan:
+    others = tuple(one for one in vertebra.pedicles if one.measured.side != record.measured.side)
+    return dataclasses.replace(vertebra, pedicles=(*others, record))
+
+
+def _with_channel(vertebra: VertebraPlan, planned: PlannedChannel) -> VertebraPlan:
+    others = tuple(one for one in vertebra.channels if one.side != planned.side)
+    return dataclasses.replace(vertebra, channels=(*others, planned))
+
+
+def _with(plan: PlanDocument, vertebra: VertebraPlan) -> PlanDocument:
+    return dataclasses.replace(
+        plan, vertebrae=tuple(vertebra if one.name == vertebra.name else one for one in plan.vertebrae)
+    )
+
+
+def _told(point: Array) -> str:
+    return "(" + ", ".join(f"{value:.1f}" for value in point) + ")"

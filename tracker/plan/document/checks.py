@@ -1,0 +1,113 @@
+"""A plan from elsewhere is looked through before anything is worked out from it."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tracker.errors import PlanError
+from tracker.geometry import Array
+from tracker.plan.channel import Channel
+from tracker.plan.document.corrections import CORRECTABLE
+from tracker.plan.document.records import PlanDocument, VertebraPlan
+from tracker.plan.pedicle import PedicleMeasure
+from tracker.plan.reference_slice import ReferenceSlice
+
+MOST_VERTEBRAE, LONGEST_NAME = 30, 40
+MOST_WARNINGS, LONGEST_WARNING = 50, 500
+OUTLINE_POINTS = (6, 5000)
+FARTHEST_MM = 10_000.0
+LONGEST_CHANNEL_MM, WIDEST_RADIUS_MM = 150.0, 20.0
+
+
+def refuse_odd(plan: PlanDocument) -> None:
+    """Refuse a plan whose numbers cannot be those of a spine.
+
+    Raises:
+        PlanError: PLAN_INVALID.
+    """
+    for where, what in _oddities(plan):
+        raise PlanError(
+            "PLAN_INVALID",
+            f"the plan cannot be used: {where} {what}",
+            "Export the plan again from the program in which it was made.",
+            {"where": where},
+        )
+
+
+def _oddities(plan: PlanDocument) -> Iterator[tuple[str, str]]:
+    if len(plan.vertebrae) > MOST_VERTEBRAE:
+        yield "plan", f"has {len(plan.vertebrae)} vertebrae, allowed {MOST_VERTEBRAE}"
+        return
+    for n, vertebra in enumerate(plan.vertebrae):
+        where = f"vertebra {n + 1}"
+        if not _is_name(vertebra.name):
+            yield (
+                where,
+                f"has a name of {len(vertebra.name)} letters, allowed 1 to {LONGEST_NAME} printable ones",
+            )
+        yield from _in_vertebra(vertebra, where)
+
+
+def _in_vertebra(vertebra: VertebraPlan, where: str) -> Iterator[tuple[str, str]]:
+    for record in vertebra.pedicles:
+        yield from _in_measure(record.measured, f"{where}, {record.measured.side} pedicle,")
+    for planned in vertebra.channels:
+        yield from _in_channel(planned.channel, f"{where}, {planned.side} channel,")
+    for reference in vertebra.references:
+        yield from _in_reference(reference, f"{where}, reference slice,")
+
+
+def _in_measure(measure: PedicleMeasure, where: str) -> Iterator[tuple[str, str]]:
+    for name in ("isthmus_lps_mm", "axis_lps", "entry_lps_mm", "front_lps_mm", "seed_lps_mm"):
+        yield from _is_shaped(getattr(measure, name), (3,), f"{where} {name}")
+    few, many = OUTLINE_POINTS
+    outline = measure.outline_lps_mm
+    if outline.ndim != 2 or outline.shape[1] != 3 or not few <= outline.shape[0] <= many:
+        yield where, f"outline_lps_mm has shape {outline.shape}, needed {few} to {many} points"
+    else:
+        yield from _is_shaped(outline, outline.shape, f"{where} outline_lps_mm")
+    if measure.axis_lps.shape == (3,) and abs(np.linalg.norm(measure.axis_lps) - 1.0) > 1e-6:
+        yield where, f"axis_lps has length {np.linalg.norm(measure.axis_lps):.3f}, needed 1"
+    for name, (low, high) in CORRECTABLE.items():
+        value = getattr(measure, name)
+        # What is measured may lie a little beyond what a person may set.
+        room = 0.5 * (high - low)
+        if not (low - room <= value <= high + room) or (name.endswith("_mm") and value <= 0.0):
+            yield where, f"{name} is {value:g}, allowed {low:g} to {high:g}"
+    if len(measure.warnings) > MOST_WARNINGS or any(len(one) > LONGEST_WARNING for one in measure.warnings):
+        yield where, f"has more than {MOST_WARNINGS} warnings, or one of more than {LONGEST_WARNING} letters"
+
+
+def _in_channel(channel: Channel, where: str) -> Iterator[tuple[str, str]]:
+    yield from _is_shaped(channel.entry_in_vertebra_mm, (3,), where)
+    yield from _is_shaped(channel.target_in_vertebra_mm, (3,), where)
+    if not _is_name(channel.name):
+        yield where, f"has a name of {len(channel.name)} letters, allowed 1 to {LONGEST_NAME} printable ones"
+    if channel.length_mm > LONGEST_CHANNEL_MM or channel.radius_mm > WIDEST_RADIUS_MM:
+        yield (
+            where,
+            f"is {channel.length_mm:.0f} mm long with radius {channel.radius_mm:.0f} mm, allowed "
+            f"{LONGEST_CHANNEL_MM:.0f} and {WIDEST_RADIUS_MM:.0f} mm",
+        )
+
+
+def _in_reference(reference: ReferenceSlice, where: str) -> Iterator[tuple[str, str]]:
+    names = [line.name for line in reference.lines]
+    if sorted(names) != ["left", "middle", "right"]:
+        yield where, f"has lines {[name[:10] for name in names[:5]]}, needed middle, left and right"
+    if len(reference.paths) > 2:
+        yield where, f"has {len(reference.paths)} paths, allowed 2"
+    for line in (*reference.lines, *reference.paths):
+        yield from _is_shaped(line.ends_lps_mm, (2, 3), where)
+        yield from _is_shaped(line.ends_px, (2, 2), where)
+
+
+def _is_shaped(array: Array, shape: tuple[int, ...], where: str) -> Iterator[tuple[str, str]]:
+    if array.shape != shape:
+        yield where, f"has shape {array.shape}, needed {shape}"
+    elif np.abs(array).max() > FARTHEST_MM:
+        yield where, f"holds {np.abs(array).max():g}, allowed up to {FARTHEST_MM:g}"
+
+
+def _is_name(name: str) -> bool:
+    return bool(name.strip()) and len(name) <= LONGEST_NAME and name.isprintable()

@@ -1,0 +1,140 @@
+"""Which way a pedicle leads, by what stands around it: the canal, the body, and the clearance to its walls.
+
+A real pedicle is hardly longer than it is wide, so that its own walls tell little of its direction. Its axis
+is then what an anatomist means: from behind through the middle of the isthmus into the body, inside bone.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.outlines import planes_across
+from tracker.plan.pedicle.solid import Solid
+
+# The path of a screw around the isthmus, over which bone must stand around it.
+BEHIND_MM, AHEAD_MM, STEP_MM = 10.0, 28.0, 1.5
+MOST_DEPTH_MM, LEAST_DEPTH_MM = 6.0, -3.0
+# What one mm of mean clearance is worth.
+CLEARANCE_MM = 0.3
+CANAL_MM = (8.0, 34.0)
+WALL_FROM_MM, WALL_TO_MM = -14.0, 8.0
+# Nearer to the middle pedicles run straight, further aside they converge, as from the thoracic spine to L5.
+USUAL_DEG, USUAL_AT_MM, TURN_DEG_PER_MM = 6.0, 16.0, 2.2
+USUAL_RANGE_DEG = (0.0, 28.0)
+KNOWN_SD_DEG, UNKNOWN_SD_DEG = 6.0, 11.0
+# Nothing around a pedicle tells its direction better than this.
+LEAST_SD_DEG = 3.0
+ASIDE_MM = np.arange(-5.0, 5.1, 1.0)
+TRANSVERSE_DEG = np.arange(-24.0, 45.0, 3.0)
+SAGITTAL_DEG = np.arange(-30.0, 31.0, 3.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Course:
+    """The direction that is expected, as `PedicleMeasure` defines its angles, with standard deviations."""
+
+    transverse_deg: float
+    sagittal_deg: float
+    transverse_sd_deg: float
+    sagittal_sd_deg: float
+
+    def axis(self, side: str) -> Array:
+        """The unit axis (3,) of these angles, forwards."""
+        outwards = 1.0 if side == "left" else -1.0
+        ways = _ways(np.array([self.transverse_deg]), np.array([self.sagittal_deg]), outwards)
+        return np.asarray(ways[0])
+
+    def off_deg(self, axis: Array, side: str) -> Array:
+        """By how many degrees (n, 2) unit axes (n, 3) are off, transverse and sagittal."""
+        medial = -axis[:, 0] if side == "left" else axis[:, 0]
+        transverse = np.degrees(np.arctan2(medial, -axis[:, 1])) - self.transverse_deg
+        sagittal = np.degrees(np.arctan2(axis[:, 2], -axis[:, 1])) - self.sagittal_deg
+        return np.stack([transverse, sagittal], axis=1)
+
+
+def course_through(solid: Solid, isthmus_mm: Array, side: str) -> Course:
+    """The course through a point in a pedicle: what is usual there, where bone stands around the path."""
+    outwards = 1.0 if side == "left" else -1.0
+    middle = _middle_mm(solid, isthmus_mm, outwards)
+    transverse, transverse_sd = 10.0, UNKNOWN_SD_DEG
+    sagittal, sagittal_sd = 0.0, UNKNOWN_SD_DEG
+    if middle is not None:
+        aside = abs(isthmus_mm[0] - middle)
+        transverse = USUAL_DEG + TURN_DEG_PER_MM * (aside - USUAL_AT_MM)
+        transverse, transverse_sd = float(np.clip(transverse, *USUAL_RANGE_DEG)), KNOWN_SD_DEG
+        tilt = _body_tilt_deg(solid, isthmus_mm, middle)
+        if tilt is not None:
+            sagittal, sagittal_sd = tilt, KNOWN_SD_DEG
+    t, s = np.meshgrid(TRANSVERSE_DEG, sagittal + SAGITTAL_DEG, indexing="ij")
+    score = _clearance_mm(solid, isthmus_mm, t.ravel(), s.ravel(), outwards).reshape(t.shape) / CLEARANCE_MM
+    score -= 0.5 * ((t - transverse) / transverse_sd) ** 2 + 0.5 * ((s - sagittal) / sagittal_sd) ** 2
+    weight = np.exp(score - score.max())
+    weight /= weight.sum()
+    mean_t, mean_s = float((weight * t).sum()), float((weight * s).sum())
+    return Course(
+        transverse_deg=mean_t,
+        sagittal_deg=mean_s,
+        transverse_sd_deg=max(float(np.sqrt((weight * (t - mean_t) ** 2).sum())), LEAST_SD_DEG),
+        sagittal_sd_deg=max(float(np.sqrt((weight * (s - mean_s) ** 2).sum())), LEAST_SD_DEG),
+    )
+
+
+def middle_of_bone(solid: Solid, point_mm: Array, axis: Array) -> Array:
+    """The deepest place (3,) across an axis within a few mm of a point."""
+    (across,), (up,) = planes_across(axis[None])
+    x, y = (grid.ravel() for grid in np.meshgrid(ASIDE_MM, ASIDE_MM))
+    near_by = point_mm + x[:, None] * across + y[:, None] * up
+    # Of equal places the nearest, so that nothing is left for one just as good.
+    return np.asarray(near_by[np.argmax(solid.depth_at(near_by) - 0.3 * np.hypot(x, y))])
+
+
+def _ways(transverse: Array, sagittal: Array, outwards: float) -> Array:
+    """Unit directions (n, 3) of angles (n,) in degrees."""
+    medial = np.tan(np.radians(transverse))
+    way = np.stack([-outwards * medial, -np.ones_like(medial), np.tan(np.radians(sagittal))], axis=1)
+    return np.asarray(way / np.linalg.norm(way, axis=1, keepdims=True))
+
+
+def _clearance_mm(solid: Solid, at: Array, transverse: Array, sagittal: Array, outwards: float) -> Array:
+    """Mean clearance (n,) of paths through a point, as far as clearance matters."""
+    way = _ways(transverse, sagittal, outwards)
+    along = np.arange(-BEHIND_MM, AHEAD_MM + 0.1, STEP_MM)
+    depth = solid.depth_at(at + along[:, None, None] * way)
+    return np.asarray(np.clip(depth, LEAST_DEPTH_MM, MOST_DEPTH_MM).mean(axis=0))
+
+
+def _middle_mm(solid: Solid, at: Array, outwards: float) -> float | None:
+    """The patient's x half-way across the canal, or None where no canal is seen beside the point."""
+    along = np.arange(0.0, 48.0, 0.5)
+    found = []
+    for back in (-3.0, 0.0, 3.0, 7.0, 11.0):
+        for lift in (-4.0, -1.0, 2.0):
+            line = at + np.array([0.0, back, lift]) - outwards * along[:, None] * np.array([1.0, 0.0, 0.0])
+            outside = np.flatnonzero(solid.depth_at(line) < 0.0)
+            if not len(outside) or along[outside[0]] > 16.0:
+                continue
+            bone = np.flatnonzero(solid.depth_at(line)[outside[0] :] > 0.0)
+            if len(bone) and CANAL_MM[0] <= 0.5 * bone[0] <= CANAL_MM[1]:
+                found.append(float(at[0] - outwards * (along[outside[0]] + 0.25 * bone[0])))
+    return float(np.median(found)) if len(found) >= 3 else None
+
+
+def _body_tilt_deg(solid: Solid, at: Array, middle_mm: float) -> float | None:
+    """How the body is tilted in the sagittal plane, by its wall towards the canal."""
+    along = np.arange(-8.0, 24.0, 0.5)
+    level, wall = [], []
+    for lift in np.arange(WALL_FROM_MM, WALL_TO_MM + 0.1, 2.0):
+        line = np.array([middle_mm, at[1], at[2] + lift]) - along[:, None] * np.array([0.0, 1.0, 0.0])
+        depth = solid.depth_at(line)
+        entering = np.flatnonzero((depth[:-1] < 0.0) & (depth[1:] >= 0.0))
+        if len(entering):
+            level.append(lift)
+            wall.append(-along[entering[0]])
+    if len(level) < 6:
+        return None
+    z, y = np.array(level), np.array(wall)
+    first, second = np.triu_indices(len(z), 1)
+    far = z[second] - z[first] >= 6.0
+    slope = float(np.median((y[second] - y[first])[far] / (z[second] - z[first])[far]))
+    return float(np.clip(np.degrees(np.arctan(slope)), -35.0, 35.0))
