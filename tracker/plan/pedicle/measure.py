@@ -34,6 +34,7 @@ LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
 TURNED_DEG = 1.0
 BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
 MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
+LEAST_ASIDE_MM = 1.0
 MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
 
 
@@ -79,7 +80,9 @@ def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar |
     """The bar at the click; where it is doubtful, the one at the middle of the bone that holds the click."""
     bars: list[tuple[bool, float, Bar]] = []
     course = course_through(solid, seed, side)
-    for at in (seed, middle_of_bone(solid, seed, course.axis(side))):
+    middle = middle_of_bone(solid, seed, course.axis(side))
+    elsewhere = float(solid.depth_at(seed[None])[0]) > 0.0 and np.linalg.norm(middle - seed) >= LEAST_ASIDE_MM
+    for at in (seed, middle) if elsewhere else (seed,):
         bar = find_bar(near, at, side, course)
         if bar is None:
             continue

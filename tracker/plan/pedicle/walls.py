@@ -25,6 +25,7 @@ LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
 # Where the solid ends, the wall is the fall of the profile that is so near to it.
 NEAR_EXIT_MM = 4.0
 # Where bone and vessel have grown together in the solid, their joint is shallow, and far ahead.
+MARROW_MM, DENSE_HU, SOFT_MM = (8.0, 24.0), 40.0, 3.0
 NECK_FROM_MM, NECK_MM = 24.0, 3.0
 # Deeper outside than this the line has left the bone, and not only passed a gap in its wall.
 LEFT_MM = 1.0
@@ -75,6 +76,9 @@ def _wall(
     What is soft and closed in, as marrow, belongs to the solid, so that no gap within the body ends it.
     """
     exit_mm = _exit_mm(solid, isthmus_mm, direction, from_mm)
+    soft_mm = _soft_from_mm(near, _profile(near, isthmus_mm, direction))
+    if soft_mm is not None and (exit_mm is None or soft_mm < exit_mm - NEAR_EXIT_MM):
+        exit_mm = soft_mm
     distance, found = _outer_wall(near, isthmus_mm, direction, from_mm, vessel_mm)
     if exit_mm is not None and not (found and _is_neck(solid, isthmus_mm, direction, distance, exit_mm)):
         found = bool(near.holds(isthmus_mm + (exit_mm + 1.0) * direction))
@@ -83,6 +87,21 @@ def _wall(
     return WallAhead(
         distance_mm=distance, found=found, outwards=outwards, faced_ratio=float(outwards @ direction)
     )
+
+
+def _soft_from_mm(near: Neighbourhood, profile: Array) -> float | None:
+    """Where a body of dense marrow gives way to something soft for longer than a gap in it; else None.
+
+    A vessel with a hard wall belongs to the filled solid as marrow does, but blood is softer than marrow.
+    """
+    marrow = profile[int(MARROW_MM[0] / STEP_MM) : int(MARROW_MM[1] / STEP_MM)]
+    limit = outside_limit_hu(near)
+    if not len(marrow) or float(np.median(marrow)) < limit + DENSE_HU:
+        return None
+    length = int(SOFT_MM / STEP_MM)
+    soft = (profile < limit)[int(NECK_FROM_MM / STEP_MM) :]
+    runs = np.flatnonzero(np.convolve(soft, np.ones(length), mode="valid") > length - 0.5)
+    return NECK_FROM_MM + float(runs[0]) * STEP_MM if len(runs) else None
 
 
 def _is_neck(solid: Solid, isthmus_mm: Array, direction: Array, at_mm: float, exit_mm: float) -> bool:
