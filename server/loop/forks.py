@@ -2,7 +2,7 @@
 
 import multiprocessing
 import signal
-from multiprocessing import forkserver
+from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import ForkServerContext
 
 PRELOAD = ["server.loop.preload", "server.planning.ct"]
@@ -15,9 +15,11 @@ def forking_context() -> ForkServerContext:
     """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(PRELOAD)
-    # Blocked in everything started here: Ctrl+C in a terminal reaches the whole process group, and only
-    # the server may act on it.
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    # First by itself: whoever starts it unblocks these signals.
+    resource_tracker.ensure_running()
+    # Blocked in everything started here: Ctrl+C in a terminal and the end that a service manager asks for reach
+    # the whole process group, and only the server may act on them.
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         forkserver.ensure_running()
     finally:

@@ -42,7 +42,7 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        # As in a terminal, where Ctrl+C reaches every process of the group.
+        # As in a terminal, where Ctrl+C reaches every process of the group; service managers do the same.
         start_new_session=True,
     ) as server:
         assert server.stdout is not None
@@ -62,12 +62,13 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
             text=True,
             check=False,
         )
-        os.killpg(server.pid, ending) if ending is signal.SIGINT else server.send_signal(ending)
+        os.killpg(server.pid, ending)
         out, err = server.communicate(timeout=60)
     assert server.returncode == 0, err
     assert out == ""
     assert "Traceback" not in err
     assert "leaked" not in err
+    assert '"level": "error"' not in err
     assert second.returncode == 2
     assert f"another Coaxial is running with the folder {tmp_path / 'home'}" in second.stderr
     assert "Traceback" not in second.stderr
