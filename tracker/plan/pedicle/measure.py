@@ -241,7 +241,7 @@ def _front_warnings(front: WallAhead) -> list[str]:
 def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:
     out = []
     if not front.found:
-        out.append("no front wall was met; the length reaches to the end of what can be seen")
+        out.append("no front wall was met surely; the length ends where bone may end, check it")
     if not back.found:
         out.append("no bone surface was met behind; entry and length reach to the end of what can be seen")
     length = front.distance_mm + back.distance_mm

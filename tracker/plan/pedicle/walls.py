@@ -83,6 +83,10 @@ def _wall(
     if exit_mm is not None and not (found and _is_neck(solid, isthmus_mm, direction, distance, exit_mm)):
         found = bool(near.holds(isthmus_mm + (exit_mm + 1.0) * direction))
         distance = _fall_near(near, isthmus_mm, direction, exit_mm)
+    if not found:
+        # Nothing is told surely: the nearer place is the safer one for a screw.
+        falls = [one for one, _ in _falls(_profile(near, isthmus_mm, direction), near.least_fall_hu, 1)]
+        distance = min([one for one in falls if one >= NECK_FROM_MM], default=distance)
     outwards = solid.outwards_at(isthmus_mm + distance * direction) if found else direction
     return WallAhead(
         distance_mm=distance, found=found, outwards=outwards, faced_ratio=float(outwards @ direction)
