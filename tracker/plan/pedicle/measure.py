@@ -117,8 +117,23 @@ def _along_course(
         held = fit_bar(near, bar_along(near, bar, isthmus.centre_mm, axis), held=True)
         across = isthmus_of(held, _voxel_across_mm(near, held))
         if _is_same(isthmus, across):
-            isthmus, fitted = across, held
+            isthmus, fitted = _narrower(across, isthmus), held
     return replace(isthmus, axis=axis, slope_sd_deg=(float(spread[0]), float(spread[1]))), fitted
+
+
+def _narrower(one: Isthmus, other: Isthmus) -> Isthmus:
+    """The first section with the lesser of both widths and heights, and as unsure as they differ.
+
+    Which of two near directions is the pedicle's own is not known so well, and a rib that touches the wall
+    widens it in one of them: what is too narrow costs a thinner screw, what is too wide costs the wall.
+    """
+    return replace(
+        one,
+        width_mm=min(one.width_mm, other.width_mm),
+        height_mm=min(one.height_mm, other.height_mm),
+        width_sd_mm=float(np.hypot(one.width_sd_mm, 0.5 * (one.width_mm - other.width_mm))),
+        height_sd_mm=float(np.hypot(one.height_sd_mm, 0.5 * (one.height_mm - other.height_mm))),
+    )
 
 
 def _is_same(one: Isthmus, other: Isthmus) -> bool:
