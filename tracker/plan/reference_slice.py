@@ -97,7 +97,7 @@ def draw_reference(
     """The three vertical lines through a point and beside it, and the paths of the channels.
 
     Raises:
-        PlanError: SLICE_OUTSIDE_CT, LINES_INVALID.
+        PlanError: SLICE_OUTSIDE_CT, LINES_INVALID, MIDDLE_OUTSIDE_CT.
     """
     slices = volume.shape_ijk[2]
     if not 0 <= slice_index < slices:
@@ -122,6 +122,14 @@ def draw_reference(
     # The left line lies on the patient's left, whatever way the slice is stored.
     across *= 1.0 if across[0] > 0.0 else -1.0
     start = plane.project(middle)
+    if not volume.holds(plane.on_slice(start)):
+        told = ", ".join(f"{value:.1f}" for value in middle)
+        raise PlanError(
+            "MIDDLE_OUTSIDE_CT",
+            f"the middle line was set through ({told}) mm, which is not on slice {slice_index} of the CT",
+            "Set it through a point of this slice, in LPS mm.",
+            {"middle_lps_mm": middle.tolist(), "slice_index": slice_index},
+        )
     lines = tuple(
         plane.line(name, start + shift * across - AHEAD_MM * down, start + shift * across + BEHIND_MM * down)
         for name, shift in (("middle", 0.0), ("left", apart_mm), ("right", -apart_mm))
@@ -150,6 +158,11 @@ class _Plane:
 
     def project(self, point: Array) -> Array:
         return np.asarray(point - ((point - self._origin) @ self.normal) * self.normal)
+
+    def on_slice(self, point: Array) -> Array:
+        """The same point without what rounding has put it beside the slice."""
+        index = self._volume.index_from_lps(point)
+        return self._volume.lps_from_index([index[0], index[1], round(float(index[2]))])
 
     def line(self, name: str, start: Array, end: Array) -> SliceLine:
         ends = np.stack([start, end])

@@ -228,7 +228,8 @@ class PlanStep:
         """The slice that stands for a vertebra, with its lines; what is not given is as proposed.
 
         Raises:
-            PlanError: NO_PEDICLE_MEASURED, MIDDLE_UNKNOWN, SLICE_OUTSIDE_CT, LINES_INVALID.
+            PlanError: NO_PEDICLE_MEASURED, MIDDLE_UNKNOWN, SLICE_OUTSIDE_CT, LINES_INVALID or
+                MIDDLE_OUTSIDE_CT.
         """
 
         def change(plan: PlanDocument, volume: Volume) -> PlanDocument:

@@ -1,5 +1,6 @@
 """The plan as a document: what is written is read back, and what is wrong is named."""
 
+import dataclasses
 import json
 from typing import Any
 
@@ -21,6 +22,8 @@ from tracker.plan import (
     propose_middle,
     propose_slice,
 )
+from tracker.plan.document import refuse_odd
+from tracker.plan.document.changes import channel_name
 
 
 def volume() -> Volume:
@@ -95,6 +98,46 @@ def test_a_plan_that_cannot_be_read_is_refused_with_the_place(mapped: object, sa
     with pytest.raises(PlanError) as caught:
         plan_from_mapping(mapped)
     assert said in caught.value.message
+
+
+@pytest.mark.parametrize(
+    "mapped",
+    [
+        pytest.param(changed(("format_version",), "9" * 100_000), id="version"),
+        pytest.param(changed(("vertebrae",), [{"name": "L" * 99_000}] * 99), id="names"),
+        pytest.param(changed((*FIRST, "name"), " " * 100_000), id="name"),
+        pytest.param(
+            changed((*FIRST, "pedicles", 0, "corrected"), {"w" * 100_000: "wide"}), id="name-of-a-correction"
+        ),
+    ],
+)
+def test_what_is_refused_is_not_repeated_at_length(mapped: object) -> None:
+    with pytest.raises(PlanError) as caught:
+        plan_from_mapping(mapped)
+    assert len(caught.value.message) < 2000
+    assert len(str(caught.value.context)) < 500
+
+
+@pytest.mark.parametrize("name", ["L4/5", "..", ".", "L4\u202e", "L" * 41, ""])
+def test_a_vertebra_that_no_address_could_name_is_refused(name: str) -> None:
+    with pytest.raises(PlanError):
+        refuse_odd(PlanDocument(vertebrae=(VertebraPlan(name=name),)))
+
+
+def test_a_channel_is_called_after_the_longest_name_of_a_vertebra() -> None:
+    name = "L" * 40
+    channel = dataclasses.replace(shifted(0.0), name=channel_name(name, "right"))
+    planned = PlannedChannel(side="right", channel=channel)
+    refuse_odd(PlanDocument(vertebrae=(VertebraPlan(name=name, channels=(planned,)),)))
+
+
+@pytest.mark.parametrize("middle", [(9000.0, 0.0, 0.0), (-14.0, 60.0, 0.0)])
+def test_lines_beside_the_slice_are_refused_and_not_found_out_by_the_next_change(
+    middle: tuple[float, float, float],
+) -> None:
+    with pytest.raises(PlanError, match="not on slice 10") as caught:
+        draw_reference(volume(), slice_index=10, middle_lps_mm=middle, apart_mm=7.5)
+    assert caught.value.code == "MIDDLE_OUTSIDE_CT"
 
 
 def test_a_correction_keeps_what_was_measured_and_changes_what_is_used() -> None:

@@ -13,6 +13,8 @@ from tracker.plan.pedicle import PedicleMeasure
 from tracker.plan.reference_slice import ReferenceSlice
 
 MOST_VERTEBRAE, LONGEST_NAME = 30, 40
+# A channel is called after its vertebra and its side.
+LONGEST_CHANNEL_NAME = LONGEST_NAME + len(" right")
 MOST_WARNINGS, LONGEST_WARNING = 50, 500
 OUTLINE_POINTS = (6, 5000)
 FARTHEST_MM = 10_000.0
@@ -40,10 +42,12 @@ def _oddities(plan: PlanDocument) -> Iterator[tuple[str, str]]:
         return
     for n, vertebra in enumerate(plan.vertebrae):
         where = f"vertebra {n + 1}"
-        if not _is_name(vertebra.name):
+        if not _is_name(vertebra.name) or "/" in vertebra.name or vertebra.name in {".", ".."}:
+            # The name is a part of addresses.
             yield (
                 where,
-                f"has a name of {len(vertebra.name)} letters, allowed 1 to {LONGEST_NAME} printable ones",
+                f"has a name of {len(vertebra.name)} letters, allowed 1 to {LONGEST_NAME} printable ones "
+                "without a slash, and more than dots",
             )
         yield from _in_vertebra(vertebra, where)
 
@@ -81,8 +85,11 @@ def _in_measure(measure: PedicleMeasure, where: str) -> Iterator[tuple[str, str]
 def _in_channel(channel: Channel, where: str) -> Iterator[tuple[str, str]]:
     yield from _is_shaped(channel.entry_in_vertebra_mm, (3,), where)
     yield from _is_shaped(channel.target_in_vertebra_mm, (3,), where)
-    if not _is_name(channel.name):
-        yield where, f"has a name of {len(channel.name)} letters, allowed 1 to {LONGEST_NAME} printable ones"
+    if not _is_name(channel.name, LONGEST_CHANNEL_NAME):
+        yield (
+            where,
+            f"has a name of {len(channel.name)} letters, allowed 1 to {LONGEST_CHANNEL_NAME} printable ones",
+        )
     if channel.length_mm > LONGEST_CHANNEL_MM or channel.radius_mm > WIDEST_RADIUS_MM:
         yield (
             where,
@@ -109,5 +116,5 @@ def _is_shaped(array: Array, shape: tuple[int, ...], where: str) -> Iterator[tup
         yield where, f"holds {np.abs(array).max():g}, allowed up to {FARTHEST_MM:g}"
 
 
-def _is_name(name: str) -> bool:
-    return bool(name.strip()) and len(name) <= LONGEST_NAME and name.isprintable()
+def _is_name(name: str, longest: int = LONGEST_NAME) -> bool:
+    return bool(name.strip()) and len(name) <= longest and name.isprintable()

@@ -49,7 +49,7 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
     if isinstance(mapped, Mapping) and mapped.get("format_version") != FORMAT_VERSION:
         raise PlanError(
             "PLAN_VERSION_UNKNOWN",
-            f"the plan has format version {mapped.get('format_version')!r}, "
+            f"the plan has format version {repr(mapped.get('format_version'))[:20]}, "
             f"this program reads {FORMAT_VERSION}",
             "Open it with the program that wrote it, or plan again.",
         )
@@ -95,7 +95,7 @@ def _read(kind: Any, value: object, where: str) -> Any:  # noqa: ANN401  kinds a
     if origin is not None and isinstance(origin, type) and issubclass(origin, Mapping):
         if not isinstance(value, Mapping):
             raise _invalid(where, "is no mapping")
-        return {str(key): _read(given[1], one, f"{where}.{key}") for key, one in value.items()}
+        return {str(key): _read(given[1], one, f"{where}.{str(key)[:40]}") for key, one in value.items()}
     return _single(kind, value, where)
 
 

@@ -62,11 +62,11 @@ class VertebraPlan:
         ):
             raise PlanError(
                 "VERTEBRA_INVALID",
-                f"vertebra '{self.name}' has pedicles {sides}, channels {ways}, "
+                f"vertebra '{self.name[:40]}' has pedicles {sides[:9]}, channels {ways[:9]}, "
                 f"{len(self.references)} reference slices and up to {screws} screws to a channel; "
                 "needed a name and at most one of each to a side",
                 "Take away what is there twice.",
-                {"name": self.name},
+                {"name": self.name[:40]},
             )
 
 
@@ -90,7 +90,8 @@ class PlanDocument:
         if len(set(names)) < len(names):
             raise PlanError(
                 "PLAN_INVALID",
-                f"the plan names {len(names)} vertebrae, but only {len(set(names))} different ones: {names}",
+                f"the plan names {len(names)} vertebrae, but only {len(set(names))} different ones: "
+                f"{', '.join(name[:40] for name in names[:30])}",
                 "Give each vertebra its own name.",
-                {"names": names},
+                {"vertebrae": len(names)},
             )
