@@ -17,8 +17,8 @@ def forking_context() -> ForkServerContext:
     context.set_forkserver_preload(PRELOAD)
     # First by itself: whoever starts it unblocks these signals.
     resource_tracker.ensure_running()
-    # Blocked in everything started here: Ctrl+C in a terminal and the end that a service manager asks for reach
-    # the whole process group, and only the server may act on them.
+    # Blocked in everything started here: Ctrl+C in a terminal and the end that a service manager asks for
+    # reach the whole process group, and only the server may act on them.
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
     try:
         forkserver.ensure_running()
