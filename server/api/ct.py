@@ -1,10 +1,11 @@
 """The CT: sent, read, looked at in slices."""
 
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
 from anyio import to_thread
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.responses import FileResponse
 
 from server.api.case_messages import heading_message
@@ -161,19 +162,57 @@ def _slice(
     return patient_slice(volume, plane, at_mm, slab_mm=slab_mm, pixel_mm=pixel_mm), at_mm
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Oblique:
+    """What is asked of a slice along or across a channel, in the query of picture and place alike."""
+
+    entry: str
+    target: str
+    view: View = "along"
+    turn_deg: Degrees = 0.0
+    depth_mm: DepthMm = 0.0
+    width_mm: SizeMm = 60.0
+    height_mm: SizeMm = 100.0
+    pixel_mm: PixelMm | None = None
+    slab_mm: SlabMm = 0.0
+
+    @property
+    def channel(self) -> Channel:
+        """The line that it is cut along; InvalidInput where an end is no point."""
+        return Channel(
+            name="oblique",
+            entry_in_vertebra_mm=asked_point(self.entry, name="entry"),
+            target_in_vertebra_mm=asked_point(self.target, name="target"),
+            radius_mm=1.0,
+        )
+
+    def of(self, volume: Volume, channel: Channel) -> Slice:
+        """The slice of this volume."""
+        size_mm = (self.width_mm, self.height_mm)
+        if self.view == "across":
+            return across_channel(
+                volume,
+                channel,
+                depth_mm=self.depth_mm,
+                size_mm=size_mm,
+                pixel_mm=self.pixel_mm,
+                slab_mm=self.slab_mm,
+            )
+        return along_channel(
+            volume,
+            channel,
+            turn_deg=self.turn_deg,
+            size_mm=size_mm,
+            pixel_mm=self.pixel_mm,
+            slab_mm=self.slab_mm,
+        )
+
+
 def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
     @router.get("/oblique.png", response_class=Response, responses={**PNG_ANSWER, **refusals(409, 422, 503)})
     def oblique_picture(
         request: Request,
-        entry: str,
-        target: str,
-        view: View = "along",
-        turn_deg: Degrees = 0.0,
-        depth_mm: DepthMm = 0.0,
-        width_mm: SizeMm = 60.0,
-        height_mm: SizeMm = 100.0,
-        pixel_mm: PixelMm | None = None,
-        slab_mm: SlabMm = 0.0,
+        asked: Annotated[Oblique, Depends()],
         window: WindowHu | None = None,
         level: HU | None = None,
         preset: str | None = None,
@@ -184,54 +223,12 @@ def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
         image; across it, one looks in the drilling direction.
         """
         grey = asked_window(window, level, preset)
-        channel, place = (
-            _channel(entry, target),
-            (turn_deg, depth_mm, (width_mm, height_mm), pixel_mm, slab_mm),
-        )
+        channel = asked.channel
         found = opened.current()
-        return picture(
-            request,
-            found.document.id,
-            lambda: shown(_oblique(found.volume, channel, view, place).hu, grey),
-        )
+        return picture(request, found.document.id, lambda: shown(asked.of(found.volume, channel).hu, grey))
 
     @router.get("/oblique", responses=refusals(409, 422, 503))
-    def oblique_place(
-        entry: str,
-        target: str,
-        view: View = "along",
-        turn_deg: Degrees = 0.0,
-        depth_mm: DepthMm = 0.0,
-        width_mm: SizeMm = 60.0,
-        height_mm: SizeMm = 100.0,
-        pixel_mm: PixelMm | None = None,
-        slab_mm: SlabMm = 0.0,
-    ) -> SliceMessage:
+    def oblique_place(asked: Annotated[Oblique, Depends()]) -> SliceMessage:
         """Where the pixels of this slice's picture lie in the patient."""
-        place = (turn_deg, depth_mm, (width_mm, height_mm), pixel_mm, slab_mm)
-        return slice_message(_oblique(opened.current().volume, _channel(entry, target), view, place))
-
-
-def _channel(entry: str, target: str) -> Channel:
-    return Channel(
-        name="oblique",
-        entry_in_vertebra_mm=asked_point(entry, name="entry"),
-        target_in_vertebra_mm=asked_point(target, name="target"),
-        radius_mm=1.0,
-    )
-
-
-def _oblique(
-    volume: Volume,
-    channel: Channel,
-    view: View,
-    place: tuple[float, float, tuple[float, float], float | None, float],
-) -> Slice:
-    turn_deg, depth_mm, size_mm, pixel_mm, slab_mm = place
-    if view == "across":
-        return across_channel(
-            volume, channel, depth_mm=depth_mm, size_mm=size_mm, pixel_mm=pixel_mm, slab_mm=slab_mm
-        )
-    return along_channel(
-        volume, channel, turn_deg=turn_deg, size_mm=size_mm, pixel_mm=pixel_mm, slab_mm=slab_mm
-    )
+        volume = opened.current().volume
+        return slice_message(asked.of(volume, asked.channel))

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, heading_message
+from server.api.case_messages import DocumentMessage, document_message
 from server.api.ct_messages import MadeBy, PointLps
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
@@ -53,9 +53,7 @@ def surface_router(step: SurfaceStep, store: CaseStore, home: Home) -> APIRouter
     def surface() -> DocumentMessage:
         """The surface of the open case: how it was made, how large it is, and what to know of it."""
         document, _ = step.latest()
-        return DocumentMessage(
-            heading=heading_message(document, store.standing(document)), content=dict(document.content)
-        )
+        return document_message(document, store.standing(document))
 
     @router.get(
         "/surface.ply",

@@ -102,11 +102,6 @@ class BoardCollection:
         with self._lock:
             return tuple(self._taken)
 
-    @property
-    def board(self) -> Board:
-        """What is looked for."""
-        return self._board
-
     def add(self, image: npt.NDArray[np.uint8], *, name: str) -> None:
         """Keep the board's view in an image that was taken by hand, whether or not it adds something new.
 
