@@ -1,6 +1,5 @@
 """Calibrating the camera: views collected from the live images or sent, then the camera fitted and kept."""
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 from anyio import to_thread
@@ -19,13 +18,12 @@ from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.uploads import received
+from server.calibration import decoded
 from server.printing import board_sheet, pdf_from_sheet, svg_from_sheet
 from server.procedure.camera import CameraStep
 from server.store import Current, Home
 from tracker.errors import InvalidInput
 
-# A picture that its file says to turn must not be: the lens was not turned.
-AS_THE_CAMERA_MADE_IT = cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION
 LARGEST_IMAGE_BYTES = 64 * 2**20
 IMAGE_TYPES: dict[str, dict[str, object]] = {"image/png": {}, "image/jpeg": {}}
 
@@ -116,11 +114,7 @@ def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
 
 
 def _picture(content: bytes, name: str) -> npt.NDArray[np.uint8]:
-    try:
-        picture = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), AS_THE_CAMERA_MADE_IT)
-    except cv2.error:
-        # It says that it is larger than OpenCV reads at all.
-        picture = None
+    picture = decoded(content)
     if picture is None:
         raise InvalidInput(
             "IMAGE_UNREADABLE",
@@ -128,4 +122,4 @@ def _picture(content: bytes, name: str) -> npt.NDArray[np.uint8]:
             "Send a PNG or JPEG as the camera made it, neither cut nor scaled.",
             {"image": name, "size_bytes": len(content)},
         )
-    return np.asarray(picture, dtype=np.uint8)
+    return picture

@@ -4,12 +4,11 @@ import json
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 import typer
 
-from server.calibration import ROW_COLUMNS, accuracy_rows, accuracy_values
+from server.calibration import ROW_COLUMNS, accuracy_rows, accuracy_values, decoded
 from server.camera_file import load_camera_file
 from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of
@@ -32,8 +31,6 @@ HEADINGS = (
     *("Pd px", "Pd/Rd", "measured", "error mm"),
 )
 FAILED = 1
-# A picture that its file says to turn must not be: the lens was not turned.
-AS_THE_CAMERA_MADE_IT = cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION
 
 
 def check_rows(rows: Path | None, *, camera: Path, plane: Path | None, limit_mm: float, as_json: bool) -> int:
@@ -84,17 +81,17 @@ def check_on_board(image: Path, given: BoardOptions, *, camera: Path, limit_mm: 
 
 def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
     try:
-        decoded = cv2.imdecode(np.frombuffer(path.read_bytes(), np.uint8), AS_THE_CAMERA_MADE_IT)
-    except (OSError, cv2.error):
-        decoded = None
-    if decoded is None:
+        picture = decoded(path.read_bytes(), grey=True)
+    except OSError:
+        picture = None
+    if picture is None:
         raise InvalidInput(
             "IMAGE_UNREADABLE",
             f"{path} is no image that can be read",
             "Give a PNG, JPEG or BMP file.",
             {"file": str(path)},
         )
-    height, width = decoded.shape
+    height, width = picture.shape
     if (width, height) != size_wh_px:
         raise InvalidInput(
             "IMAGE_SIZE_DIFFERS",
@@ -102,7 +99,7 @@ def _picture(path: Path, size_wh_px: tuple[int, int]) -> npt.NDArray[np.uint8]:
             "Use images of the size that the camera was calibrated with.",
             {"size_wh_px": [width, height], "camera_size_wh_px": list(size_wh_px)},
         )
-    return np.asarray(decoded, dtype=np.uint8)
+    return picture
 
 
 def _told(report: AccuracyReport, limit_mm: float, how: str, *, held_out_by: str, as_json: bool) -> int:

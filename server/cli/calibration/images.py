@@ -5,10 +5,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
+from server.calibration import decoded
 from tracker.errors import CalibrationError, InvalidInput
 
 ENDINGS = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm"}
@@ -82,18 +82,13 @@ def pictures(files: Sequence[Path]) -> Iterator[Picture]:
 
 def _read(file: Path) -> npt.NDArray[np.uint8]:
     try:
-        content = np.frombuffer(file.read_bytes(), dtype=np.uint8)
+        content = file.read_bytes()
     except OSError as error:
         why = (error.strerror or str(error)).lower()
         raise InvalidInput(
             "IMAGE_UNREADABLE", f"{file} cannot be read: {why}", REMEDY, {"file": str(file)}
         ) from error
-    read: object = None
-    if content.size:
-        try:
-            read = cv2.imdecode(content, cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
-        except cv2.error:
-            read = None
+    read = decoded(content)
     if read is None:
         raise InvalidInput("IMAGE_UNREADABLE", f"{file} is no image", REMEDY, {"file": str(file)})
-    return np.asarray(read, dtype=np.uint8)
+    return read
