@@ -11,7 +11,7 @@ from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
-from server.api.documentation import documentation_router
+from server.api.documentation import DocumentedApi, documentation_router
 from server.api.errors import install_errors, refusals
 from server.api.health import health_router
 from server.api.jobs import jobs_router
@@ -83,7 +83,7 @@ def create_app(parts: AppParts) -> FastAPI:
             counting.cancel()
             await asyncio.wait([counting])
 
-    app = FastAPI(
+    app = DocumentedApi(
         title=PRODUCT,
         version=product_version(),
         description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}",
