@@ -148,5 +148,9 @@ def test_the_gap_is_the_distance_from_the_surface_of_the_channel(
         depth_mm=depth_mm,
         remaining_mm=40.0 - depth_mm,
         tip_offset_mm=offset_mm,
+        entry_lateral_mm=0.0,
+        entry_cranial_mm=0.0,
+        transverse_deg=0.0,
+        sagittal_deg=0.0,
     )
     assert wall_gap_mm(deviation, CHANNEL) == pytest.approx(gap_mm)
