@@ -17,7 +17,7 @@ from server.cli.output import write_whole
 from server.cli.progress import Steps, shown_steps
 from server.config_file import load_config
 from tracker.camera import Board
-from tracker.camera.calibration import CalibrationReport, CalibrationSettings, calibrate
+from tracker.camera.calibration import CalibrationReport, CalibrationSettings, calibrate, with_board_judged
 from tracker.camera.detection import BoardNotFound, BoardView, board_as_seen, find_board
 from tracker.errors import CalibrationError, InvalidInput
 
@@ -78,6 +78,9 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
         names=[looked.names[owner] for owner in owners],
         settings=CalibrationSettings(coefficients=order.coefficients),
     )
+    for at, board in enumerate(looked.boards):
+        shown = [sight[at] for sight in looked.seen if at < len(sight)]
+        report = with_board_judged(report, [one for one in shown if isinstance(one, BoardView)], board)
     entries = entries_of(looked.names, looked.seen, report)
     passed = report.rms_px <= most_rms_px
     written = _write(order, report, entries, looked.boards) if passed else ()
