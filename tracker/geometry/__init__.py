@@ -1,8 +1,8 @@
 """Frames, rigid motions, angles, and covariance carried through them."""
 
 from tracker.geometry.cylinder import cylinder_ring_mm, cylinder_silhouette_mm
-from tracker.geometry.frames import Camera, Marker, Pattern, Reference, Tool, Vertebra
-from tracker.geometry.rigid import Rigid, point_covariance_mm2
+from tracker.geometry.frames import Anchor, Camera, Marker, Pattern, Reference, Tool, Vertebra
+from tracker.geometry.rigid import Rigid, inverse_covariance, point_covariance_mm2
 from tracker.geometry.rotations import (
     Array,
     angle_between_deg,
@@ -14,6 +14,7 @@ from tracker.geometry.rotations import (
 )
 
 __all__ = [
+    "Anchor",
     "Array",
     "Camera",
     "Marker",
@@ -25,6 +26,7 @@ __all__ = [
     "angle_between_deg",
     "cylinder_ring_mm",
     "cylinder_silhouette_mm",
+    "inverse_covariance",
     "nearest_rotation",
     "point_covariance_mm2",
     "rotation_between",

@@ -110,3 +110,17 @@ def point_covariance_mm2(
     arm = transform.turn_directions(point_mm)
     jacobian = np.hstack([np.eye(3), -skew(arm)])
     return np.asarray(jacobian @ np.asarray(pose_covariance, dtype=np.float64) @ jacobian.T)
+
+
+def inverse_covariance(transform: Rigid[To, From], pose_covariance: npt.ArrayLike) -> Array:
+    """Covariance (6, 6) of `transform.inverse`, in the same form as `pose_covariance` is of `transform`.
+
+    [mm, rad], translation first, then the rotation as a small rotation vector multiplied from the left: here
+    in `From`, there in `To`. First order.
+    """
+    back = transform.rotation.T
+    jacobian = np.zeros((6, 6))
+    jacobian[:3, :3] = -back
+    jacobian[:3, 3:] = -back @ skew(transform.translation_mm)
+    jacobian[3:, 3:] = -back
+    return np.asarray(jacobian @ np.asarray(pose_covariance, dtype=np.float64) @ jacobian.T)
