@@ -2,7 +2,12 @@
 
 from tracker.geometry.cylinder import cylinder_ring_mm, cylinder_silhouette_mm
 from tracker.geometry.frames import Anchor, Camera, Marker, Pattern, Reference, Tool, Vertebra
-from tracker.geometry.rigid import Rigid, inverse_covariance, point_covariance_mm2
+from tracker.geometry.rigid import (
+    Rigid,
+    chained_covariance,
+    inverse_covariance,
+    point_covariance_mm2,
+)
 from tracker.geometry.rotations import (
     Array,
     angle_between_deg,
@@ -24,6 +29,7 @@ __all__ = [
     "Tool",
     "Vertebra",
     "angle_between_deg",
+    "chained_covariance",
     "cylinder_ring_mm",
     "cylinder_silhouette_mm",
     "inverse_covariance",

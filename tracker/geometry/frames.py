@@ -7,8 +7,8 @@
 | Tool      | tip of the burr                | +z the drilling direction                      | mm   |
 | Vertebra  | the CT's patient coordinates   | LPS                                            | mm   |
 | Reference | marker fixed to the patient    | as Marker                                      | mm   |
-| Anchor    | what a registration is fixed   | as Camera, or as Reference                     | mm   |
-|           | to: camera, or Reference       |                                                |      |
+| Anchor    | what a registration is fixed   | of Camera or of Reference                      | mm   |
+|           | to: camera, or reference       |                                                |      |
 | Pattern   | first point of a camera's      | x right, y down on the printed face, z into it | mm   |
 |           | calibration board              |                                                |      |
 
@@ -39,7 +39,7 @@ class Reference:
 
 
 class Anchor:
-    """What a registration is fixed to: the camera, or the reference marker on the patient."""
+    """The frame that a registration is fixed to: the camera's, or the reference's where there is one."""
 
 
 class Pattern:

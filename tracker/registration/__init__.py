@@ -1,4 +1,4 @@
-"""Registration: where the vertebra of the plan is in the theatre, and how sure that is."""
+"""How the plan's vertebra is found on the patient: `Registration`, and the ways to make one."""
 
 from tracker.registration.record import AnchoredTo, Method, Registration
 
