@@ -26,6 +26,11 @@ class AbsentReason(StrEnum):
     TOOL_NOT_DEFINED = "TOOL_NOT_DEFINED"  # nobody said where the tip is behind this marker
     NOT_REGISTERED = "NOT_REGISTERED"  # plan and patient are not registered
     NO_PLAN = "NO_PLAN"  # there is no channel
+    REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the patient's marker is not seen in this image
+    CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
+    REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
+    POSE_JUMPED = "POSE_JUMPED"  # farther than a hand moves, or two poses explain the image
+    NOT_CHECKED = "NOT_CHECKED"  # nobody has looked
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
