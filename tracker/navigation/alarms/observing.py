@@ -58,6 +58,7 @@ def observed_of(
     memory: Memory,
     *,
     now_s: float,
+    fresh_s: float,
     put_away_after_s: float,
     navigating: bool | None = None,
 ) -> Observed:
@@ -68,6 +69,7 @@ def observed_of(
             are not used then, its age is.
         memory: with this snapshot in it.
         now_s: the same clock as the capture time.
+        fresh_s: the numbers of an image older than this are not known any more.
         put_away_after_s: a drill unseen for longer lies somewhere on purpose.
         navigating: what the procedure says; None leaves it to `memory`.
     """
@@ -77,14 +79,15 @@ def observed_of(
     unseen_s = max(0.0, snapshot.captured_at_s - memory.drill_seen_at_s) if memory.navigating else 0.0
     reference_s = max(0.0, snapshot.captured_at_s - memory.reference_seen_at_s)
     reasons = _reasons(snapshot)
+    silent_s = max(0.0, now_s - snapshot.captured_at_s)
     return Observed(
         navigating=navigates,
         image_number=snapshot.image_number,
         captured_at_s=snapshot.captured_at_s,
-        past_depth_mm=_past_depth_mm(snapshot),
+        past_depth_mm=_past_depth_mm(snapshot) if silent_s <= fresh_s else NOT_CHECKED,
         drill_unseen_s=unseen_s,
         drill_put_away=unseen_s > put_away_after_s,
-        camera_silent_s=max(0.0, now_s - snapshot.captured_at_s),
+        camera_silent_s=silent_s,
         reference_unseen_s=reference_s if memory.navigating else 0.0,
         pose_certain=AbsentReason.POSE_UNCERTAIN not in reasons,
         pose_steady=AbsentReason.POSE_JUMPED not in reasons,

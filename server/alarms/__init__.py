@@ -1,0 +1,1 @@
+"""Alarms: what they look at, what is kept of them, and how they sound."""
