@@ -4,6 +4,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from server.overlay.alarm_band import draw_alarm_band
 from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.ink import Image
@@ -12,6 +13,7 @@ from server.overlay.view import View
 from server.overlay.words import panel_of
 from tracker.errors import InvalidInput
 from tracker.navigation import Absent, Deviation, NavigationSnapshot
+from tracker.navigation.alarms import QUIET, AlarmPicture
 from tracker.pose import Seen
 
 BASE_HEIGHT_PX = 720.0
@@ -22,7 +24,9 @@ PAST_TARGET_MM = 10.0
 FARTHEST_AHEAD_MM = 150.0
 
 
-def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> Image:
+def draw_overlay(
+    image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot, alarms: AlarmPicture = QUIET
+) -> Image:
     """The image with all that is known at its instant burned in; the image handed in is never written.
 
     In a camera that is not calibrated only outlines, names and scores are drawn. What is absent is not drawn,
@@ -31,6 +35,7 @@ def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> 
     Args:
         image: uint8, BGR (h, w, 3) or grey (h, w), the very image of this snapshot.
         snapshot: what was concluded from it.
+        alarms: what they say of it.
 
     Raises:
         InvalidInput: OVERLAY_SIZE, image and snapshot do not belong together.
@@ -52,6 +57,7 @@ def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> 
             draw_marker(drawn, name, sighting, scale=scale)
     draw_panel(drawn, panel_of(snapshot), scale=scale)
     draw_small_print(drawn, snapshot, scale=scale)
+    draw_alarm_band(drawn, alarms, scale=scale)
     return drawn
 
 

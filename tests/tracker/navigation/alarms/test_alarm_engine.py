@@ -119,10 +119,8 @@ def test_what_was_raised_after_they_looked_is_not_acknowledged() -> None:
 
 def test_the_highest_sounds_alone_and_the_lower_ones_stay_listed() -> None:
     stream = Stream()
-    stream.images(1.0, free_disk_mb=10.0)
-    assert stream.engine.picture.sound is Sound.LOW
-    stream.images(1.0, free_disk_mb=10.0, hold_asked_by="Dr Sato")
-    assert stream.engine.picture.sound is Sound.MEDIUM
+    assert stream.images(1.0, free_disk_mb=10.0).sound is Sound.LOW
+    assert stream.images(1.0, free_disk_mb=10.0, hold_asked_by="Dr Sato").sound is Sound.MEDIUM
     picture = stream.images(1.0, free_disk_mb=10.0, hold_asked_by="Dr Sato", **HIGHS)
     assert picture.sound is Sound.HIGH
     assert [alarm.priority for alarm in picture.alarms] == [Priority.HIGH, Priority.MEDIUM, Priority.LOW]
@@ -188,7 +186,7 @@ def test_a_pause_can_be_ended() -> None:
     assert picture.sound is Sound.HIGH
 
 
-ALARMING = {
+ALARMING: dict[Condition, dict[str, object]] = {
     Condition.BREACH: {"clearance_mm": -0.1},
     Condition.PAST_DEPTH: {"past_depth_mm": 0.2},
     Condition.BREACH_LIKELY: {"breach_ratio": 0.2},
