@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from fastapi import FastAPI
 
+from server.alarms import AlarmDesk
+from server.api.alarms import alarms_router
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
@@ -51,6 +53,7 @@ class AppParts:
         steps: of the set-up; None where nothing is kept.
         setup: what stands before the first image, for the scene; None when it is known only later.
         surface: the bone, for the scene.
+        alarms: of this theatre; None makes some that nobody feeds.
     """
 
     hub: LiveHub
@@ -60,6 +63,7 @@ class AppParts:
     steps: Steps | None = None
     setup: Setup | None = None
     surface: Surface | None = None
+    alarms: AlarmDesk | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -99,6 +103,7 @@ def create_app(parts: AppParts) -> FastAPI:
     app.add_middleware(RefusedUploads)
     app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
     app.include_router(live_router(hub))
+    app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))

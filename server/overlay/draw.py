@@ -4,6 +4,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from server.overlay.alarm_band import draw_alarm_band
 from server.overlay.bullseye import LEAST_REACH_MM, Inset, Target, draw_bullseye
 from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
@@ -13,6 +14,7 @@ from server.overlay.view import View
 from server.overlay.words import panel_of
 from tracker.errors import InvalidInput
 from tracker.navigation import Absent, Deviation, NavigationSnapshot, seen_along
+from tracker.navigation.alarms import QUIET, AlarmPicture
 from tracker.pose import Seen
 
 BASE_HEIGHT_PX = 720.0
@@ -24,7 +26,9 @@ PAST_TARGET_MM = 10.0
 FARTHEST_AHEAD_MM = 150.0
 
 
-def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> Image:
+def draw_overlay(
+    image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot, alarms: AlarmPicture = QUIET
+) -> Image:
     """The image with all that is known at its instant burned in; the image handed in is never written.
 
     In a camera that is not calibrated only outlines, names and scores are drawn. What is absent is not drawn,
@@ -33,6 +37,7 @@ def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> 
     Args:
         image: uint8, BGR (h, w, 3) or grey (h, w), the very image of this snapshot.
         snapshot: what was concluded from it.
+        alarms: what they say of it.
 
     Raises:
         InvalidInput: OVERLAY_SIZE, image and snapshot do not belong together.
@@ -56,6 +61,7 @@ def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> 
     top_px = draw_panel(drawn, panel, scale=scale)
     _draw_inset(drawn, snapshot, panel.tool, below_px=top_px, scale=scale)
     draw_small_print(drawn, snapshot, scale=scale)
+    draw_alarm_band(drawn, alarms, scale=scale)
     return drawn
 
 

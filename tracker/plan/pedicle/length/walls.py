@@ -146,9 +146,7 @@ def _outer_wall(
     profile = profile_along(near, isthmus_mm, direction)
     behind = behind_steps(near, direction)
     for share in (1.0, 0.5):
-        for distance_mm, trough in falls(
-            near, profile, least_hu=share * near.least_fall_hu, behind=behind
-        ):
+        for distance_mm, trough in falls(near, profile, least_hu=share * near.least_fall_hu, behind=behind):
             if distance_mm < from_mm or trough > near.soft_below_hu:
                 continue
             points = [
