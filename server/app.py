@@ -11,7 +11,7 @@ from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
-from server.api.documentation import documentation_router
+from server.api.documentation import DocumentedApi, documentation_router
 from server.api.errors import install_errors, refusals
 from server.api.health import health_router
 from server.api.jobs import jobs_router
@@ -19,6 +19,7 @@ from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
 from server.api.plan import plan_router
+from server.api.refused_uploads import RefusedUploads
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
 from server.api.tools import tools_router
@@ -82,7 +83,7 @@ def create_app(parts: AppParts) -> FastAPI:
             counting.cancel()
             await asyncio.wait([counting])
 
-    app = FastAPI(
+    app = DocumentedApi(
         title=PRODUCT,
         version=product_version(),
         description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}",
@@ -95,6 +96,7 @@ def create_app(parts: AppParts) -> FastAPI:
     install_errors(app)
     app.add_middleware(HostGuard, hosts=KnownHosts.of(config.server.host))
     app.add_middleware(SecurityHeaders)
+    app.add_middleware(RefusedUploads)
     app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
     app.include_router(live_router(hub))
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))

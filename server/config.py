@@ -91,6 +91,13 @@ class ToolConfig(Section):
     length_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
 
 
+class ReferenceConfig(Section):
+    """The marker that is fixed to the patient."""
+
+    marker: Name | None = None
+    """Its name under markers; without one, a move of patient or camera is not seen."""
+
+
 class ToolCalibrationConfig(Section):
     """What the calibration of a tool, and the check of its tip, must reach."""
 
@@ -175,6 +182,7 @@ class Config(Section):
     rehearsal: RehearsalConfig = RehearsalConfig()
     markers: dict[Name, MarkerConfig] = {}
     tools: dict[Name, ToolConfig] = {}
+    reference: ReferenceConfig = ReferenceConfig()
     tool_calibration: ToolCalibrationConfig = ToolCalibrationConfig()
     tracker: TrackerConfig = TrackerConfig()
     smoothing: SmoothingConfig = SmoothingConfig()

@@ -240,6 +240,13 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
                 mistakes.append(
                     Mistake(where=where.of((section, "drill")), key=f"{section}.drill", sentence=sentence)
                 )
+    reference = config.reference.marker
+    if reference is not None and reference not in known:
+        allowed = ", ".join(sorted(known)) or "none, since there is no marker under 'markers'"
+        sentence = f"'reference.marker' is '{reference}', allowed: {allowed}"
+        mistakes.append(
+            Mistake(where=where.of(("reference", "marker")), key="reference.marker", sentence=sentence)
+        )
     for name, tool in config.tools.items():
         key = f"tools.{name}.marker"
         if tool.marker not in known:

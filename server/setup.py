@@ -14,12 +14,12 @@ from server.marker_file import load_marker_image
 from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
-from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.marker import MarkerModel, ScoreSettings
 from tracker.navigation import Absent, AbsentReason, Setup
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.pose import SteadySettings, ToolModel
+from tracker.registration import Registration
 
 if TYPE_CHECKING:
     from tracker.plan import Surface
@@ -37,11 +37,15 @@ class CaseSetup:
         camera: calibrated in this case.
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
+        registration: of that channel's vertebra.
+        withheld: why no number may be given yet, although all is known.
     """
 
     camera: CameraModel | None = None
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
+    registration: Registration | None = None
+    withheld: AbsentReason | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,24 +57,26 @@ class Preparation:
         models: the markers to look for.
         tools: by name.
         channel: the planned channel, or why there is none.
-        camera_from_vertebra: the registration, or why there is none.
-        registered_by: how the registration was made, in words; empty when it was not.
+        registration: of plan and patient, or why there is none.
+        reference: name of the marker that is fixed to the patient; empty when there is none.
         score_settings: when a marker counts as found.
         most_tip_sd_mm: how unsure a tip may be that is shown.
         smoothing: how much poses are steadied.
         theatre: the rehearsal's, None for every other source.
+        withheld: why no number is given although all is known; None when nothing is in the way.
     """
 
     camera: CameraModel | None
     models: tuple[MarkerModel, ...]
     tools: Mapping[str, ToolModel]
     channel: Channel | Absent
-    camera_from_vertebra: Rigid[Camera, Vertebra] | Absent
-    registered_by: str
+    registration: Registration | Absent
+    reference: str
     score_settings: ScoreSettings
     most_tip_sd_mm: float
     smoothing: SteadySettings = field(default_factory=SteadySettings)
     theatre: "Theatre | None" = None
+    withheld: AbsentReason | None = None
 
     @property
     def surface(self) -> "Surface | None":
@@ -119,8 +125,8 @@ class Preparation:
         return replace(
             changed,
             channel=case.channel,
-            camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
-            registered_by="",
+            registration=case.registration or Absent(reason=AbsentReason.NOT_REGISTERED),
+            withheld=case.withheld,
         )
 
     def tracker_for(self, setup: Setup) -> Tracker:
@@ -135,8 +141,9 @@ class Preparation:
             camera_calibrated=calibrated,
             tools=self.tools,
             channel=self.channel,
-            camera_from_vertebra=self.camera_from_vertebra,
-            registered_by=self.registered_by,
+            registration=self.registration,
+            reference=self.reference,
+            withheld=self.withheld,
             most_tip_sd_mm=self.most_tip_sd_mm,
         )
 
@@ -163,8 +170,8 @@ def build_setup(config: Config) -> Preparation:
         models=models,
         tools=tools,
         channel=Absent(reason=AbsentReason.NO_PLAN),
-        camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
-        registered_by="",
+        registration=Absent(reason=AbsentReason.NOT_REGISTERED),
+        reference=config.reference.marker or "",
         score_settings=scores,
         most_tip_sd_mm=config.limits.most_tip_sd_mm,
         smoothing=smoothing,
@@ -183,8 +190,7 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
         camera=theatre.camera,
         tools={theatre.tool.name: theatre.tool, **unknowing.tools},
         channel=theatre.channels[0],
-        camera_from_vertebra=theatre.camera_from_vertebra,
-        registered_by="rehearsal",
+        registration=Registration.known_to_camera(theatre.camera_from_vertebra),
     )
 
 

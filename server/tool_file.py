@@ -118,10 +118,14 @@ def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -
         CalibrationError: TOOL_FILE_OF_ANOTHER_MARKER, TOOL_AXIS_UNKNOWN, or TOOL_TIP_UNKNOWN.
     """
     tip, axis = tool.tip_in_marker_mm, tool.axis_in_marker
+    covariance_mm2: Matrix | None = None
+    axis_sd_deg = 0.0
     if tool.calibration is not None:
         file = load_tool_file(tool.calibration)
         _refuse_another_marker(file, tool, marker)
         tip, axis = file.pivot.tip_in_marker_mm, _one_axis(name, tool, file)
+        covariance_mm2 = file.pivot.covariance_mm2
+        axis_sd_deg = 0.0 if file.spin is None else file.spin.axis_sd_deg
     if tip is None or axis is None:
         raise CalibrationError(
             "TOOL_TIP_UNKNOWN",
@@ -136,6 +140,8 @@ def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -
         axis_in_marker=axis,
         radius_mm=tool.radius_mm,
         length_mm=tool.length_mm,
+        tip_covariance_mm2=covariance_mm2,
+        axis_sd_deg=axis_sd_deg,
     )
 
 

@@ -59,8 +59,8 @@ def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> N
     """Draw the channel, and over it every drill that is seen."""
     setup = snapshot.setup
     view = View.of(setup.camera)
-    if not isinstance(setup.channel, Absent) and not isinstance(setup.camera_from_vertebra, Absent):
-        draw_channel(image, view, setup.camera_from_vertebra, setup.channel, scale)
+    if not isinstance(setup.channel, Absent) and not isinstance(snapshot.vertebra, Absent):
+        draw_channel(image, view, snapshot.vertebra.camera_from_vertebra, setup.channel, scale)
     for name, in_view in snapshot.tools.items():
         if not isinstance(in_view, Absent):
             ahead = _ahead_mm(snapshot.deviations[name])

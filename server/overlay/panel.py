@@ -80,8 +80,8 @@ def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float
     base = (MARGIN_PX + SMALL_PX) * scale
     if setup.camera_calibrated and not isinstance(setup.channel, Absent):
         plan = setup.channel.name
-        if not isinstance(setup.camera_from_vertebra, Absent):
-            plan += f" · registered by {setup.registered_by}"
+        if not isinstance(setup.registration, Absent):
+            plan += f" · registered by {setup.registration.method}"
         _small(image, plan, MARGIN_PX * scale, base, size, scale)
     words = f"image {snapshot.image_number} · {RESEARCH_SOFTWARE}"
     width = text_width_px(words, size_px=size, weight=REGULAR)
