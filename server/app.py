@@ -107,16 +107,7 @@ def create_app(parts: AppParts) -> FastAPI:
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
-    if parts.store is not None:
-        app.include_router(cases_router(parts.store))
-    if parts.jobs is not None:
-        app.include_router(jobs_router(parts.jobs))
-    if parts.steps is not None and parts.store is not None:
-        app.include_router(camera_router(parts.steps.camera, parts.store.home))
-        app.include_router(tools_router(parts.steps.tool))
-        app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
-        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
-        app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
+    _add_procedure(app, parts)
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
         app,
@@ -127,3 +118,17 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     mount_page(app, camera=config.camera.name, folder=page_folder())
     return app
+
+
+def _add_procedure(app: FastAPI, parts: AppParts) -> None:
+    """The doors to cases, jobs and the steps, where there is a store."""
+    if parts.store is not None:
+        app.include_router(cases_router(parts.store))
+    if parts.jobs is not None:
+        app.include_router(jobs_router(parts.jobs))
+    if parts.steps is not None and parts.store is not None:
+        app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(tools_router(parts.steps.tool))
+        app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
+        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
