@@ -20,12 +20,15 @@ from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
 from server.api.plan import plan_router
 from server.api.refused_uploads import RefusedUploads
+from server.api.rehearsal import rehearsal_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
 from server.api.tools import tools_router
+from server.capture.address import source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
+from server.loop.rehearsed import Rehearsed
 from server.overlay.words import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.scene import mount_scene
@@ -51,6 +54,7 @@ class AppParts:
         steps: of the set-up; None where nothing is kept.
         setup: what stands before the first image, for the scene; None when it is known only later.
         surface: the bone, for the scene.
+        rehearsed: what is rehearsed; None for every other source.
     """
 
     hub: LiveHub
@@ -60,6 +64,7 @@ class AppParts:
     steps: Steps | None = None
     setup: Setup | None = None
     surface: Surface | None = None
+    rehearsed: Rehearsed | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -102,6 +107,8 @@ def create_app(parts: AppParts) -> FastAPI:
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
+    source = source_from_text(config.camera.source).name
+    app.include_router(rehearsal_router(parts.rehearsed, hub, source=source))
     if parts.store is not None:
         app.include_router(cases_router(parts.store))
     if parts.jobs is not None:

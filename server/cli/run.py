@@ -56,6 +56,7 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
         from server.app import AppParts, create_app  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
+        from server.loop.rehearsed import Rehearsed  # noqa: PLC0415
         from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
@@ -76,6 +77,9 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
                 steps=steps,
                 setup=preparation.setup,
                 surface=preparation.surface,
+                rehearsed=None
+                if preparation.theatre is None
+                else Rehearsed(config.rehearsal, play=tracked.play, begun=lambda: tracked.begun),
             )
         )
         tracked.publish(

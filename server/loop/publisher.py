@@ -98,6 +98,7 @@ class Publisher:
             return
         self._board.note_running(posted.generation)
         self._board.note_source(report.source)
+        self._board.note_begun(report.begun)
         self._trouble = report.trouble
         shown = Shown()
         if report.snapshot is not None and image is not None:
