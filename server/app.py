@@ -22,12 +22,15 @@ from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
 from server.api.plan import plan_router
 from server.api.refused_uploads import RefusedUploads
+from server.api.rehearsal import rehearsal_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
 from server.api.tools import tools_router
+from server.capture.address import source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
+from server.loop.rehearsed import Rehearsed
 from server.overlay.words import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.scene import mount_scene
@@ -54,6 +57,7 @@ class AppParts:
         setup: what stands before the first image, for the scene; None when it is known only later.
         surface: the bone, for the scene.
         alarms: of this theatre; None makes some that nobody feeds.
+        rehearsed: what is rehearsed; None for every other source.
     """
 
     hub: LiveHub
@@ -64,6 +68,7 @@ class AppParts:
     setup: Setup | None = None
     surface: Surface | None = None
     alarms: AlarmDesk | None = None
+    rehearsed: Rehearsed | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -107,6 +112,8 @@ def create_app(parts: AppParts) -> FastAPI:
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
+    source = source_from_text(config.camera.source).name
+    app.include_router(rehearsal_router(parts.rehearsed, hub, source=source))
     _add_procedure(app, parts)
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(

@@ -233,12 +233,14 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
         mistakes.append(Mistake(where=where.of(("camera", lone)), key=f"camera.{other}", sentence=sentence))
     known = set(config.markers)
     if source_from_text(camera.source).kind is SourceKind.REHEARSAL:
-        known.add("drill")
-        for section in ("markers", "tools"):
-            if "drill" in getattr(config, section):
-                sentence = f"'{section}.drill' is taken by the rehearsal's own drill, allowed: another name"
+        taken = [("markers", "drill"), ("tools", "drill")]
+        taken += [("markers", "reference")] if config.rehearsal.reference else []
+        known |= {name for _, name in taken}
+        for section, name in taken:
+            if name in getattr(config, section):
+                sentence = f"'{section}.{name}' is taken by the rehearsal's own {name}, allowed: another name"
                 mistakes.append(
-                    Mistake(where=where.of((section, "drill")), key=f"{section}.drill", sentence=sentence)
+                    Mistake(where=where.of((section, name)), key=f"{section}.{name}", sentence=sentence)
                 )
     reference = config.reference.marker
     if reference is not None and reference not in known:
