@@ -182,7 +182,7 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
         unknowing,
         camera=theatre.camera,
         tools={theatre.tool.name: theatre.tool, **unknowing.tools},
-        channel=theatre.channels[0],
+        channel=replace(theatre.channels[0], name=f"rehearsal's {theatre.channels[0].name}"),
         camera_from_vertebra=theatre.camera_from_vertebra,
         registered_by="rehearsal",
     )

@@ -166,7 +166,15 @@ def test_a_channel_of_the_case_is_not_registered_by_what_registered_another() ->
     changed = rehearsal.with_case(CaseSetup(channel=channel))
     assert changed.channel is channel
     assert changed.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)
-    assert rehearsal.with_case(CaseSetup()).camera_from_vertebra is rehearsal.camera_from_vertebra
+
+
+def test_after_a_case_is_closed_the_rehearsals_own_channel_says_whose_it_is() -> None:
+    rehearsal = build_setup(Config())
+    closed = rehearsal.with_case(CaseSetup())
+    assert closed.camera_from_vertebra is rehearsal.camera_from_vertebra
+    assert closed.registered_by == "rehearsal"
+    assert not isinstance(closed.channel, Absent)
+    assert closed.channel.name == "rehearsal's L3 left"
 
 
 def test_a_rehearsal_that_brings_no_setup_knows_its_marker_alone() -> None:
