@@ -12,7 +12,7 @@ from tracker.plan import Surface
 # Triangles are cut into pieces no longer than this, so that few candidates hold the nearest.
 MOST_EDGE_MM = 3.0
 MOST_PIECES = 400_000
-CANDIDATES = 6
+CANDIDATES, MORE = 20, 8
 # Over which a swept point feels the surface: bumps of a mesh narrower than this hold nothing in place.
 SMOOTH_MM = 3.0
 
@@ -46,24 +46,23 @@ class NearestOnSurface:
 
     def at(self, points_mm: Array) -> Nearest:
         """The nearest point of each of n points (n, 3)."""
-        count = min(CANDIDATES, len(self._owners))
-        distances, pieces = self._tree.query(points_mm, k=count)
-        distances, pieces = distances.reshape(len(points_mm), -1), pieces.reshape(len(points_mm), -1)
-        triangles = self._owners[pieces]
-        near = nearest_on_triangles(points_mm[:, None], self._corners[triangles])
-        off = np.linalg.norm(near - points_mm[:, None], axis=2)
-        best = np.argmin(off, axis=1)
-        rows = np.arange(len(points_mm))
-        found, owner, least = near[rows, best], triangles[rows, best], off[rows, best]
-        # A piece that was not looked at is no nearer than its middle less its own reach.
-        if count < len(self._owners):
-            for row in np.flatnonzero(distances[:, -1] - self._reach_mm < least):
-                others = np.unique(
-                    self._owners[self._tree.query_ball_point(points_mm[row], least[row] + self._reach_mm)]
-                )
-                places = nearest_on_triangles(points_mm[row], self._corners[others])
-                one = int(np.argmin(np.linalg.norm(places - points_mm[row], axis=1)))
-                found[row], owner[row] = places[one], others[one]
+        found = np.empty_like(points_mm)
+        owner = np.zeros(len(points_mm), dtype=np.int64)
+        open_rows = np.arange(len(points_mm))
+        count = CANDIDATES
+        while len(open_rows):
+            count = min(count, len(self._owners))
+            distances, pieces = self._tree.query(points_mm[open_rows], k=count)
+            distances, pieces = distances.reshape(-1, count), pieces.reshape(-1, count)
+            triangles, asked = self._owners[pieces], points_mm[open_rows]
+            near = nearest_on_triangles(asked[:, None], self._corners[triangles])
+            off = np.linalg.norm(near - asked[:, None], axis=2)
+            best, rows = np.argmin(off, axis=1), np.arange(len(asked))
+            found[open_rows], owner[open_rows] = near[rows, best], triangles[rows, best]
+            # A piece that was not looked at is no nearer than its middle less its own reach.
+            unsure = distances[:, -1] - self._reach_mm < off[rows, best]
+            open_rows = open_rows[unsure] if count < len(self._owners) else open_rows[:0]
+            count *= MORE
         return Nearest(points_mm=found, normals=self._normals[owner], triangles=owner)
 
     def smooth_normals(self, points_mm: Array) -> Array:
