@@ -198,7 +198,10 @@ def test_health_fails_only_when_a_restart_would_help(
 def test_each_route_documents_what_it_answers(client: TestClient) -> None:
     document = client.get("/api/openapi.json").json()
     paths = document["paths"]
-    assert set(paths) == {"/video/{camera}.mjpg", "/api/live", "/api/dashboard", "/health", "/metrics"}
+    assert set(paths) == {
+        *("/video/{camera}.mjpg", "/api/live", "/api/dashboard", "/health", "/metrics"),
+        *("/api/rehearsal", "/api/rehearsal/ct"),
+    }
     for methods in paths.values():
         assert {"200", "421", "500"} <= set(methods["get"]["responses"])
     assert "LiveMessage" in document["components"]["schemas"]
@@ -213,6 +216,9 @@ def test_each_route_documents_what_it_answers(client: TestClient) -> None:
         ("/video/{camera}.mjpg", "404"),
         ("/video/{camera}.mjpg", "422"),
         ("/api/live", "503"),
+        ("/api/rehearsal", "409"),
+        ("/api/rehearsal", "422"),
+        ("/api/rehearsal/ct", "409"),
     }
     for _, _, answer in refused:
         assert answer["content"]["application/json"]["schema"]["$ref"].endswith("/TroubleMessage")
