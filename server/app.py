@@ -26,7 +26,6 @@ from server.api.rehearsal import rehearsal_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
 from server.api.tools import tools_router
-from server.capture.address import source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
@@ -73,8 +72,7 @@ class AppParts:
 
 def create_app(parts: AppParts) -> FastAPI:
     """The application, ready to be served."""
-    hub, config = parts.hub, parts.config
-    limits = config.limits
+    hub, config, limits = parts.hub, parts.config, parts.config.limits
     viewers = Viewers()
     metrics = Metrics(hub=hub, viewers=viewers)
     video = Video(hub=hub, viewers=viewers, stale_after_ms=limits.video_stale_after_ms)
@@ -112,8 +110,7 @@ def create_app(parts: AppParts) -> FastAPI:
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
-    source = source_from_text(config.camera.source).name
-    app.include_router(rehearsal_router(parts.rehearsed, hub, source=source))
+    app.include_router(rehearsal_router(parts.rehearsed, hub, config.camera))
     _add_procedure(app, parts)
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(

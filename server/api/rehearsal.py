@@ -12,6 +12,8 @@ from server.api.rehearsal_messages import (
     moment_message,
     theatre_message,
 )
+from server.capture.address import source_from_text
+from server.config import CameraConfig
 from server.errors import SetupOrderError
 from server.live import LiveHub
 from server.loop.rehearsed import Rehearsed
@@ -19,8 +21,9 @@ from server.loop.rehearsed import Rehearsed
 NIFTI = "application/gzip"
 
 
-def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, *, source: str) -> APIRouter:
-    """Everything under `/api/rehearsal`; `source` is where images come from, in words."""
+def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, camera: CameraConfig) -> APIRouter:
+    """Everything under `/api/rehearsal`; refused where the camera is not the rehearsal's."""
+    source = source_from_text(camera.source).name
     router = APIRouter(prefix="/api/rehearsal", tags=["rehearsal"])
 
     def running() -> Rehearsed:

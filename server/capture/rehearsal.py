@@ -158,7 +158,7 @@ class RehearsalSource:
             over_at_s = silence.over_at_s(at_s)
             if math.isinf(over_at_s):
                 return False
-            self._number = max(self._number + 1, first + math.ceil(over_at_s * self._rate_hz))
+            self._number = max(self._number + 1, first + math.ceil(over_at_s * self._rate_hz - 1e-6))
             return True
         if silence.kind == STOPS:
             raise CaptureError(
