@@ -1,7 +1,5 @@
 """The alarms as they go over the wire, in the same message as the image that they were looked for in."""
 
-from pydantic import Field
-
 from server.overlay.alarm_words import alarm_words
 from server.stream.message import Message
 from tracker.navigation.alarms import (
@@ -58,7 +56,7 @@ class AlarmsMessage(Message):
     """Of the alarm that sounds; a new one begins the sound anew."""
     pause_left_s: float
     """How long the sound stays paused, if nothing new comes; 0 when it is not."""
-    alarms: list[AlarmMessage] = Field(default_factory=list)
+    alarms: list[AlarmMessage]
     """The highest first."""
 
 

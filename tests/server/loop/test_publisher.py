@@ -2,9 +2,10 @@
 
 import pytest
 
+from server.alarms import no_alarms
 from server.live import ProcessState, ProcessStatus, SourceState, Trouble
 from server.loop.board import Board
-from server.loop.publisher import Image, Picture, Publisher
+from server.loop.publisher import Image, Look, Picture, Publisher
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
 from tests.server.loop.made import Seen, made_image, made_snapshot, made_source
@@ -20,7 +21,7 @@ DEAD = ProcessStatus(
 class Stage:
     """A publisher on a board with a ring, and what it has published."""
 
-    def __init__(self, picture: Picture | None = None) -> None:
+    def __init__(self, picture: Picture | None = None, look: Look = no_alarms) -> None:
         self.hub = Seen()
         self.board = Board("made")
         self.ring = ImageRing(image_bytes=100_000)
@@ -33,6 +34,7 @@ class Stage:
             or Picture(
                 draw=lambda image, _snapshot, _alarms: image + 1, encode=lambda image: image.tobytes()[:2]
             ),
+            look=look,
         )
         self.board.post(RUNNING, self.ring)
 
