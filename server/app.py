@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from fastapi import FastAPI
 
+from server.alarms import AlarmDesk
+from server.api.alarms import alarms_router
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
@@ -53,6 +55,7 @@ class AppParts:
         steps: of the set-up; None where nothing is kept.
         setup: what stands before the first image, for the scene; None when it is known only later.
         surface: the bone, for the scene.
+        alarms: of this theatre; None makes some that nobody feeds.
         rehearsed: what is rehearsed; None for every other source.
     """
 
@@ -63,6 +66,7 @@ class AppParts:
     steps: Steps | None = None
     setup: Setup | None = None
     surface: Surface | None = None
+    alarms: AlarmDesk | None = None
     rehearsed: Rehearsed | None = None
 
 
@@ -102,20 +106,12 @@ def create_app(parts: AppParts) -> FastAPI:
     app.add_middleware(RefusedUploads)
     app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
     app.include_router(live_router(hub))
+    app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
     app.include_router(rehearsal_router(parts.rehearsed, hub, config.camera))
-    if parts.store is not None:
-        app.include_router(cases_router(parts.store))
-    if parts.jobs is not None:
-        app.include_router(jobs_router(parts.jobs))
-    if parts.steps is not None and parts.store is not None:
-        app.include_router(camera_router(parts.steps.camera, parts.store.home))
-        app.include_router(tools_router(parts.steps.tool))
-        app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
-        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
-        app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
+    _add_procedure(app, parts)
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
         app,
@@ -126,3 +122,17 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     mount_page(app, camera=config.camera.name, folder=page_folder())
     return app
+
+
+def _add_procedure(app: FastAPI, parts: AppParts) -> None:
+    """The doors to cases, jobs and the steps, where there is a store."""
+    if parts.store is not None:
+        app.include_router(cases_router(parts.store))
+    if parts.jobs is not None:
+        app.include_router(jobs_router(parts.jobs))
+    if parts.steps is not None and parts.store is not None:
+        app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(tools_router(parts.steps.tool))
+        app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
+        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))

@@ -122,7 +122,8 @@ def _mapping_from_file(file: Path) -> dict[str, Any]:
         ) from error
     try:
         raw = yaml.load(text, Loader=_StrictLoader)  # noqa: S506  a SafeLoader
-    except yaml.YAMLError as error:
+    except (ValueError, RecursionError, yaml.YAMLError) as error:
+        # Beside what is no YAML: a date that there is not, lists in lists without end.
         raise _yaml_error(file, error) from None
     if raw is None:
         return {}
@@ -132,7 +133,7 @@ def _mapping_from_file(file: Path) -> dict[str, Any]:
     return {key: value for key, value in raw.items() if value is not None}
 
 
-def _yaml_error(file: Path, error: yaml.YAMLError) -> ConfigError:
+def _yaml_error(file: Path, error: Exception) -> ConfigError:
     mark = getattr(error, "problem_mark", None)
     reason = getattr(error, "problem", None) or str(error)
     place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark is not None else ""

@@ -192,7 +192,7 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
         unknowing,
         camera=theatre.camera,
         tools={theatre.tool.name: theatre.tool, **unknowing.tools},
-        channel=theatre.channels[0],
+        channel=replace(theatre.channels[0], name=f"rehearsal's {theatre.channels[0].name}"),
         registration=Registration.known_to_reference(theatre.reference_from_vertebra)
         if theatre.reference is not None and unknowing.reference == theatre.reference.name
         else Registration.known_to_camera(theatre.camera_from_vertebra),
