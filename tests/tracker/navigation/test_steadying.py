@@ -91,9 +91,9 @@ def test_the_numbers_are_those_of_the_pose_that_is_drawn() -> None:
     tool, setup = snapshot.tools["drill"], snapshot.setup
     assert isinstance(tool, ToolInView)
     assert isinstance(setup.channel, Channel)
-    assert not isinstance(setup.camera_from_vertebra, Absent)
+    assert not isinstance(snapshot.vertebra, Absent)
     assert snapshot.deviations["drill"] == deviation_from_channel(
-        setup.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel
+        snapshot.vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel
     )
 
 

@@ -1,4 +1,5 @@
 // Deutsch.
+import { alarmsDe } from "./alarmsDe";
 import type { Words } from "./en";
 
 export const de: Words = {
@@ -87,6 +88,7 @@ export const de: Words = {
     plainVideo: "Einfaches Video für andere Bildschirme",
   },
   alerts: { title: "Meldungen", remedy: "Was zu tun ist:" },
+  alarms: alarmsDe,
   cause: {
     hidden: {
       state: "SEITE WAR VERDECKT",
@@ -131,12 +133,49 @@ export const de: Words = {
     },
     NOT_REGISTERED: {
       state: "NICHT REGISTRIERT",
-      sentence: "Plan und Patient kennen einander nicht. Bisher bringt das nur die Probe mit.",
+      sentence: "Plan und Patient kennen einander nicht: bitte registrieren.",
     },
     NO_PLAN: {
       state: "KEIN PLAN",
-      sentence: "Es gibt keinen geplanten Kanal. Bisher bringt nur die Probe einen mit.",
+      sentence: "Es gibt keinen geplanten Kanal: im CT planen.",
     },
+    REFERENCE_UNSEEN: {
+      state: "PATIENT NICHT GESEHEN",
+      sentence: "Der Marker am Patienten wird nicht gesehen. Sicht freimachen oder abwischen.",
+    },
+    CAMERA_MOVED: {
+      state: "KAMERA BEWEGT",
+      sentence: "Die Kamera steht anders als bei der Registrierung. Neu registrieren.",
+    },
+    REFERENCE_MOVED: {
+      state: "PATIENT BEWEGT",
+      sentence: "Der Patient oder sein Marker hat sich bewegt. An einer Landmarke prüfen oder neu registrieren.",
+    },
+    POSE_JUMPED: {
+      state: "POSE GESPRUNGEN",
+      sentence: "Der Bohrer scheint weiter bewegt, als eine Hand kann. Kurz ruhig halten.",
+    },
+    NOT_CHECKED: {
+      state: "NICHT GEPRÜFT",
+      sentence: "Registriert, aber noch nicht an einer Landmarke geprüft. Zum Prüfen eine berühren.",
+    },
+    REFERENCE_UNSEEN: {
+      state: "PATIENT NICHT GESEHEN",
+      sentence: "Die Sicht der Kamera auf den Marker am Patienten freimachen.",
+    },
+    CAMERA_MOVED: {
+      state: "KAMERA BEWEGT",
+      sentence: "Sie hat sich seit der Registrierung bewegt. Neu registrieren.",
+    },
+    REFERENCE_MOVED: {
+      state: "PATIENTENMARKER BEWEGT",
+      sentence: "Er hat sich seit der Registrierung bewegt. Befestigen und neu registrieren.",
+    },
+    POSE_JUMPED: {
+      state: "LAGE NICHT EINDEUTIG",
+      sentence: "Den Bohrer still halten und seinen Marker zur Kamera neigen.",
+    },
+    NOT_CHECKED: { state: "NICHT GEPRÜFT", sentence: "Das hat noch niemand geprüft." },
   },
   unseen: {
     NO_CANDIDATE: "nichts im Bild sieht ihm ähnlich",
