@@ -46,7 +46,7 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     expect(page.get_by_test_id("alarm-top")).to_contain_text(
         re.compile(r"▲▲▲ HIGH TOO DEEP.*: 3\.0 mm \(limit 0\.0 mm\).*Stop and draw the drill back", re.DOTALL)
     )
-    page.wait_for_function("window.heard.length > 0")
+    page.wait_for_function("() => window.heard.length > 0")
     assert page.evaluate("window.heard") == [{"seconds": 7.0, "loop": True}]
     box = page.get_by_test_id("pause").bounding_box()
     assert box is not None
@@ -55,12 +55,12 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     page.screenshot(path=SCREENSHOTS / "alarm.png")
     page.get_by_test_id("pause").click()
     expect(page.get_by_test_id("pause-left")).to_have_text(re.compile(r"^1[12]\d s$"))
-    page.wait_for_function("window.heard.at(-1) === 'stopped'")
+    page.wait_for_function("() => window.heard.at(-1) === 'stopped'")
     page.get_by_test_id("resume").click()
-    page.wait_for_function("window.heard.length === 3")
+    page.wait_for_function("() => window.heard.length === 3")
     page.get_by_test_id("acknowledge").click()
     band(page, "high", "acknowledged")
-    page.wait_for_function("window.heard.at(-1) === 'stopped'")
+    page.wait_for_function("() => window.heard.at(-1) === 'stopped'")
     expect(page.get_by_test_id("alarm-top")).to_contain_text("acknowledged by screen")
     theatre.tell("live")
     band(page, "none", "normal")
