@@ -52,6 +52,28 @@ class CameraConfig(Section):
     """Asked of a local camera; the rate of a folder, and of a file that has none (30 if left out)."""
 
 
+class RehearsalEventConfig(Section):
+    """Something that goes wrong in the rehearsal, at a known time."""
+
+    kind: Literal[
+        "camera_moves",
+        "patient_moves",
+        "drill_jumps",
+        "drill_hidden",
+        "reference_hidden",
+        "camera_stops",
+        "camera_stalls",
+    ]
+    at_s: Annotated[float, Field(ge=0.0, le=100_000.0)]
+    """Since the scene began."""
+    lasts_s: Annotated[float, Field(gt=0.0, le=100_000.0)] | None = None
+    """Left out: for good."""
+    every_s: Annotated[float, Field(gt=0.0, le=100_000.0)] | None = None
+    """Left out: once."""
+    size_mm: Annotated[float, Field(ge=0.0, le=60.0)] = 12.0
+    size_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 2.0
+
+
 class RehearsalConfig(Section):
     """The theatre that exists only in software."""
 
@@ -63,8 +85,15 @@ class RehearsalConfig(Section):
     blur: Strength = 1.0
     clutter: Strength = 1.0
     light: Annotated[float, Field(gt=0.0, le=10.0)] = 1.0
-    scene: Literal["operation", "pivot", "spin", "board"] = "operation"
-    """A drill at work; its tip at rest while it tilts, or turns; a board to calibrate with."""
+    scene: Literal["operation", "pivot", "spin", "board", "landmarks", "sweep", "check"] = "operation"
+    """A drill at work; its tip at rest while it tilts, or turns; a board to calibrate with; its tip on one
+    landmark after the other, sweeping over the bone, on a landmark that is left for the check."""
+    skill: Literal["wandering", "good", "breaching"] = "wandering"
+    """How the drill is held in the operation: off by millimetres at last, true, or through the wall."""
+    reference: bool = False
+    """A second marker is fixed to the patient."""
+    events: Annotated[list[RehearsalEventConfig], Field(max_length=20)] = []
+    """What goes wrong, and when."""
     board: Literal["dots", "checkerboard", "charuco"] = "dots"
     """Which calibration board is shown."""
     brings_setup: bool = True
@@ -89,6 +118,13 @@ class ToolConfig(Section):
     """From the marker towards the tip."""
     radius_mm: Annotated[float, Field(gt=0.0, le=50.0)]
     length_mm: Annotated[float, Field(gt=0.0, le=1000.0)]
+
+
+class ReferenceConfig(Section):
+    """The marker that is fixed to the patient."""
+
+    marker: Name | None = None
+    """Its name under markers; without one, a move of patient or camera is not seen."""
 
 
 class ToolCalibrationConfig(Section):
@@ -198,6 +234,7 @@ class Config(Section):
     rehearsal: RehearsalConfig = RehearsalConfig()
     markers: dict[Name, MarkerConfig] = {}
     tools: dict[Name, ToolConfig] = {}
+    reference: ReferenceConfig = ReferenceConfig()
     tool_calibration: ToolCalibrationConfig = ToolCalibrationConfig()
     tracker: TrackerConfig = TrackerConfig()
     smoothing: SmoothingConfig = SmoothingConfig()

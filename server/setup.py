@@ -1,5 +1,6 @@
 """What stands before the first image: camera, markers, tools, plan and registration, from the settings."""
 
+import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -9,17 +10,17 @@ import numpy as np
 
 from server.camera_file import load_camera_file
 from server.capture.address import SourceKind, source_from_text
-from server.config import Config
+from server.config import Config, RehearsalConfig
 from server.marker_file import load_marker_image
 from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
-from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.marker import MarkerModel, ScoreSettings
 from tracker.navigation import Absent, AbsentReason, Setup
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.pose import SteadySettings, ToolModel
+from tracker.registration import Registration
 
 if TYPE_CHECKING:
     from tracker.plan import Surface
@@ -37,11 +38,15 @@ class CaseSetup:
         camera: calibrated in this case.
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
+        registration: of that channel's vertebra.
+        withheld: why no number may be given yet, although all is known.
     """
 
     camera: CameraModel | None = None
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
+    registration: Registration | None = None
+    withheld: AbsentReason | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,24 +58,26 @@ class Preparation:
         models: the markers to look for.
         tools: by name.
         channel: the planned channel, or why there is none.
-        camera_from_vertebra: the registration, or why there is none.
-        registered_by: how the registration was made, in words; empty when it was not.
+        registration: of plan and patient, or why there is none.
+        reference: name of the marker that is fixed to the patient; empty when there is none.
         score_settings: when a marker counts as found.
         most_tip_sd_mm: how unsure a tip may be that is shown.
         smoothing: how much poses are steadied.
         theatre: the rehearsal's, None for every other source.
+        withheld: why no number is given although all is known; None when nothing is in the way.
     """
 
     camera: CameraModel | None
     models: tuple[MarkerModel, ...]
     tools: Mapping[str, ToolModel]
     channel: Channel | Absent
-    camera_from_vertebra: Rigid[Camera, Vertebra] | Absent
-    registered_by: str
+    registration: Registration | Absent
+    reference: str
     score_settings: ScoreSettings
     most_tip_sd_mm: float
     smoothing: SteadySettings = field(default_factory=SteadySettings)
     theatre: "Theatre | None" = None
+    withheld: AbsentReason | None = None
 
     @property
     def surface(self) -> "Surface | None":
@@ -119,8 +126,8 @@ class Preparation:
         return replace(
             changed,
             channel=case.channel,
-            camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
-            registered_by="",
+            registration=case.registration or Absent(reason=AbsentReason.NOT_REGISTERED),
+            withheld=case.withheld,
         )
 
     def tracker_for(self, setup: Setup) -> Tracker:
@@ -135,8 +142,9 @@ class Preparation:
             camera_calibrated=calibrated,
             tools=self.tools,
             channel=self.channel,
-            camera_from_vertebra=self.camera_from_vertebra,
-            registered_by=self.registered_by,
+            registration=self.registration,
+            reference=self.reference,
+            withheld=self.withheld,
             most_tip_sd_mm=self.most_tip_sd_mm,
         )
 
@@ -163,15 +171,17 @@ def build_setup(config: Config) -> Preparation:
         models=models,
         tools=tools,
         channel=Absent(reason=AbsentReason.NO_PLAN),
-        camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
-        registered_by="",
+        registration=Absent(reason=AbsentReason.NOT_REGISTERED),
+        reference=config.reference.marker or "",
         score_settings=scores,
         most_tip_sd_mm=config.limits.most_tip_sd_mm,
         smoothing=smoothing,
     )
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
-        theatre = _theatre(config)
-        unknowing = replace(bare, models=(theatre.marker, *models), theatre=theatre)
+        theatre = theatre_of(config.rehearsal)
+        brought = (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)
+        named = config.reference.marker or ("" if theatre.reference is None else theatre.reference.name)
+        unknowing = replace(bare, models=(*brought, *models), theatre=theatre, reference=named)
         return _with_what_it_brings(unknowing, theatre) if config.rehearsal.brings_setup else unknowing
     return bare
 
@@ -182,9 +192,10 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
         unknowing,
         camera=theatre.camera,
         tools={theatre.tool.name: theatre.tool, **unknowing.tools},
-        channel=theatre.channels[0],
-        camera_from_vertebra=theatre.camera_from_vertebra,
-        registered_by="rehearsal",
+        channel=replace(theatre.channels[0], name=f"rehearsal's {theatre.channels[0].name}"),
+        registration=Registration.known_to_reference(theatre.reference_from_vertebra)
+        if theatre.reference is not None and unknowing.reference == theatre.reference.name
+        else Registration.known_to_camera(theatre.camera_from_vertebra),
     )
 
 
@@ -199,11 +210,34 @@ def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
     )
 
 
-def _theatre(config: Config) -> "Theatre":
-    # Here, because it takes time to load and only the rehearsal needs it.
-    from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings  # noqa: PLC0415
+def theatre_of(rehearsal: RehearsalConfig) -> "Theatre":
+    """The theatre that these settings ask for.
 
-    rehearsal = config.rehearsal
+    Raises:
+        InvalidInput: REHEARSAL_SETTING_INVALID.
+    """
+    # Here, because it takes time to load and only the rehearsal needs it.
+    from tracker.rehearsal import (  # noqa: PLC0415
+        BoardKind,
+        Event,
+        EventKind,
+        Scene,
+        Skill,
+        Theatre,
+        TheatreSettings,
+    )
+
+    events = tuple(
+        Event(
+            kind=EventKind(event.kind),
+            at_s=event.at_s,
+            lasts_s=math.inf if event.lasts_s is None else event.lasts_s,
+            every_s=math.inf if event.every_s is None else event.every_s,
+            size_mm=event.size_mm,
+            size_deg=event.size_deg,
+        )
+        for event in rehearsal.events
+    )
     return Theatre(
         TheatreSettings(
             seed=rehearsal.seed,
@@ -214,5 +248,8 @@ def _theatre(config: Config) -> "Theatre":
             light=rehearsal.light,
             scene=Scene(rehearsal.scene),
             board=BoardKind(rehearsal.board),
+            skill=Skill(rehearsal.skill),
+            reference=rehearsal.reference,
+            events=events,
         )
     )

@@ -8,6 +8,7 @@ import yaml
 from pydantic import Field, ValidationError
 
 from server.config import MarkerConfig, Name, Point, Section, ToolConfig
+from server.yaml_file import yaml_in
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
 from tracker.pose.tool import PivotCalibration, SpinCalibration
@@ -66,14 +67,7 @@ def load_tool_file(path: Path) -> ToolFile:
         InvalidInput: TOOL_FILE_UNREADABLE or TOOL_FILE_INVALID; the message names the file.
     """
     context: dict[str, object] = {"file": str(path)}
-    try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        message = f"the tool file {path} cannot be read: {error.strerror}"
-        raise InvalidInput("TOOL_FILE_UNREADABLE", message, REMEDY, context) from error
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        message = f"the tool file {path} is no YAML"
-        raise InvalidInput("TOOL_FILE_UNREADABLE", message, REMEDY, context) from error
+    values = yaml_in(path, what="tool file", code="TOOL_FILE_UNREADABLE", remedy=REMEDY)
     try:
         return ToolFile.model_validate(values)
     except ValidationError as error:
@@ -118,10 +112,14 @@ def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -
         CalibrationError: TOOL_FILE_OF_ANOTHER_MARKER, TOOL_AXIS_UNKNOWN, or TOOL_TIP_UNKNOWN.
     """
     tip, axis = tool.tip_in_marker_mm, tool.axis_in_marker
+    covariance_mm2: Matrix | None = None
+    axis_sd_deg = 0.0
     if tool.calibration is not None:
         file = load_tool_file(tool.calibration)
         _refuse_another_marker(file, tool, marker)
         tip, axis = file.pivot.tip_in_marker_mm, _one_axis(name, tool, file)
+        covariance_mm2 = file.pivot.covariance_mm2
+        axis_sd_deg = 0.0 if file.spin is None else file.spin.axis_sd_deg
     if tip is None or axis is None:
         raise CalibrationError(
             "TOOL_TIP_UNKNOWN",
@@ -136,6 +134,8 @@ def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -
         axis_in_marker=axis,
         radius_mm=tool.radius_mm,
         length_mm=tool.length_mm,
+        tip_covariance_mm2=covariance_mm2,
+        axis_sd_deg=axis_sd_deg,
     )
 
 

@@ -18,7 +18,7 @@ from server.api.case_messages import DocumentMessage, document_message
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.uploads import received
-from server.calibration import decoded
+from server.picture_file import decoded
 from server.printing import board_sheet, pdf_from_sheet, svg_from_sheet
 from server.procedure.camera import CameraStep
 from server.store import Current, Home

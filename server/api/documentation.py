@@ -8,10 +8,19 @@ from collections.abc import Callable, Iterable, Mapping
 from html import escape
 from typing import Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, FastAPI
 from fastapi.responses import HTMLResponse
 
+from server.api.errors import REFUSED_WORDS
+
 Schema = Mapping[str, Any]
+
+FRAMEWORKS_SHAPE = "HTTPValidationError"
+FRAMEWORKS_SCHEMAS = (FRAMEWORKS_SHAPE, "ValidationError")
+OUR_422 = {
+    "description": REFUSED_WORDS[422],
+    "content": {"application/json": {"schema": {"$ref": "#/components/schemas/TroubleMessage"}}},
+}
 
 STYLE = """
 :root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
@@ -23,6 +32,23 @@ td, th { text-align: left; vertical-align: top; padding: 0.2rem 0.8rem 0.2rem 0;
 .method { font-weight: 700; }
 p.notice { font-weight: 700; }
 """
+
+
+class DocumentedApi(FastAPI):
+    """The application, whose OpenAPI document tells every refusal in the shape that it has."""
+
+    def openapi(self) -> dict[str, Any]:
+        """The framework's document, in which its own shape of a refusal is replaced by ours."""
+        if self.openapi_schema is None:
+            document = super().openapi()
+            for operation in (one for methods in document["paths"].values() for one in methods.values()):
+                answers = operation["responses"]
+                if FRAMEWORKS_SHAPE in str(answers.get("422")):
+                    answers["422"] = OUR_422
+            for name in FRAMEWORKS_SCHEMAS:
+                document["components"]["schemas"].pop(name, None)
+            self.openapi_schema = document
+        return self.openapi_schema
 
 
 def documentation_router(openapi: Callable[[], dict[str, Any]], *, openapi_path: str) -> APIRouter:

@@ -35,6 +35,16 @@ STATUS_OF: dict[type[NavigationError], int] = {
 # Where HTTP has a word of its own for what the code says.
 STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413}
 
+REFUSED_WORDS = {
+    404: "There is no such thing.",
+    409: "It cannot be done as things stand.",
+    413: "It is larger than is taken.",
+    421: "This server does not answer to the name in `Host`.",
+    422: "What was asked cannot be used.",
+    500: "The server made a mistake.",
+    503: "Not now.",
+    507: "The disk is full.",
+}
 TOLD = {
     404: ("NOT_FOUND", "there is nothing at {path}", "Look at /api/docs for what can be asked."),
     405: (
@@ -60,17 +70,7 @@ STATUS_OF[NothingYet] = 503
 
 def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """What OpenAPI says of a route's refusals."""
-    words = {
-        404: "There is no such thing.",
-        409: "It cannot be done as things stand.",
-        413: "It is larger than is taken.",
-        421: "This server does not answer to the name in `Host`.",
-        422: "What was asked cannot be used.",
-        500: "The server made a mistake.",
-        503: "Not now.",
-        507: "The disk is full.",
-    }
-    return {status: {"model": TroubleMessage, "description": words[status]} for status in statuses}
+    return {status: {"model": TroubleMessage, "description": REFUSED_WORDS[status]} for status in statuses}
 
 
 def status_of(error: NavigationError) -> int:

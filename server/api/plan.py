@@ -6,7 +6,7 @@ from typing import Annotated, TypeAlias
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
-from server.api.ct_messages import MadeBy
+from server.api.case_messages import MadeBy
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import HU, PNG_ANSWER, WindowHu, asked_window, picture
@@ -15,6 +15,7 @@ from server.api.plan_messages import (
     CatalogueMessage,
     ChannelRequest,
     CorrectionsRequest,
+    LandmarksRequest,
     PlanMessage,
     PlanRequest,
     ReferenceRequest,
@@ -52,6 +53,7 @@ def plan_router(step: PlanStep, opened: OpenedCt, home: Home) -> APIRouter:
     _add_pedicles(router, step)
     _add_channels(router, step)
     _add_reference(router, step, opened)
+    _add_landmarks(router, step)
     _add_active(router, step)
     return router
 
@@ -222,6 +224,16 @@ def _add_reference(router: APIRouter, step: PlanStep, opened: OpenedCt) -> None:
         kept, ct = step.shelf.latest_that_holds(), opened.current()
         vertebra = vertebra_named(kept.plan, name)
         return picture(request, kept.document.id, lambda: reference_picture(vertebra, ct.volume, grey))
+
+
+def _add_landmarks(router: APIRouter, step: PlanStep) -> None:
+    @router.put("/vertebrae/{name}/landmarks", responses=CHANGED)
+    def put(name: str, asked: LandmarksRequest) -> PlanMessage:
+        """Set all landmarks of a vertebra: where needles stand in the bone, or the tip is held to register.
+
+        They take the place of those that were there, so an empty list takes them all out.
+        """
+        return plan_message(step.set_landmarks(name, asked.records, asked.author))
 
 
 def _add_active(router: APIRouter, step: PlanStep) -> None:

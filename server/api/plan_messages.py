@@ -3,13 +3,14 @@
 from collections.abc import Mapping
 from typing import Annotated, TypeAlias
 
+import numpy as np
 from pydantic import Field, StringConstraints
 
-from server.api.case_messages import HeadingMessage, heading_message
-from server.api.ct_messages import MadeBy, PointLps
+from server.api.case_messages import HeadingMessage, MadeBy, heading_message
+from server.api.ct_messages import PointLps
 from server.procedure.plan import Author, KeptPlan, Proposal
 from server.stream.messages import Message
-from tracker.plan import PlanDocument, plan_to_mapping
+from tracker.plan import Landmark, PlanDocument, plan_to_mapping
 from tracker.plan.document import plain
 from tracker.plan.pedicle import Side
 
@@ -90,6 +91,24 @@ class ReferenceRequest(ChangeRequest):
     """Where the middle line runs; half-way between the isthmuses if left out."""
     apart_mm: Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False)]
     """Distance of the outer lines from the middle one, as measured."""
+
+
+class LandmarkMessage(Message):
+    """A point on the bone that is set on the CT and found again on the patient."""
+
+    name: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=60)]
+    point_lps_mm: PointLps
+
+
+class LandmarksRequest(ChangeRequest):
+    """All landmarks of a vertebra."""
+
+    landmarks: Annotated[list[LandmarkMessage], Field(max_length=40)]
+
+    @property
+    def records(self) -> list[Landmark]:
+        """The same for the step."""
+        return [Landmark(name=one.name, point_lps_mm=np.array(one.point_lps_mm)) for one in self.landmarks]
 
 
 class ActiveChannelRequest(Message):

@@ -5,7 +5,6 @@ import threading
 import time
 from pathlib import Path
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
@@ -13,6 +12,7 @@ from server.capture.codecs import silence_codecs
 from server.capture.pace import Pace
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.picture_file import decoded
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm")
 DEFAULT_RATE_HZ = 30.0
@@ -106,15 +106,12 @@ class FolderSource:
         image = None
         try:
             content = file.read_bytes()
-            if content:
-                image = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), cv2.IMREAD_COLOR)
+            image = decoded(content)
             reason = f"its {len(content)} bytes are no picture that can be decoded"
         except OSError as error:
             reason = (error.strerror or "it cannot be read").lower()
-        except cv2.error:
-            reason = "it is no picture that can be decoded"
         if image is not None:
-            return np.asarray(image, dtype=np.uint8)
+            return image
         self.defect = CaptureError(
             "FOLDER_IMAGE_UNREADABLE",
             f"the image {file} cannot be used: {reason}",

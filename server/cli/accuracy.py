@@ -8,11 +8,12 @@ import numpy as np
 import numpy.typing as npt
 import typer
 
-from server.calibration import ROW_COLUMNS, accuracy_rows, accuracy_values, decoded
+from server.calibration import ROW_COLUMNS, accuracy_rows, accuracy_values
 from server.camera_file import load_camera_file
 from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of
 from server.cli.point_rows import read_columns
+from server.picture_file import decoded
 from tracker.camera.accuracy import (
     AccuracyReport,
     accuracy_left_out,

@@ -13,6 +13,7 @@ from server.cli.board_commands import board_app
 from server.cli.calibration.commands import add_calibration
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
+from server.cli.register_commands import register_app
 from server.cli.tool_commands import pivot, spin, tip_check
 
 BAD_INPUT = 2
@@ -35,6 +36,7 @@ app.command()(pivot)
 app.command()(spin)
 app.command(name="tip-check")(tip_check)
 app.add_typer(plan_app, name="plan")
+app.add_typer(register_app, name="register")
 
 
 class Rate(StrEnum):

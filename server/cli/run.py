@@ -57,6 +57,7 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
         from server.app import AppParts, create_app  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
+        from server.loop.rehearsed import Rehearsed  # noqa: PLC0415
         from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
@@ -82,6 +83,9 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
                 setup=preparation.setup,
                 surface=preparation.surface,
                 alarms=alarms,
+                rehearsed=None
+                if preparation.theatre is None
+                else Rehearsed(config.rehearsal, play=tracked.play, begun=lambda: tracked.begun),
             )
         )
         picture = Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))

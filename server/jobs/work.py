@@ -7,11 +7,13 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Protocol, TypeAlias
 
 import cv2
 import structlog
 
+from server.disk import became_full, is_full
 from server.live import Trouble
 from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
@@ -65,28 +67,32 @@ def run_work(work: Work, arguments: Mapping[str, object], told: Connection, sett
         value = work(_reporter(told), **arguments)
         # What JSON cannot say would fail later, where nobody knows of whom it came.
         told.send(Result(value=json.loads(json.dumps(value, allow_nan=False))))
-    except NavigationError as error:
-        told.send(Trouble.from_error(error))
     except BrokenPipeError:
         # Nobody wants it any more.
         os._exit(0)
-    except MemoryError:
-        told.send(
-            Trouble(
-                code="JOB_OUT_OF_MEMORY",
-                message="the work needed more memory than there is",
-                remedy="Close other programs or use smaller files, then start it again.",
-            )
-        )
-    except Exception:
+    except NavigationError as error:
+        told.send(Trouble.from_error(error))
+    except Exception as error:
         log.exception("a job failed")
-        told.send(
-            Trouble(
-                code="JOB_FAILED",
-                message="the program made a mistake while it worked",
-                remedy="Try again; if it comes back, send the server's log to the maintainer.",
-            )
+        told.send(_trouble(error, arguments))
+
+
+def _trouble(error: Exception, arguments: Mapping[str, object]) -> Trouble:
+    """What is told of an error that the work did not expect."""
+    if isinstance(error, MemoryError):
+        return Trouble(
+            code="JOB_OUT_OF_MEMORY",
+            message="the work needed more memory than there is",
+            remedy="Close other programs or use smaller files, then start it again.",
         )
+    folder = arguments.get("folder")
+    if isinstance(error, OSError) and is_full(error) and isinstance(folder, str):
+        return Trouble.from_error(became_full(Path(folder)))
+    return Trouble(
+        code="JOB_FAILED",
+        message="the program made a mistake while it worked",
+        remedy="Try again; if it comes back, send the server's log to the maintainer.",
+    )
 
 
 def _reporter(told: Connection) -> Report:

@@ -108,6 +108,7 @@ class Publisher:
             return
         self._board.note_running(posted.generation)
         self._board.note_source(report.source)
+        self._board.note_begun(report.begun)
         self._trouble = report.trouble
         snapshot = None if image is None else report.snapshot
         self._watch(snapshot, report.source)

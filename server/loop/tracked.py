@@ -2,11 +2,13 @@
 
 from server.alarms import no_alarms
 from server.capture.address import source_from_text
+from server.capture.rehearsal import Begun
 from server.config import Config
 from server.live import LiveHub
 from server.logs import LogSettings
 from server.loop.board import Board
 from server.loop.publisher import Look, Picture, Publisher
+from server.loop.staging import SceneOrder
 from server.loop.supervisor import Supervisor, Watch
 from server.loop.worker import WorkerOrder
 from server.setup import CaseSetup
@@ -44,6 +46,15 @@ class Tracked:
     def adopt(self, case: CaseSetup) -> None:
         """Work with what this case knows, from the next image on and over restarts. From any thread."""
         self._supervisor.adopt(case)
+
+    def play(self, scene: SceneOrder) -> None:
+        """Rehearse this scene, as soon as it is ready and over restarts. From any thread."""
+        self._supervisor.play(scene)
+
+    @property
+    def begun(self) -> Begun | None:
+        """What of the rehearsal is played, as last reported; None before the first report."""
+        return self._board.begun
 
     def stop(self) -> None:
         """End the process and the threads; harmless when they were not started."""

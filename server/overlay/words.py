@@ -17,8 +17,8 @@ STATE_WORDS = {
     AbsentReason.NO_PLAN: "NO PLAN",
     AbsentReason.REFERENCE_UNSEEN: "PATIENT NOT SEEN",
     AbsentReason.CAMERA_MOVED: "CAMERA MOVED",
-    AbsentReason.REFERENCE_MOVED: "PATIENT MARKER MOVED",
-    AbsentReason.POSE_JUMPED: "POSE UNRESOLVED",
+    AbsentReason.REFERENCE_MOVED: "PATIENT MOVED",
+    AbsentReason.POSE_JUMPED: "POSE JUMPED",
     AbsentReason.NOT_CHECKED: "NOT CHECKED",
 }
 STATE_DETAILS = {
@@ -28,11 +28,11 @@ STATE_DETAILS = {
     AbsentReason.TOOL_NOT_DEFINED: "where is the tip behind this marker?",
     AbsentReason.NOT_REGISTERED: "plan and patient do not know each other",
     AbsentReason.NO_PLAN: "there is no channel",
-    AbsentReason.REFERENCE_UNSEEN: "the patient's marker is not seen",
+    AbsentReason.REFERENCE_UNSEEN: "the marker on the patient is not seen",
     AbsentReason.CAMERA_MOVED: "since the registration: register again",
-    AbsentReason.REFERENCE_MOVED: "since the registration: register again",
-    AbsentReason.POSE_JUMPED: "two poses explain the image, or it jumped",
-    AbsentReason.NOT_CHECKED: "nobody has looked",
+    AbsentReason.REFERENCE_MOVED: "or the marker on the patient: check on a landmark",
+    AbsentReason.POSE_JUMPED: "farther than a hand moves between two images",
+    AbsentReason.NOT_CHECKED: "touch a landmark to check the registration",
 }
 UNSEEN_WORDS = {
     UnseenReason.NO_CANDIDATE: "nothing looks like it",
@@ -53,8 +53,9 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Panel:
-    """What the panel says: readings and a quiet note, or in their place a state and its details."""
+    """What the panel says: readings of a tool and a quiet note, or in their place a state and its details."""
 
+    tool: str = ""
     readings: tuple[Reading, ...] = ()
     note: str = ""
     state: str = ""
@@ -69,7 +70,7 @@ def panel_of(snapshot: NavigationSnapshot) -> Panel:
     for name, deviation in snapshot.deviations.items():
         if isinstance(deviation, Deviation):
             readings = _readings(deviation, tool=name if len(snapshot.tools) > 1 else "")
-            return Panel(readings=readings, note=_note(snapshot.tools[name]))
+            return Panel(tool=name, readings=readings, note=_note(snapshot.tools[name]))
     reason, marker = _reason(snapshot)
     return Panel(state=STATE_WORDS[reason], details=_details(snapshot, reason, marker))
 

@@ -40,6 +40,8 @@ class KeptTool(ToolFile):
             axis_in_marker=axis,
             radius_mm=self.radius_mm,
             length_mm=self.length_mm,
+            tip_covariance_mm2=self.pivot.covariance_mm2,
+            axis_sd_deg=0.0 if self.spin is None else self.spin.axis_sd_deg,
         )
 
 

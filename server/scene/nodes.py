@@ -12,7 +12,7 @@ import viser
 from viser.transforms import SO3
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Rigid, rotation_between
+from tracker.geometry import Array, rotation_between
 from tracker.navigation import Absent, Setup
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
@@ -118,20 +118,17 @@ def add_channel(scene: viser.SceneApi, root: str, channel: Channel) -> None:
     )
 
 
-def add_camera(
-    scene: viser.SceneApi, root: str, camera: CameraModel, world_from_camera: Rigid[World, Camera]
-) -> None:
-    """The camera that sees the marker."""
+def add_camera(scene: viser.SceneApi, root: str, camera: CameraModel) -> viser.CameraFrustumHandle:
+    """The camera that sees the marker, hidden until an image says where it is."""
     width, height = camera.size_wh_px
-    scene.add_camera_frustum(
+    return scene.add_camera_frustum(
         f"{root}/camera",
         fov=2 * math.atan(height / (2 * float(camera.matrix[1, 1]))),
         aspect=(width / float(camera.matrix[0, 0])) / (height / float(camera.matrix[1, 1])),
         scale=CAMERA_SIZE_MM,
         thickness=0.5,
         color=CAMERA,
-        wxyz=quaternion(world_from_camera.rotation),
-        position=vector(world_from_camera.translation_mm),
+        visible=False,
         cast_shadow=False,
         receive_shadow=False,
     )
@@ -172,7 +169,7 @@ def add_tool(scene: viser.SceneApi, node: str, tool: ToolModel) -> viser.FrameHa
 
 def first_view(setup: Setup | None, surface: Surface | None) -> View:
     """From behind the patient, above and to the side, so that channel and drill are seen at once."""
-    if setup is None or isinstance(setup.camera_from_vertebra, Absent):
+    if setup is None or isinstance(setup.registration, Absent):
         # Camera's frame: stand behind the camera's shoulder and look where the drill works.
         return View(
             position_mm=np.array([-260.0, -220.0, -180.0]),

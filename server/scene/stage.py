@@ -57,7 +57,7 @@ class Stage:
         self._surface = surface
         self._drawn_key: tuple[object, ...] | None = None
         self._drawn_setup: Setup | None = None
-        self._world_from_camera: Rigid[World, Camera] = Rigid.identity()
+        self._camera: viser.CameraFrustumHandle | None = None
         self._beats = 0
         self._generation = 0
         self._root: viser.FrameHandle | None = None
@@ -85,7 +85,9 @@ class Stage:
             if rebuilt:
                 self._build(snapshot.setup)
             self._drawn_setup = snapshot.setup
-            placed = self._placed(snapshot)
+            world_from_camera = _world_from_camera(snapshot)
+            self._place_camera(world_from_camera)
+            placed = _placed(snapshot, world_from_camera)
             for name, handle in self._tools.items():
                 _draw(handle, placed.get(name))
             self._count(snapshot.image_number)
@@ -103,13 +105,13 @@ class Stage:
         self._beats += 1
         self._number.position = number_position(image_number, beats=self._beats)
 
-    def _placed(self, snapshot: NavigationSnapshot) -> dict[str, _Placed]:
-        placed = {}
-        for name, tool in snapshot.tools.items():
-            if not isinstance(tool, Absent):
-                pose = self._world_from_camera @ tool.camera_from_tool
-                placed[name] = _Placed(position=vector(pose.translation_mm), wxyz=quaternion(pose.rotation))
-        return placed
+    def _place_camera(self, world_from_camera: Rigid[World, Camera] | None) -> None:
+        if self._camera is None:
+            return
+        if world_from_camera is not None:
+            self._camera.position = vector(world_from_camera.translation_mm)
+            self._camera.wxyz = quaternion(world_from_camera.rotation)
+        self._camera.visible = world_from_camera is not None
 
     def _build(self, setup: Setup | None) -> None:
         """Draw all that does not move, anew; drills are there but hidden."""
@@ -121,22 +123,18 @@ class Stage:
         self._generation += 1
         root = f"/setup_{self._generation}"
         self._root = scene.add_frame(root, show_axes=False)
-        self._tools = {}
+        self._tools, self._camera = {}, None
         self._drawn_setup, self._drawn_key = setup, None if setup is None else _key(setup)
         self._look(setup)
         if setup is None:
             return
-        if isinstance(setup.camera_from_vertebra, Absent):
-            self._world_from_camera = Rigid.identity()
-        else:
-            world_from_vertebra: Rigid[World, Vertebra] = Rigid.identity()
-            self._world_from_camera = world_from_vertebra @ setup.camera_from_vertebra.inverse
+        if not isinstance(setup.registration, Absent):
             if self._surface is not None:
                 add_bone(scene, root, self._surface)
             if isinstance(setup.channel, Channel):
                 add_channel(scene, root, setup.channel)
         if setup.camera_calibrated:
-            add_camera(scene, root, setup.camera, self._world_from_camera)
+            self._camera = add_camera(scene, root, setup.camera)
         # Numbered, because a name may hold a slash, which is viser's sign for a child.
         for index, (name, tool) in enumerate(setup.tools.items()):
             self._tools[name] = add_tool(scene, f"{root}/tool_{index}", tool)
@@ -152,6 +150,30 @@ class Stage:
         )
 
 
+def _world_from_camera(snapshot: NavigationSnapshot) -> Rigid[World, Camera] | None:
+    """Where the camera is in the scene; None while the patient's reference is not seen."""
+    if isinstance(snapshot.setup.registration, Absent):
+        return Rigid.identity()
+    if isinstance(snapshot.vertebra, Absent):
+        return None
+    world_from_vertebra: Rigid[World, Vertebra] = Rigid.identity()
+    return world_from_vertebra @ snapshot.vertebra.camera_from_vertebra.inverse
+
+
+def _placed(
+    snapshot: NavigationSnapshot, world_from_camera: Rigid[World, Camera] | None
+) -> dict[str, _Placed]:
+    """Where each drill is drawn: none whose place in the scene is not known."""
+    placed: dict[str, _Placed] = {}
+    if world_from_camera is None:
+        return placed
+    for name, tool in snapshot.tools.items():
+        if not isinstance(tool, Absent):
+            pose = world_from_camera @ tool.camera_from_tool
+            placed[name] = _Placed(position=vector(pose.translation_mm), wxyz=quaternion(pose.rotation))
+    return placed
+
+
 def _draw(handle: viser.FrameHandle, placed: _Placed | None) -> None:
     if placed is not None:
         handle.position = placed.position
@@ -161,7 +183,7 @@ def _draw(handle: viser.FrameHandle, placed: _Placed | None) -> None:
 
 def _key(setup: Setup) -> tuple[object, ...]:
     """Equal for setups that look alike: each image brings a copy of its own through the pipe."""
-    channel, registration = setup.channel, setup.camera_from_vertebra
+    channel, registration = setup.channel, setup.registration
     return (
         setup.camera_calibrated,
         setup.camera.size_wh_px,
@@ -174,5 +196,7 @@ def _key(setup: Setup) -> tuple[object, ...]:
             channel.target_in_vertebra_mm.tobytes(),
             channel.radius_mm,
         ),
-        None if isinstance(registration, Absent) else registration.matrix.tobytes(),
+        None
+        if isinstance(registration, Absent)
+        else (registration.anchored_to, registration.anchor_from_vertebra.matrix.tobytes()),
     )

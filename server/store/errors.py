@@ -16,10 +16,10 @@ from pathlib import Path
 
 from sqlalchemy.exc import DBAPIError
 
+from server.disk import FULL, MAKE_ROOM
 from tracker.errors import NavigationError
 
-FULL, READ_ONLY, BUSY, DAMAGED, FAILED = (
-    "STORE_FULL",
+READ_ONLY, BUSY, DAMAGED, FAILED = (
     "STORE_READ_ONLY",
     "STORE_BUSY",
     "STORE_DAMAGED",
@@ -33,7 +33,7 @@ WHAT = {
     FAILED: "the folder {folder} cannot be used ({why})",
 }
 REMEDY = {
-    FULL: "Make room, then do it again; what was confirmed before is kept.",
+    FULL: MAKE_ROOM,
     READ_ONLY: "Give this user the right to write there, or name another folder with COAXIAL_HOME.",
     BUSY: "Close the program that has the database open, then do it again.",
     DAMAGED: "Stop the server and keep a copy of the folder; its folder 'backups' holds the database "

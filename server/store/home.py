@@ -12,14 +12,13 @@ from types import TracebackType
 import filelock
 import platformdirs
 
-from server.store.errors import FULL, REMEDY, StoreError, told
+from server.disk import refuse_without_room
+from server.store.errors import StoreError, told
 
 FOLDER_VARIABLE = "COAXIAL_HOME"
 # Patients' pictures are for the one who runs the server.
 PRIVATE = 0o700
 RESERVE_BYTES = 2**20
-# What is left free by everything that takes much room.
-SPARE_BYTES = 64 * 2**20
 # On macOS a plain sync leaves things in the disk's own memory.
 FULL_SYNC: int | None = getattr(fcntl, "F_FULLFSYNC", None)
 
@@ -88,18 +87,10 @@ class Home:
         """To be asked before much is written, so that the disk is not filled for everybody first.
 
         Raises:
-            StoreError: STORE_FULL.
+            DiskFull: STORE_FULL.
         """
         with told(self.folder):
-            free_bytes = shutil.disk_usage(self.folder).free
-        if needed_bytes + SPARE_BYTES > free_bytes:
-            raise StoreError(
-                FULL,
-                f"{needed_bytes / 2**20:.1f} MB are needed and {SPARE_BYTES / 2**20:g} MB are to stay free, "
-                f"but under {self.folder} only {free_bytes / 2**20:.1f} MB are free",
-                REMEDY[FULL],
-                {"needed_bytes": needed_bytes, "free_bytes": free_bytes},
-            )
+            refuse_without_room(self.folder, needed_bytes)
 
     def close(self) -> None:
         """Let another server have the folder."""

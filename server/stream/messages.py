@@ -212,7 +212,7 @@ def _snapshot(snapshot: NavigationSnapshot, server_ms: dict[str, float], *, now_
         width_px=snapshot.size_wh_px[0],
         height_px=snapshot.size_wh_px[1],
         camera_calibrated=setup.camera_calibrated,
-        registered_by=None if isinstance(setup.camera_from_vertebra, Absent) else setup.registered_by,
+        registered_by=None if isinstance(setup.registration, Absent) else str(setup.registration.method),
         channel_name=None if isinstance(setup.channel, Absent) else setup.channel.name,
         markers=[
             MarkerMessage(name=name, sighting=_sighting(sighting, calibrated=setup.camera_calibrated))

@@ -13,6 +13,7 @@ from tracker.errors import InvalidInput
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
 from tracker.pipeline import Tracker
 from tracker.pose import Seen, Sighting
+from tracker.registration import Registration
 from tracker.rehearsal import Theatre
 
 Image = npt.NDArray[np.uint8]
@@ -90,8 +91,7 @@ def setup_of(theatre: Theatre) -> Setup:
         camera_calibrated=True,
         tools={"drill": theatre.tool},
         channel=theatre.channels[0],
-        camera_from_vertebra=theatre.camera_from_vertebra,
-        registered_by="rehearsal",
+        registration=Registration.known_to_camera(theatre.camera_from_vertebra),
     )
 
 

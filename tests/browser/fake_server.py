@@ -30,6 +30,7 @@ from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
 from tracker.navigation import NavigationSnapshot, Setup, navigate
 from tracker.plan import Channel
+from tracker.registration import Registration
 
 SIZE_WH_PX = (1280, 720)
 RATE_HZ = 15.0
@@ -68,8 +69,7 @@ def setup(*, calibrated: bool = True) -> Setup:
             target_in_vertebra_mm=np.array([0.0, 0.0, 40.0]),
             radius_mm=4.0,
         ),
-        camera_from_vertebra=CAMERA_FROM_VERTEBRA,
-        registered_by="rehearsal",
+        registration=Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
     )
 
 

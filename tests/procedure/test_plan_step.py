@@ -150,6 +150,38 @@ def test_a_channel_by_hand_and_what_is_refused(server: Server) -> None:
     assert server.ask("DELETE", "/api/plan/vertebrae/L3", 200, params=BY)["plan"]["vertebrae"] == []
 
 
+def test_landmarks_are_set_go_out_and_come_back_and_odd_ones_are_refused(server: Server) -> None:
+    opened(server)
+    sent(server, dicom_zip())
+    server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3"})
+    points = {"right superior articular process": [-19.5, 12.5, 9.0], "spinous process": [0.0, 30.0, -5.0]}
+    landmarks = [{"name": name, "point_lps_mm": at} for name, at in points.items()]
+    where = "/api/plan/vertebrae/L3/landmarks"
+
+    plan = server.ask("PUT", where, 200, json={**BY, "landmarks": landmarks, "expected_version": 1})
+    assert plan["plan"]["vertebrae"][0]["landmarks"] == landmarks
+    assert plan["heading"]["version"] == 2
+    file = server.ask("GET", "/api/plan/export", 200)
+    assert file["plan"]["vertebrae"][0]["landmarks"] == landmarks
+    assert (
+        server.ask("PUT", where, 200, json={**BY, "landmarks": []})["plan"]["vertebrae"][0]["landmarks"] == []
+    )
+    back = server.ask("POST", "/api/plan/import", 201, content=json.dumps(file), params=BY)
+    assert back["plan"]["vertebrae"][0]["landmarks"] == landmarks
+
+    def refused(status: int, code: str, **asked: Any) -> None:  # noqa: ANN401
+        answer = server.ask("PUT", where, status, json={**BY, "landmarks": landmarks, **asked})
+        assert answer["code"] == code
+
+    refused(409, "VERSION_CONFLICT", expected_version=2)
+    refused(409, "LANDMARK_TWICE", landmarks=[landmarks[0], landmarks[0]])
+    refused(409, "LANDMARK_OUTSIDE_CT", landmarks=[{"name": "tip", "point_lps_mm": [0, 0, 900]}])
+    refused(409, "PLAN_INVALID", landmarks=[{"name": "tip\u202e", "point_lps_mm": [0, 0, 0]}])
+    for odd in ([{"name": " ", "point_lps_mm": [0, 0, 0]}], [{"name": "tip", "point_lps_mm": [0, 0]}]):
+        refused(422, "REQUEST_INVALID", landmarks=odd)
+    assert server.ask("GET", "/api/plan", 200)["heading"] == back["heading"]
+
+
 def test_another_ct_puts_the_plan_out_of_date_until_it_is_sent_anew(server: Server) -> None:
     opened(server)
     sent(server, dicom_zip())
@@ -222,7 +254,7 @@ def test_hostile_plan_files_are_refused_and_nothing_is_stored(server: Server) ->
         "other format": spoilt(lambda one: one.update(format="x")),
         "other version": spoilt(lambda one: one.update(format_version=[7] * 1000)),
         "no plan": spoilt(lambda one: one.pop("plan")),
-        "version of the plan": spoilt(lambda one: one["plan"].update(format_version=2)),
+        "version of the plan": spoilt(lambda one: one["plan"].update(format_version=99)),
         "unknown key": spoilt(lambda one: one["plan"].update(x=1)),
         "huge number": spoilt(lambda one: pedicle(one).update(width_mm=10**400)),
         "huge numbers": spoilt(lambda one: pedicle(one).update(isthmus_lps_mm=[10**400, 0, 0])),

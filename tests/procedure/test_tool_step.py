@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.store import DocumentKind
 from tests.procedure.conftest import Server, sighting
 from tests.procedure.test_camera_step import open_a_case
@@ -51,8 +52,8 @@ def gather(server: Server, scene: Scene, purpose: str, *, images: int = 400, see
 def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> None:
     case_id = calibrated(server)
     truth = Theatre(TheatreSettings()).tool.marker_from_tool
-    told = gather(server, Scene.PIVOT, "PIVOT")
-    assert told["missing"] == []
+    told = gather(server, Scene.PIVOT, "pivot")
+    assert (told["purpose"], told["missing"]) == ("pivot", [])
     assert told["tilt_range_deg"] > 30.0
     assert told["tilt_range_across_deg"] > 30.0
     kept = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE})
@@ -61,7 +62,7 @@ def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> 
     # Nobody knows yet which way it points.
     assert server.adopted[-1].tools == {}
 
-    told = gather(server, Scene.SPIN, "SPIN")
+    told = gather(server, Scene.SPIN, "spin")
     assert told["missing"] == []
     kept = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito"})
     assert kept["heading"]["version"] == 2
@@ -72,7 +73,7 @@ def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> 
     assert off_deg < 0.2
     np.testing.assert_allclose(tool.marker_from_tool.translation_mm, tip)
 
-    gather(server, Scene.PIVOT, "TIP_CHECK", seed=2)
+    gather(server, Scene.PIVOT, "tip_check", seed=2)
     check = server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito"})
     assert check["heading"]["kind"] == "check"
     assert check["content"]["rms_3d_mm"] < 0.5
@@ -83,7 +84,7 @@ def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> 
 
 def test_a_new_camera_puts_the_tool_out_of_date(server: Server) -> None:
     case_id = calibrated(server)
-    gather(server, Scene.PIVOT, "PIVOT")
+    gather(server, Scene.PIVOT, "pivot")
     axis = {"axis_in_marker": [0.0, -1.0, 0.0]}
     server.ask("POST", "/api/tools/collection/conclusion", 201, json={"made_by": "ito", **SHAPE, **axis})
     assert list(server.adopted[-1].tools) == ["drill"]
@@ -96,7 +97,7 @@ def test_a_new_camera_puts_the_tool_out_of_date(server: Server) -> None:
 
 def test_a_tool_that_was_hardly_tilted_is_refused_with_its_numbers(server: Server) -> None:
     calibrated(server)
-    told = gather(server, Scene.OPERATION, "PIVOT", images=60)
+    told = gather(server, Scene.OPERATION, "pivot", images=60)
     assert told["missing"]
     refused = server.ask("POST", "/api/tools/collection/conclusion", 409, json={"made_by": "ito", **SHAPE})
     assert refused["remedy"]
@@ -105,7 +106,7 @@ def test_a_tool_that_was_hardly_tilted_is_refused_with_its_numbers(server: Serve
 
 def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
     open_a_case(server)
-    told = gather(server, Scene.PIVOT, "PIVOT", images=3)
+    told = gather(server, Scene.PIVOT, "pivot", images=3)
     assert not told["running"]
     assert told["trouble"]["code"] == "CAMERA_NOT_CALIBRATED"
 
@@ -113,15 +114,17 @@ def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
 @pytest.mark.parametrize(
     ("asked", "status", "code"),
     [
-        pytest.param({"tool": "drill", "purpose": "SPIN"}, 409, "TOOL_TIP_MISSING", id="spin-before-pivot"),
-        pytest.param({"tool": "drill", "purpose": "TIP_CHECK"}, 409, "TOOL_TIP_MISSING", id="check-first"),
+        pytest.param({"tool": "drill", "purpose": "spin"}, 409, "TOOL_TIP_MISSING", id="spin-before-pivot"),
+        pytest.param({"tool": "drill", "purpose": "tip_check"}, 409, "TOOL_TIP_MISSING", id="check-first"),
         pytest.param(
-            {"tool": "awl", "purpose": "PIVOT", "marker": "nobody"},
+            {"tool": "awl", "purpose": "pivot", "marker": "nobody"},
             422,
             "MARKER_UNKNOWN",
             id="no-such-marker",
         ),
-        pytest.param({"tool": "../x", "purpose": "PIVOT"}, 422, "REQUEST_INVALID", id="no-such-name"),
+        pytest.param({"tool": "drill", "purpose": "SPIN"}, 409, "TOOL_TIP_MISSING", id="in-capitals"),
+        pytest.param({"tool": "drill", "purpose": "drilling"}, 422, "REQUEST_INVALID", id="no-such-purpose"),
+        pytest.param({"tool": "../x", "purpose": "pivot"}, 422, "REQUEST_INVALID", id="no-such-name"),
     ],
 )
 def test_what_cannot_be_begun_is_refused(
@@ -133,6 +136,17 @@ def test_what_cannot_be_begun_is_refused(
 
 def test_shape_is_asked_for_where_nobody_knows_it(server: Server) -> None:
     calibrated(server)
-    gather(server, Scene.PIVOT, "PIVOT")
+    gather(server, Scene.PIVOT, "pivot")
     refused = server.ask("POST", "/api/tools/collection/conclusion", 422, json={"made_by": "ito"})
     assert refused["code"] == "TOOL_SHAPE_UNKNOWN"
+
+
+def test_when_the_camera_is_gone_no_pose_seems_to_be_taken_any_more(server: Server) -> None:
+    calibrated(server)
+    assert gather(server, Scene.PIVOT, "pivot", images=5)["newest"] != "no_picture"
+    gone = SourceStatus(name="0", state=SourceState.RECONNECTING)
+    running = ProcessStatus(state=ProcessState.RUNNING)
+    server.hub.publish(Instant(sequence=server.number + 1, source=gone, process=running))
+    server.until(lambda: server.ask("GET", "/api/tools/collection", 200)["newest"] == "no_picture")
+    told = server.ask("GET", "/api/tools/collection", 200)
+    assert (told["running"], told["trouble"]) == (True, None), "it goes on when the camera is back"

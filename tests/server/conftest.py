@@ -16,15 +16,15 @@ from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, Setup, navigate
 from tracker.plan import Channel
+from tracker.registration import Registration
 
 SIDE_MM = 25.0
 CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM
 
 
-def _seen(setup: Setup, vertebra_from_tool: Rigid[Vertebra, Tool]) -> Seen:
-    assert not isinstance(setup.camera_from_vertebra, Absent)
+def _seen(setup: Setup, place: Rigid[Camera, Vertebra], vertebra_from_tool: Rigid[Vertebra, Tool]) -> Seen:
     tool = setup.tools["drill"]
-    camera_from_marker = setup.camera_from_vertebra @ vertebra_from_tool @ tool.marker_from_tool.inverse
+    camera_from_marker = place @ vertebra_from_tool @ tool.marker_from_tool.inverse
     return Seen(
         camera_from_marker=camera_from_marker,
         pose_covariance=np.eye(6) * 1e-4,
@@ -65,8 +65,7 @@ def _whole_setup(size_wh_px: tuple[int, int], place: Rigid[Camera, Vertebra]) ->
         camera_calibrated=True,
         tools={"drill": tool},
         channel=channel,
-        camera_from_vertebra=place,
-        registered_by="rehearsal",
+        registration=Registration.known_to_camera(place),
     )
 
 
@@ -92,13 +91,13 @@ def make_snapshot(
         camera_calibrated=calibrated,
         tools=whole.tools if with_tool else {},
         channel=whole.channel if planned else Absent(reason=AbsentReason.NO_PLAN),
-        camera_from_vertebra=place if registered else Absent(reason=AbsentReason.NOT_REGISTERED),
+        registration=whole.registration if registered else Absent(reason=AbsentReason.NOT_REGISTERED),
     )
     truth = Rigid[Vertebra, Tool].from_vector([tilt_rad, 0.04, 0.0], list(tip_in_vertebra_mm))
     unseen = Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=0.4)
     return navigate(
         setup=setup,
-        sightings={"drill": _seen(whole, truth) if seen else unseen},
+        sightings={"drill": _seen(whole, place, truth) if seen else unseen},
         image_number=image_number,
         captured_at_s=captured_at_s,
         size_wh_px=size_wh_px,

@@ -116,8 +116,7 @@ def test_without_plan_and_registration_both_are_absent_with_their_reason(tmp_pat
     assert setup is not None
     assert setup.camera_calibrated
     assert setup.channel == Absent(reason=AbsentReason.NO_PLAN)
-    assert setup.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)
-    assert setup.registered_by == ""
+    assert setup.registration == Absent(reason=AbsentReason.NOT_REGISTERED)
     assert setup.tools["t"].marker == "m"
 
 
@@ -159,14 +158,21 @@ def test_what_a_case_knows_takes_the_place_of_the_settings(tmp_path: Path) -> No
 
 def test_a_channel_of_the_case_is_not_registered_by_what_registered_another() -> None:
     rehearsal = build_setup(Config())
-    assert not isinstance(rehearsal.camera_from_vertebra, Absent)
+    assert not isinstance(rehearsal.registration, Absent)
     channel = Channel(
         name="L4 left", entry_in_vertebra_mm=np.zeros(3), target_in_vertebra_mm=np.ones(3) * 9, radius_mm=3.0
     )
     changed = rehearsal.with_case(CaseSetup(channel=channel))
     assert changed.channel is channel
-    assert changed.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)
-    assert rehearsal.with_case(CaseSetup()).camera_from_vertebra is rehearsal.camera_from_vertebra
+    assert changed.registration == Absent(reason=AbsentReason.NOT_REGISTERED)
+
+
+def test_after_a_case_is_closed_the_rehearsals_own_channel_says_whose_it_is() -> None:
+    rehearsal = build_setup(Config())
+    closed = rehearsal.with_case(CaseSetup())
+    assert closed.registration is rehearsal.registration
+    assert not isinstance(closed.channel, Absent)
+    assert closed.channel.name == "rehearsal's L3 left"
 
 
 def test_a_rehearsal_that_brings_no_setup_knows_its_marker_alone() -> None:
@@ -175,4 +181,4 @@ def test_a_rehearsal_that_brings_no_setup_knows_its_marker_alone() -> None:
     assert bare.camera is None
     assert bare.tools == {}
     assert bare.channel == Absent(reason=AbsentReason.NO_PLAN)
-    assert bare.camera_from_vertebra == Absent(reason=AbsentReason.NOT_REGISTERED)
+    assert bare.registration == Absent(reason=AbsentReason.NOT_REGISTERED)

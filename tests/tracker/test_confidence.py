@@ -11,6 +11,7 @@ from tracker import InvalidInput, MarkerModel, Seen, Tracker, Unseen, UnseenReas
 from tracker.geometry import point_covariance_mm2
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
 from tracker.pose import one_for_each_place
+from tracker.registration import Registration
 from tracker.rehearsal import Theatre, TheatreSettings
 
 
@@ -42,8 +43,7 @@ def test_a_tip_that_is_too_unsure_has_no_place_and_no_numbers() -> None:
         camera_calibrated=True,
         tools={"drill": theatre.tool},
         channel=theatre.channels[0],
-        camera_from_vertebra=theatre.camera_from_vertebra,
-        registered_by="rehearsal",
+        registration=Registration.known_to_camera(theatre.camera_from_vertebra),
         most_tip_sd_mm=3.0,
     )
     image = theatre.renderer().image_at(14.0)

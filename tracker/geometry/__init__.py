@@ -1,8 +1,13 @@
 """Frames, rigid motions, angles, and covariance carried through them."""
 
 from tracker.geometry.cylinder import cylinder_ring_mm, cylinder_silhouette_mm
-from tracker.geometry.frames import Camera, Marker, Pattern, Reference, Tool, Vertebra
-from tracker.geometry.rigid import Rigid, point_covariance_mm2
+from tracker.geometry.frames import Anchor, Camera, Marker, Pattern, Reference, Tool, Vertebra
+from tracker.geometry.rigid import (
+    Rigid,
+    chained_covariance,
+    inverse_covariance,
+    point_covariance_mm2,
+)
 from tracker.geometry.rotations import (
     Array,
     angle_between_deg,
@@ -14,6 +19,7 @@ from tracker.geometry.rotations import (
 )
 
 __all__ = [
+    "Anchor",
     "Array",
     "Camera",
     "Marker",
@@ -23,8 +29,10 @@ __all__ = [
     "Tool",
     "Vertebra",
     "angle_between_deg",
+    "chained_covariance",
     "cylinder_ring_mm",
     "cylinder_silhouette_mm",
+    "inverse_covariance",
     "nearest_rotation",
     "point_covariance_mm2",
     "rotation_between",

@@ -7,6 +7,8 @@
 | Tool      | tip of the burr                | +z the drilling direction                      | mm   |
 | Vertebra  | the CT's patient coordinates   | LPS                                            | mm   |
 | Reference | marker fixed to the patient    | as Marker                                      | mm   |
+| Anchor    | what a registration is fixed   | of Camera or of Reference                      | mm   |
+|           | to: camera, or reference       |                                                |      |
 | Pattern   | first point of a camera's      | x right, y down on the printed face, z into it | mm   |
 |           | calibration board              |                                                |      |
 
@@ -34,6 +36,10 @@ class Vertebra:
 
 class Reference:
     """The frame of the marker fixed to the patient."""
+
+
+class Anchor:
+    """The frame that a registration is fixed to: the camera's, or the reference's where there is one."""
 
 
 class Pattern:

@@ -110,3 +110,27 @@ def point_covariance_mm2(
     arm = transform.turn_directions(point_mm)
     jacobian = np.hstack([np.eye(3), -skew(arm)])
     return np.asarray(jacobian @ np.asarray(pose_covariance, dtype=np.float64) @ jacobian.T)
+
+
+def chained_covariance(
+    first: Rigid[To, From], of_first: npt.ArrayLike, second: Rigid[From, Other], of_second: npt.ArrayLike
+) -> Array:
+    """Covariance (6, 6) of `first @ second` from those of both, which err independently.
+
+    All three as in `point_covariance_mm2`, each in the frame that its transform leads to.
+    """
+    turn = np.zeros((6, 6))
+    turn[:3, :3] = turn[3:, 3:] = first.rotation
+    lever = np.eye(6)
+    lever[:3, 3:] = -skew(first.turn_directions(second.translation_mm))
+    near, far = np.asarray(of_first, dtype=np.float64), np.asarray(of_second, dtype=np.float64)
+    return np.asarray(lever @ near @ lever.T + turn @ far @ turn.T)
+
+
+def inverse_covariance(transform: Rigid[To, From], covariance: npt.ArrayLike) -> Array:
+    """Covariance (6, 6) of `transform.inverse` from that of `transform`."""
+    back = -transform.rotation.T
+    jacobian = np.zeros((6, 6))
+    jacobian[:3, :3] = jacobian[3:, 3:] = back
+    jacobian[:3, 3:] = back @ skew(transform.translation_mm)
+    return np.asarray(jacobian @ np.asarray(covariance, dtype=np.float64) @ jacobian.T)

@@ -11,10 +11,21 @@ from enum import StrEnum
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra, point_covariance_mm2
+from tracker.geometry import (
+    Anchor,
+    Array,
+    Camera,
+    Marker,
+    Rigid,
+    Tool,
+    Vertebra,
+    chained_covariance,
+    point_covariance_mm2,
+)
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.plan import Channel
 from tracker.pose import Seen, Sighting, SteadyPose, ToolModel
+from tracker.registration import AnchoredTo, Registration
 
 
 class AbsentReason(StrEnum):
@@ -26,11 +37,11 @@ class AbsentReason(StrEnum):
     TOOL_NOT_DEFINED = "TOOL_NOT_DEFINED"  # nobody said where the tip is behind this marker
     NOT_REGISTERED = "NOT_REGISTERED"  # plan and patient are not registered
     NO_PLAN = "NO_PLAN"  # there is no channel
-    REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the patient's marker is not seen in this image
-    CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
-    REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
-    POSE_JUMPED = "POSE_JUMPED"  # farther than a hand moves, or two poses explain the image
-    NOT_CHECKED = "NOT_CHECKED"  # nobody has looked
+    REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the marker on the patient is not seen in this image
+    CAMERA_MOVED = "CAMERA_MOVED"  # the camera stands elsewhere than when plan and patient were registered
+    REFERENCE_MOVED = "REFERENCE_MOVED"  # the marker on the patient moved, or the patient did
+    POSE_JUMPED = "POSE_JUMPED"  # seen, but farther away than a hand gets from one image to the next
+    NOT_CHECKED = "NOT_CHECKED"  # registered, but not yet held against a landmark
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,18 +75,34 @@ class Setup:
         camera_calibrated: whether poses in mm may be derived from it.
         tools: by name; each names the marker that it carries.
         channel: the planned channel.
-        camera_from_vertebra: the registration, for this camera position.
+        registration: of plan and patient, fixed to the camera or to the patient's reference.
+        reference: name of the marker that is fixed to the patient; empty when there is none.
+        withheld: why no number is given although all of this is known; None when nothing is in the way.
         most_tip_sd_mm: a tip that is less sure than this (root of the trace of its covariance) is not placed.
-        registered_by: in words, how the registration was made ("rehearsal" when known by the theatre).
     """
 
     camera: CameraModel
     camera_calibrated: bool
     tools: Mapping[str, ToolModel]
     channel: Channel | Absent
-    camera_from_vertebra: Rigid[Camera, Vertebra] | Absent
-    registered_by: str
+    registration: Registration | Absent
+    reference: str = ""
+    withheld: AbsentReason | None = None
     most_tip_sd_mm: float = 3.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlacedVertebra:
+    """Where the plan's vertebra is in one image.
+
+    Attributes:
+        camera_from_vertebra: through the reference, where the registration is fixed to it.
+        covariance: (6, 6) [mm, rad] of it, as of a marker's pose; of the registration, and of the reference
+            as it is seen in this image.
+    """
+
+    camera_from_vertebra: Rigid[Camera, Vertebra]
+    covariance: Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +115,7 @@ class NavigationSnapshot:
         size_wh_px: of the image.
         setup: what stood when it was concluded.
         sightings: by marker name.
+        vertebra: where the plan is in this image, or why that is not known.
         tools: by tool name.
         deviations: by tool name, of the tool from the channel.
         stage_ms: time of each stage by the name it has in the code.
@@ -99,10 +127,22 @@ class NavigationSnapshot:
     size_wh_px: tuple[int, int]
     setup: Setup
     sightings: Mapping[str, Sighting]
+    vertebra: PlacedVertebra | Absent
     tools: Mapping[str, ToolInView | Absent]
     deviations: Mapping[str, Deviation | Absent]
     stage_ms: Mapping[str, float]
     skipped_images: int
+
+    def vertebra_from_tool(self, tool: str) -> Rigid[Vertebra, Tool] | Absent:
+        """Where a tool is in the plan; Absent where it has no numbers either, for the same reason."""
+        deviation, in_view, vertebra = self.deviations[tool], self.tools[tool], self.vertebra
+        if isinstance(deviation, Absent):
+            return deviation
+        if isinstance(in_view, Absent):
+            return in_view
+        if isinstance(vertebra, Absent):
+            return vertebra
+        return vertebra.camera_from_vertebra.inverse @ in_view.camera_from_tool
 
 
 def tool_in_view(
@@ -141,15 +181,52 @@ def _tip_sd_mm(tool: ToolInView) -> float:
     return float(np.sqrt(np.trace(tool.tip_covariance_mm2)))
 
 
-def tool_deviation(setup: Setup, tool: ToolInView | Absent) -> Deviation | Absent:
+def placed_vertebra(setup: Setup, sightings: Mapping[str, Sighting]) -> PlacedVertebra | Absent:
+    """Where the plan's vertebra is in this image, or why that is not known."""
+    registration = setup.registration
+    if isinstance(registration, Absent):
+        return registration
+    if registration.anchored_to is AnchoredTo.CAMERA:
+        fixed = registration.anchor_from_vertebra
+        return PlacedVertebra(
+            camera_from_vertebra=Rigid(rotation=fixed.rotation, translation_mm=fixed.translation_mm),
+            covariance=registration.covariance,
+        )
+    seen = sightings.get(setup.reference)
+    if not isinstance(seen, Seen):
+        return Absent(reason=AbsentReason.REFERENCE_UNSEEN)
+    if not setup.camera_calibrated:
+        return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
+    marker = seen.camera_from_marker
+    camera_from_anchor: Rigid[Camera, Anchor] = Rigid(
+        rotation=marker.rotation, translation_mm=marker.translation_mm
+    )
+    return PlacedVertebra(
+        camera_from_vertebra=camera_from_anchor @ registration.anchor_from_vertebra,
+        covariance=chained_covariance(
+            camera_from_anchor,
+            seen.pose_covariance,
+            registration.anchor_from_vertebra,
+            registration.covariance,
+        ),
+    )
+
+
+def tool_deviation(
+    setup: Setup, tool: ToolInView | Absent, vertebra: PlacedVertebra | Absent
+) -> Deviation | Absent:
     """The tool's deviation from the channel, or why it is not known."""
     if isinstance(tool, Absent):
         return tool
     if isinstance(setup.channel, Absent):
         return setup.channel
-    if isinstance(setup.camera_from_vertebra, Absent):
-        return setup.camera_from_vertebra
-    return deviation_from_channel(setup.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel)
+    if isinstance(vertebra, Absent):
+        return vertebra
+    if setup.withheld is not None:
+        return Absent(reason=setup.withheld)
+    return deviation_from_channel(
+        vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel
+    )
 
 
 def navigate(
@@ -168,6 +245,7 @@ def navigate(
     Where a tool's pose was steadied (`Steadying`), everything that is said of the tool comes from that pose.
     """
     steady = steadied or {}
+    vertebra = placed_vertebra(setup, sightings)
     tools = {
         name: tool_in_view(setup, tool, sightings[tool.marker], steady.get(name))
         for name, tool in setup.tools.items()
@@ -178,8 +256,9 @@ def navigate(
         size_wh_px=size_wh_px,
         setup=setup,
         sightings=sightings,
+        vertebra=vertebra,
         tools=tools,
-        deviations={name: tool_deviation(setup, tool) for name, tool in tools.items()},
+        deviations={name: tool_deviation(setup, tool, vertebra) for name, tool in tools.items()},
         stage_ms=stage_ms,
         skipped_images=skipped_images,
     )

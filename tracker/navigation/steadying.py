@@ -4,7 +4,7 @@ from collections import defaultdict
 from collections.abc import Mapping
 
 from tracker.navigation.deviation import Deviation
-from tracker.navigation.snapshot import Setup, tool_deviation, tool_in_view
+from tracker.navigation.snapshot import Setup, placed_vertebra, tool_deviation, tool_in_view
 from tracker.plan import Channel
 from tracker.pose import Seen, Sighting, Steady, SteadyPose, SteadySettings
 
@@ -23,6 +23,7 @@ class Steadying:
         if self._settings.lag_ms <= 0.0:
             return {}
         poses: dict[str, SteadyPose] = {}
+        vertebra = placed_vertebra(setup, sightings)
         for name, tool in setup.tools.items():
             sighting = sightings[tool.marker]
             if not isinstance(sighting, Seen):
@@ -31,7 +32,7 @@ class Steadying:
             pose = self._tools[name].take(
                 sighting.camera_from_marker, sighting.pose_covariance, at_s=captured_at_s
             )
-            deviation = tool_deviation(setup, tool_in_view(setup, tool, sighting))
+            deviation = tool_deviation(setup, tool_in_view(setup, tool, sighting), vertebra)
             near = (
                 isinstance(deviation, Deviation)
                 and isinstance(setup.channel, Channel)

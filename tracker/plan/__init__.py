@@ -10,6 +10,7 @@ from tracker.plan.document import (
     plan_from_mapping,
     plan_to_mapping,
 )
+from tracker.plan.landmark import Landmark
 from tracker.plan.pedicle import PedicleMeasure, PedicleSpread, measure_pedicle
 from tracker.plan.reference_slice import (
     ReferenceSlice,
@@ -31,6 +32,7 @@ from tracker.plan.volume import Volume
 
 __all__ = [
     "Channel",
+    "Landmark",
     "PedicleMeasure",
     "PedicleRecord",
     "PedicleSpread",

@@ -17,7 +17,7 @@ from server.imaging.nifti.header import (
     read_nifti_header,
     unpacked,
 )
-from server.imaging.plausible import said_of_values
+from server.imaging.plausible import refuse_beyond, said_of_values
 from server.imaging.voxels import LEAST_HU, MOST_HU, NOTHING_HU, Voxels, voxels_to_fill
 from tracker.errors import InvalidInput
 from tracker.plan import Volume
@@ -55,7 +55,8 @@ def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Pat
     """A NIfTI file as Hounsfield units in LPS mm; its axes stay, and the affine tells their directions.
 
     Raises:
-        InvalidInput: CT_VALUES_MISSING, CT_FILE_DAMAGED, or what `read_nifti_header` raises.
+        InvalidInput: CT_VALUES_MISSING, CT_VALUES_BEYOND, CT_FILE_DAMAGED, or what `read_nifti_header`
+            raises.
     """
     header = read_nifti_header(entry)
     columns, rows, slices = header.shape_ijk
@@ -67,6 +68,7 @@ def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Pat
         except BAD_NIFTI:
             raise damaged(entry, f"it does not hold its {columns} x {rows} x {slices} voxels") from None
         _check_missing(missing, voxels.hu.size)
+        refuse_beyond(beyond, voxels.hu.size)
     warnings = [*header.place.warnings, *said_of_values(voxels.hu)]
     if missing:
         warnings.append(f"{missing} voxels are no numbers (NaN) and were set to {NOTHING_HU} HU.")

@@ -15,6 +15,7 @@ from server.store import CaseStore
 from tracker.errors import PlanError
 from tracker.plan import (
     Channel,
+    Landmark,
     PlanDocument,
     ScrewCatalogue,
     Volume,
@@ -244,6 +245,13 @@ class PlanStep:
             )
 
         return self._change(by, change)
+
+    def set_landmarks(self, name: str, landmarks: Sequence[Landmark], by: Author) -> KeptPlan:
+        """These landmarks in place of the old ones; PlanError LANDMARK_TWICE or LANDMARK_OUTSIDE_CT."""
+        return self._change(
+            by,
+            lambda plan, volume: _refused_odd(changes.with_landmarks(plan, name, landmarks, volume=volume)),
+        )
 
     def _change(self, by: Author, change: Change) -> KeptPlan:
         return self.shelf.change(by.made_by, by.expected_version, lambda plan, ct: change(plan, ct.volume))

@@ -33,7 +33,7 @@ def unpack(ledger: Ledger, archive: Path) -> Case:
 
     Raises:
         InvalidInput: ARCHIVE_INVALID, ARCHIVE_NEWER.
-        StoreError: STORE_FULL.
+        DiskFull: STORE_FULL.
     """
     with told(ledger.home.folder), opened(archive) as parts:
         case, documents = _judged(parts)

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from server.alarms import AlarmDesk, ProcedureFacts
-from server.alarms.entries import Entry
-from server.alarms.log import Line
+from server.alarms.entries import Entry, Line
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot

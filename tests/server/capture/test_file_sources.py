@@ -5,6 +5,8 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 
 from server.capture.choose import source_from_config
@@ -13,6 +15,7 @@ from server.capture.shot import Shot, Source
 from server.capture.video_file import VideoFileSource
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
+from server.picture_file import decoded
 from tests.server.capture.filmed import cut_video, write_images, write_video
 
 
@@ -161,3 +164,24 @@ def test_a_pipe_is_told_and_not_waited_for(tmp_path: Path, stop: threading.Event
         video(pipe, stop=stop).open()
     assert caught.value.code == "VIDEO_FILE_UNREADABLE"
     assert "a pipe" in caught.value.message
+
+
+def test_images_that_say_to_be_turned_are_taken_as_the_camera_made_them(
+    tmp_path: Path, stop: threading.Event
+) -> None:
+    picture = np.zeros((12, 20, 3), np.uint8)
+    picture[:, :10] = 200
+    jpeg = cv2.imencode(".jpg", picture)[1].tobytes()
+    # EXIF's orientation 6: to be shown turned by a quarter.
+    exif = b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0"
+    turned = jpeg[:2] + b"\xff\xe1" + (len(exif) + 2).to_bytes(2, "big") + exif + jpeg[2:]
+    shown = cv2.imdecode(np.frombuffer(turned, np.uint8), cv2.IMREAD_COLOR)
+    assert shown is not None
+    assert shown.shape == (20, 12, 3)
+    (tmp_path / "1.jpg").write_bytes(turned)
+    (shot,) = read_all(FolderSource(tmp_path, loop=False, fast=True, stop=stop))
+    assert shot.image.shape == (12, 20, 3)
+    # Calibration decodes by the same function, so the camera's numbers hold for what is tracked.
+    calibrated = decoded(turned)
+    assert calibrated is not None
+    assert np.array_equal(shot.image, calibrated)

@@ -1,5 +1,6 @@
 """Work for jobs to do."""
 
+import errno
 import math
 import os
 import signal
@@ -45,3 +46,7 @@ def never_end(report: Report, *, folder: str) -> None:
     (Path(folder) / "half").write_bytes(b"half")
     report(0.25, "waiting")
     threading.Event().wait()
+
+
+def fill_the_disk(_report: Report, *, folder: str) -> None:
+    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), f"{folder}/surface.ply")

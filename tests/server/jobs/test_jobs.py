@@ -1,6 +1,7 @@
 """Long work in processes of its own: progress, result, failure, cancelling, a violent end."""
 
 import os
+import shutil
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -146,3 +147,14 @@ def test_an_unknown_job_is_told(jobs: Jobs) -> None:
     for ask in (jobs.get, jobs.cancel):
         with pytest.raises(JobUnknown, match="there is no job nothing"):
             ask("nothing")
+
+
+def test_a_disk_that_becomes_full_is_told_with_what_is_free(jobs: Jobs, folder: Path) -> None:
+    job = jobs.wait_for(
+        jobs.start("filling", labour.fill_the_disk, {"folder": str(folder)}, folder=folder).id
+    )
+    assert job.trouble is not None
+    assert job.trouble.code == "STORE_FULL"
+    assert "MB are free" in job.trouble.message
+    assert job.trouble.context["free_bytes"] == pytest.approx(shutil.disk_usage(folder.parent).free, rel=0.05)
+    assert not folder.exists()

@@ -25,8 +25,7 @@ def made_setup() -> Setup:
         camera_calibrated=False,
         tools={},
         channel=Absent(reason=AbsentReason.NO_PLAN),
-        camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED),
-        registered_by="",
+        registration=Absent(reason=AbsentReason.NOT_REGISTERED),
     )
 
 

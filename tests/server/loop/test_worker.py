@@ -75,8 +75,8 @@ class Prepared(Preparation):
             models=(),
             tools={},
             channel=setup.channel,
-            camera_from_vertebra=setup.camera_from_vertebra,
-            registered_by="",
+            registration=setup.registration,
+            reference=setup.reference,
             score_settings=ScoreSettings(),
             most_tip_sd_mm=3.0,
         )

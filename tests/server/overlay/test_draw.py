@@ -76,8 +76,8 @@ def test_the_drill_is_drawn_where_it_is(snapshot_of: SnapshotOf) -> None:
 
 def test_the_channel_is_drawn_where_it_is_planned(snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(seen=False)
-    place = snapshot.setup.camera_from_vertebra
-    assert not isinstance(place, Absent)
+    assert not isinstance(snapshot.vertebra, Absent)
+    place = snapshot.vertebra.camera_from_vertebra
     drawn = draw_overlay(grey(), snapshot)
     turn = np.linspace(0, 2 * np.pi, 40, endpoint=False)
     for depth_mm in (0.0, 40.0):

@@ -16,10 +16,11 @@ from starlette.routing import Route
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.scene import mount_scene
 from tracker.camera import CameraModel
-from tracker.geometry import Rigid, Tool, Vertebra, rotation_between
+from tracker.geometry import Camera, Rigid, Tool, Vertebra, rotation_between
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
 from tracker.plan import Channel, Surface
 from tracker.pose import Seen, Sighting, ToolModel, Unseen, UnseenReason
+from tracker.registration import Registration
 
 PARENT = """<!doctype html><title>parent</title><body style="margin:0;background:#222">
 <script>
@@ -70,14 +71,20 @@ class Theatre:
 
     def sighting(self, tip_z_mm: float) -> Seen:
         """The marker where it must be for the drill to stand there."""
-        channel, registration = self.setup.channel, self.setup.camera_from_vertebra
+        channel, registration = self.setup.channel, self.setup.registration
         assert isinstance(channel, Channel)
-        assert isinstance(registration, Rigid)
+        assert isinstance(registration, Registration)
+        anchor = registration.anchor_from_vertebra
+        camera_from_vertebra: Rigid[Camera, Vertebra] = Rigid(
+            rotation=anchor.rotation, translation_mm=anchor.translation_mm
+        )
         vertebra_from_tool: Rigid[Vertebra, Tool] = Rigid(
             rotation=rotation_between([0, 0, 1], channel.axis_in_vertebra),
             translation_mm=channel.entry_in_vertebra_mm - channel.axis_in_vertebra * tip_z_mm,
         )
-        marker = registration @ vertebra_from_tool @ self.setup.tools["drill"].marker_from_tool.inverse
+        marker = (
+            camera_from_vertebra @ vertebra_from_tool @ self.setup.tools["drill"].marker_from_tool.inverse
+        )
         return Seen(
             camera_from_marker=marker,
             pose_covariance=np.eye(6) * 1e-4,
@@ -93,7 +100,7 @@ class Theatre:
     def unregistered(self) -> "Theatre":
         """The same before registration."""
         return replace(
-            self, setup=replace(self.setup, camera_from_vertebra=Absent(reason=AbsentReason.NOT_REGISTERED))
+            self, setup=replace(self.setup, registration=Absent(reason=AbsentReason.NOT_REGISTERED))
         )
 
 
@@ -123,8 +130,9 @@ def make_theatre() -> Theatre:
             target_in_vertebra_mm=np.array([6.0, -20.0, 2.0]),
             radius_mm=3.5,
         ),
-        camera_from_vertebra=Rigid(rotation=rotation, translation_mm=np.array([0.0, 0.0, 400.0])),
-        registered_by="made up",
+        registration=Registration.known_to_camera(
+            Rigid(rotation=rotation, translation_mm=np.array([0.0, 0.0, 400.0]))
+        ),
     )
     return Theatre(setup=setup, surface=block((0.0, -6.0, 0.0), (24.0, 24.0, 14.0)))
 

@@ -164,7 +164,7 @@ def test_before_registration_neither_bone_nor_channel_is_drawn(theatre: Theatre)
 
 def test_registration_brings_bone_and_channel_and_moves_to_the_vertebras_frame(theatre: Theatre) -> None:
     before = theatre.unregistered()
-    assert isinstance(before.setup.camera_from_vertebra, Absent)
+    assert isinstance(before.setup.registration, Absent)
 
     async def play(stage: Stage, viewer: Viewer) -> None:
         await viewer.batches.get()

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from server.disk import DiskFull
 from server.store import Case, CaseStore, DocumentKind, Home, OutOfDate, StoreConflict, StoreError
 from tracker.errors import InvalidInput
 
@@ -218,8 +219,8 @@ def test_a_case_without_room_is_refused_before_it_is_unpacked(
     store: CaseStore, case: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     archive = store.copy_out(case.id)
-    monkeypatch.setattr("server.store.home.SPARE_BYTES", 2**60)
-    with pytest.raises(StoreError) as full:
+    monkeypatch.setattr("server.disk.SPARE_BYTES", 2**60)
+    with pytest.raises(DiskFull) as full:
         store.copy_in(archive.path)
     assert full.value.code == "STORE_FULL"
     assert store.list() == (store.get(case.id),)

@@ -8,17 +8,19 @@ import pytest
 from tests.tracker.scenes import camera_of, corners_px_of, facing
 from tracker import PlanError, Seen, Sighting, ToolModel, Unseen, UnseenReason
 from tracker.errors import InvalidInput
-from tracker.geometry import Camera, Rigid, Tool, Vertebra, point_covariance_mm2, rotation_from_vector
+from tracker.geometry import Rigid, Tool, Vertebra, point_covariance_mm2, rotation_from_vector
 from tracker.navigation import (
     Absent,
     AbsentReason,
     NavigationSnapshot,
+    PlacedVertebra,
     Setup,
     ToolInView,
     deviation_from_channel,
     navigate,
 )
 from tracker.plan import Channel
+from tracker.registration import Registration
 
 # From the origin 40 mm along +y.
 CHANNEL = Channel(
@@ -92,7 +94,8 @@ def test_the_deviation_does_not_depend_on_where_the_patient_lies() -> None:
     )
     drill = _drill((2.0, 11.0, -1.0), (0.1, 1.0, -0.2))
     here, there = deviation_from_channel(drill, CHANNEL), deviation_from_channel(move @ drill, moved)
-    for name in here.__slots__:
+    # What is told in the patient's own directions turns with the patient, of course.
+    for name in ("entry_offset_mm", "angle_deg", "depth_mm", "remaining_mm", "tip_offset_mm"):
         assert getattr(there, name) == pytest.approx(getattr(here, name), abs=1e-9)
 
 
@@ -181,8 +184,7 @@ SETUP = Setup(
     camera_calibrated=True,
     tools={"drill": TOOL},
     channel=CHANNEL,
-    camera_from_vertebra=Rigid.from_vector([1.0, 0.2, -0.4], [10, 60, 500]),
-    registered_by="the test",
+    registration=Registration.known_to_camera(Rigid.from_vector([1.0, 0.2, -0.4], [10, 60, 500])),
 )
 
 
@@ -222,14 +224,14 @@ NOT_REGISTERED = Absent(reason=AbsentReason.NOT_REGISTERED)
         ),
         pytest.param(replace(SETUP, channel=NO_PLAN), SEEN, None, "NO_PLAN", id="no plan"),
         pytest.param(
-            replace(SETUP, camera_from_vertebra=NOT_REGISTERED),
+            replace(SETUP, registration=NOT_REGISTERED),
             SEEN,
             None,
             "NOT_REGISTERED",
             id="not registered",
         ),
         pytest.param(
-            replace(SETUP, channel=NO_PLAN, camera_from_vertebra=NOT_REGISTERED),
+            replace(SETUP, channel=NO_PLAN, registration=NOT_REGISTERED),
             UNSEEN,
             "MARKER_UNSEEN",
             "MARKER_UNSEEN",
@@ -271,9 +273,10 @@ def test_one_snapshot_is_made_of_one_pose() -> None:
         tool.tip_covariance_mm2,
         point_covariance_mm2(CAMERA_FROM_MARKER, SEEN.pose_covariance, [0, -120, -10]),
     )
-    assert isinstance(SETUP.camera_from_vertebra, Rigid)
-    placed: Rigid[Camera, Vertebra] = SETUP.camera_from_vertebra
-    assert deviation == deviation_from_channel(placed.inverse @ tool.camera_from_tool, CHANNEL)
+    assert isinstance(snapshot.vertebra, PlacedVertebra)
+    assert deviation == deviation_from_channel(
+        snapshot.vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, CHANNEL
+    )
     assert (snapshot.image_number, snapshot.captured_at_s, snapshot.size_wh_px) == (41, 1.375, (640, 480))
     assert (snapshot.skipped_images, snapshot.stage_ms) == (3, {"edges": 2.0})
     assert snapshot.setup is SETUP

@@ -91,9 +91,9 @@ def test_the_numbers_are_those_of_the_pose_that_is_drawn() -> None:
     tool, setup = snapshot.tools["drill"], snapshot.setup
     assert isinstance(tool, ToolInView)
     assert isinstance(setup.channel, Channel)
-    assert not isinstance(setup.camera_from_vertebra, Absent)
+    assert not isinstance(snapshot.vertebra, Absent)
     assert snapshot.deviations["drill"] == deviation_from_channel(
-        setup.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel
+        snapshot.vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel
     )
 
 
@@ -148,5 +148,9 @@ def test_the_gap_is_the_distance_from_the_surface_of_the_channel(
         depth_mm=depth_mm,
         remaining_mm=40.0 - depth_mm,
         tip_offset_mm=offset_mm,
+        entry_lateral_mm=0.0,
+        entry_cranial_mm=0.0,
+        transverse_deg=0.0,
+        sagittal_deg=0.0,
     )
     assert wall_gap_mm(deviation, CHANNEL) == pytest.approx(gap_mm)

@@ -10,6 +10,7 @@ import pytest
 from tests.tracker.plan.test_screw import pedicle, shifted
 from tracker.errors import PlanError
 from tracker.plan import (
+    Landmark,
     PedicleRecord,
     PlanDocument,
     PlannedChannel,
@@ -22,8 +23,9 @@ from tracker.plan import (
     propose_middle,
     propose_slice,
 )
-from tracker.plan.document import refuse_odd
-from tracker.plan.document.changes import channel_name
+from tracker.plan.document import FORMAT_VERSION, refuse_odd
+from tracker.plan.document.changes import channel_name, settled, with_landmarks
+from tracker.plan.document.checks import MOST_LANDMARKS
 
 
 def volume() -> Volume:
@@ -42,6 +44,7 @@ def document() -> PlanDocument:
         references=(reference,),
         pedicles=(PedicleRecord(measured=pedicle(), corrected={"width_mm": 7.5}),),
         channels=(PlannedChannel(side="left", channel=shifted(0.0), by_hand=True, screws=(screw,)),),
+        landmarks=(Landmark(name="spinous process", point_lps_mm=np.array([-14.0, 30.0, -10.0])),),
     )
     return PlanDocument(vertebrae=(vertebra, VertebraPlan(name="L4")))
 
@@ -92,6 +95,18 @@ FIRST = ("vertebrae", 0)
             "cannot be read",
             id="2-d",
         ),
+        pytest.param(changed((*FIRST, "landmarks", 0, "name"), " "), "needed a name", id="nameless-landmark"),
+        pytest.param(
+            changed((*FIRST, "landmarks", 0, "point_lps_mm"), [1.0, 2.0]), "shape (2,)", id="landmark-in-2-d"
+        ),
+        pytest.param(
+            changed(
+                (*FIRST, "landmarks"),
+                [{"name": name, "point_lps_mm": [0.0, 0.0, 0.0]} for name in ("SAP left", "sap  Left ")],
+            ),
+            "'sap left' is there 2 times",
+            id="one-landmark-twice",
+        ),
     ],
 )
 def test_a_plan_that_cannot_be_read_is_refused_with_the_place(mapped: object, said: str) -> None:
@@ -118,6 +133,50 @@ def test_what_is_refused_is_not_repeated_at_length(mapped: object) -> None:
     assert len(str(caught.value.context)) < 500
 
 
+def test_a_plan_of_the_first_version_is_read_as_one_without_landmarks() -> None:
+    old = changed(("format_version",), 1)
+    for vertebra in old["vertebrae"]:
+        del vertebra["landmarks"]
+    plan = plan_from_mapping(old)
+    assert plan.vertebrae[0].landmarks == ()
+    assert plan_to_mapping(plan)["format_version"] == FORMAT_VERSION
+    assert [one.name for one in plan.vertebrae] == ["L3", "L4"]
+
+
+def test_landmarks_are_replaced_as_a_whole_and_leave_all_else_alone() -> None:
+    points = {"tip of the spinous process": [-14.0, 30.0, -10.0], "left mammillary process": [9.0, 2.0, -4.0]}
+    landmarks = [Landmark(name=name, point_lps_mm=np.array(at)) for name, at in points.items()]
+    plan = with_landmarks(document(), "L3", landmarks, volume=volume())
+    assert {one.name: one.point_lps_mm.tolist() for one in plan.vertebrae[0].landmarks} == points
+    emptied = with_landmarks(plan, "L3", [], volume=volume())
+    without = dataclasses.replace(document().vertebrae[0], landmarks=())
+    assert (
+        plan_to_mapping(emptied)["vertebrae"][0]
+        == plan_to_mapping(PlanDocument(vertebrae=(without,)))["vertebrae"][0]
+    )
+
+
+def test_a_landmark_beside_the_ct_is_refused_in_a_change_and_in_a_whole_plan() -> None:
+    far = Landmark(name="tip", point_lps_mm=np.array([0.0, 0.0, 400.0]))
+    with pytest.raises(PlanError, match=r"'tip' was set at \(0.0, 0.0, 400.0\) mm") as caught:
+        with_landmarks(document(), "L3", [far], volume=volume())
+    assert caught.value.code == "LANDMARK_OUTSIDE_CT"
+    plan = PlanDocument(vertebrae=(VertebraPlan(name="L3", landmarks=(far,)),))
+    with pytest.raises(PlanError, match="not within the CT"):
+        settled(plan, volume=volume())
+
+
+@pytest.mark.parametrize("count", [41, 40])
+def test_more_landmarks_than_anybody_sets_are_refused(count: int) -> None:
+    landmarks = tuple(Landmark(name=f"{n}", point_lps_mm=np.zeros(3)) for n in range(count))
+    plan = PlanDocument(vertebrae=(VertebraPlan(name="L3", landmarks=landmarks),))
+    if count <= MOST_LANDMARKS:
+        refuse_odd(plan)
+    else:
+        with pytest.raises(PlanError, match="41 landmarks"):
+            refuse_odd(plan)
+
+
 @pytest.mark.parametrize("name", ["L4/5", "..", ".", "L4\u202e", "L" * 41, ""])
 def test_a_vertebra_that_no_address_could_name_is_refused(name: str) -> None:
     with pytest.raises(PlanError):
@@ -128,7 +187,10 @@ def test_a_channel_is_called_after_the_longest_name_of_a_vertebra() -> None:
     name = "L" * 40
     channel = dataclasses.replace(shifted(0.0), name=channel_name(name, "right"))
     planned = PlannedChannel(side="right", channel=channel)
-    refuse_odd(PlanDocument(vertebrae=(VertebraPlan(name=name, channels=(planned,)),)))
+    plan = PlanDocument(vertebrae=(VertebraPlan(name=name, channels=(planned,)),))
+    refuse_odd(plan)
+    back = plan_from_mapping(json.loads(json.dumps(plan_to_mapping(plan))))
+    assert back.vertebrae[0].channels[0].channel.name == f"{'L' * 40} right"
 
 
 @pytest.mark.parametrize("middle", [(9000.0, 0.0, 0.0), (-14.0, 60.0, 0.0)])

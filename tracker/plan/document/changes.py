@@ -1,7 +1,7 @@
 """One change of a plan at a time; what follows from it is worked out anew, and the rest stays."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ from tracker.geometry import Array
 from tracker.plan.channel import Channel
 from tracker.plan.document.corrections import PedicleRecord
 from tracker.plan.document.records import PlanDocument, PlannedChannel, VertebraPlan
+from tracker.plan.landmark import Landmark, refuse_landmarks_outside
 from tracker.plan.pedicle import PedicleMeasure, Side
 from tracker.plan.reference_slice import AHEAD_MM, BEHIND_MM, ReferenceSlice, draw_reference
 from tracker.plan.screw import ScrewPlan, channel_from_measure, plan_screw
@@ -194,6 +195,19 @@ def with_reference(
     return _with(plan, dataclasses.replace(vertebra, references=(reference,)))
 
 
+def with_landmarks(
+    plan: PlanDocument, name: str, landmarks: Sequence[Landmark], *, volume: Volume
+) -> PlanDocument:
+    """These landmarks in place of those that were there; none takes them all out.
+
+    Raises:
+        PlanError: VERTEBRA_UNKNOWN, LANDMARK_TWICE, LANDMARK_OUTSIDE_CT.
+    """
+    changed = dataclasses.replace(vertebra_named(plan, name), landmarks=tuple(landmarks))
+    refuse_landmarks_outside(changed.landmarks, volume)
+    return _with(plan, changed)
+
+
 def settled(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
     """A plan from elsewhere with everything worked out anew that follows from its other numbers.
 
@@ -201,10 +215,12 @@ def settled(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
     and the sizes of the screws, on this CT.
 
     Raises:
-        PlanError: CHANNEL_OUTSIDE_CT, PEDICLE_MISSING, SLICE_OUTSIDE_CT, LINES_INVALID, SCREW_INVALID.
+        PlanError: CHANNEL_OUTSIDE_CT, LANDMARK_OUTSIDE_CT, PEDICLE_MISSING, SLICE_OUTSIDE_CT, LINES_INVALID,
+            SCREW_INVALID.
     """
     vertebrae = []
     for vertebra in plan.vertebrae:
+        refuse_landmarks_outside(vertebra.landmarks, volume)
         changed = vertebra
         for planned in vertebra.channels:
             refuse_outside(planned.channel, volume)

@@ -9,6 +9,7 @@ from tracker.geometry import Array
 from tracker.plan.channel import Channel
 from tracker.plan.document.corrections import CORRECTABLE
 from tracker.plan.document.records import PlanDocument, VertebraPlan
+from tracker.plan.landmark import Landmark
 from tracker.plan.pedicle import PedicleMeasure
 from tracker.plan.reference_slice import ReferenceSlice
 
@@ -16,6 +17,7 @@ MOST_VERTEBRAE, LONGEST_NAME = 30, 40
 # A channel is called after its vertebra and its side.
 LONGEST_CHANNEL_NAME = LONGEST_NAME + len(" right")
 MOST_WARNINGS, LONGEST_WARNING = 50, 500
+MOST_LANDMARKS, LONGEST_LANDMARK_NAME = 40, 60
 OUTLINE_POINTS = (6, 5000)
 FARTHEST_MM = 10_000.0
 LONGEST_CHANNEL_MM, WIDEST_RADIUS_MM = 150.0, 20.0
@@ -59,6 +61,10 @@ def _in_vertebra(vertebra: VertebraPlan, where: str) -> Iterator[tuple[str, str]
         yield from _in_channel(planned.channel, f"{where}, {planned.side} channel,")
     for reference in vertebra.references:
         yield from _in_reference(reference, f"{where}, reference slice,")
+    if len(vertebra.landmarks) > MOST_LANDMARKS:
+        yield where, f"has {len(vertebra.landmarks)} landmarks, allowed {MOST_LANDMARKS}"
+    for n, landmark in enumerate(vertebra.landmarks):
+        yield from _in_landmark(landmark, f"{where}, landmark {n + 1},")
 
 
 def _in_measure(measure: PedicleMeasure, where: str) -> Iterator[tuple[str, str]]:
@@ -107,6 +113,16 @@ def _in_reference(reference: ReferenceSlice, where: str) -> Iterator[tuple[str, 
     for line in (*reference.lines, *reference.paths):
         yield from _is_shaped(line.ends_lps_mm, (2, 3), where)
         yield from _is_shaped(line.ends_px, (2, 2), where)
+
+
+def _in_landmark(landmark: Landmark, where: str) -> Iterator[tuple[str, str]]:
+    yield from _is_shaped(landmark.point_lps_mm, (3,), where)
+    if not _is_name(landmark.name, LONGEST_LANDMARK_NAME):
+        yield (
+            where,
+            f"has a name of {len(landmark.name)} letters, allowed 1 to {LONGEST_LANDMARK_NAME} printable "
+            "ones",
+        )
 
 
 def _is_shaped(array: Array, shape: tuple[int, ...], where: str) -> Iterator[tuple[str, str]]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from tracker.errors import NavigationError, PlanError
 from tracker.plan.channel import Channel
-from tracker.plan.document.records import FORMAT_VERSION, PlanDocument
+from tracker.plan.document.records import FORMAT_VERSION, READABLE_VERSIONS, PlanDocument
 from tracker.plan.pedicle import PedicleMeasure
 
 LARGEST = 1e300
@@ -46,16 +46,24 @@ def plan_from_mapping(mapped: object) -> PlanDocument:
         PlanError: PLAN_INVALID, a key is missing, unknown or of a wrong kind; PLAN_VERSION_UNKNOWN; or what
             a record refuses.
     """
-    if isinstance(mapped, Mapping) and mapped.get("format_version") != FORMAT_VERSION:
-        raise PlanError(
-            "PLAN_VERSION_UNKNOWN",
-            f"the plan has format version {repr(mapped.get('format_version'))[:20]}, "
-            f"this program reads {FORMAT_VERSION}",
-            "Open it with the program that wrote it, or plan again.",
-        )
+    if isinstance(mapped, Mapping):
+        mapped = _in_newest_version(mapped)
     plan = _read(PlanDocument, mapped, "plan")
     assert isinstance(plan, PlanDocument)  # noqa: S101  what was asked for; said for the type checker
     return plan
+
+
+def _in_newest_version(mapped: Mapping[str, object]) -> Mapping[str, object]:
+    """What an older program wrote, as this one writes it."""
+    version = mapped.get("format_version")
+    if type(version) is not int or version not in READABLE_VERSIONS:
+        raise PlanError(
+            "PLAN_VERSION_UNKNOWN",
+            f"the plan has format version {repr(version)[:20]}, "
+            f"this program reads {' and '.join(map(str, READABLE_VERSIONS))}",
+            "Open it with the program that wrote it, or plan again.",
+        )
+    return {**mapped, "format_version": FORMAT_VERSION}
 
 
 def measure_from_mapping(mapped: object) -> PedicleMeasure:

@@ -5,11 +5,13 @@ from dataclasses import dataclass
 from tracker.errors import PlanError
 from tracker.plan.channel import Channel
 from tracker.plan.document.corrections import PedicleRecord
+from tracker.plan.landmark import Landmark, refuse_twins
 from tracker.plan.pedicle import Side
 from tracker.plan.reference_slice import ReferenceSlice
 from tracker.plan.screw import ScrewPlan
 
-FORMAT_VERSION = 1
+# 2 brought the landmarks; what 1 holds is read as having none.
+FORMAT_VERSION, READABLE_VERSIONS = 2, (1, 2)
 MOST_CHANNELS = 2
 
 
@@ -32,22 +34,25 @@ class PlannedChannel:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VertebraPlan:
-    """One vertebra: its reference slice, its pedicles and its channels, at most one of each to a side.
+    """One vertebra: its reference slice, its landmarks, and to a side at most one pedicle and one channel.
 
     Attributes:
         name: `L3`.
         references: none or one reference slice.
         pedicles: as measured and corrected.
         channels: one or two.
+        landmarks: points to register by; names differ.
 
     Raises:
-        PlanError: VERTEBRA_INVALID, its name is empty, or a side has two pedicles, channels or screws.
+        PlanError: VERTEBRA_INVALID, its name is empty, or a side has two pedicles, channels or screws;
+            LANDMARK_TWICE.
     """
 
     name: str
     references: tuple[ReferenceSlice, ...] = ()
     pedicles: tuple[PedicleRecord, ...] = ()
     channels: tuple[PlannedChannel, ...] = ()
+    landmarks: tuple[Landmark, ...] = ()
 
     def __post_init__(self) -> None:
         sides = [record.measured.side for record in self.pedicles]
@@ -68,6 +73,7 @@ class VertebraPlan:
                 "Take away what is there twice.",
                 {"name": self.name[:40]},
             )
+        refuse_twins(self.landmarks)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -24,31 +24,37 @@ Outcome: TypeAlias = PivotCalibration | SpinCalibration | TipCheck
 class Purpose(StrEnum):
     """What poses are gathered for."""
 
-    PIVOT = "PIVOT"
-    SPIN = "SPIN"
-    TIP_CHECK = "TIP_CHECK"
+    PIVOT = "pivot"
+    SPIN = "spin"
+    TIP_CHECK = "tip_check"
+
+    @classmethod
+    def _missing_(cls, value: object) -> "Purpose | None":
+        """As it was written before, in capitals."""
+        return next((one for one in cls if isinstance(value, str) and one.value == value.lower()), None)
 
 
 class Taking(StrEnum):
     """What became of an image."""
 
-    TAKEN = "TAKEN"
-    NOT_SEEN = "NOT_SEEN"  # the marker is not seen in it
-    TOO_UNCERTAIN = "TOO_UNCERTAIN"  # its pose is too unsure
-    ALONE = "ALONE"  # no image shortly before shows whether the pose is one that a hand can reach
-    JUMPED = "JUMPED"  # farther from the image before than a hand moves: one of both is wrong
-    NOTHING_NEW = "NOTHING_NEW"  # the tool is turned as in a pose that was taken
-    FULL = "FULL"  # enough for any calibration
+    TAKEN = "taken"
+    NO_PICTURE = "no_picture"  # there is no image at all: the camera or the tracking has stopped
+    NOT_SEEN = "not_seen"  # the marker is not seen in it
+    TOO_UNCERTAIN = "too_uncertain"  # its pose is too unsure
+    ALONE = "alone"  # no image shortly before shows whether the pose is one that a hand can reach
+    JUMPED = "jumped"  # farther from the image before than a hand moves: one of both is wrong
+    NOTHING_NEW = "nothing_new"  # the tool is turned as in a pose that was taken
+    FULL = "full"  # enough for any calibration
 
 
 class Need(StrEnum):
     """What is still missing."""
 
-    MORE_POSES = "MORE_POSES"
-    TILT_MORE = "TILT_MORE"  # to both sides
-    TILT_ACROSS = "TILT_ACROSS"  # at right angles to the way in which it was tilted most
-    SPIN_MORE = "SPIN_MORE"
-    BETTER_RESULT = "BETTER_RESULT"  # all was done, and the result is not good enough
+    MORE_POSES = "more_poses"
+    TILT_MORE = "tilt_more"  # to both sides
+    TILT_ACROSS = "tilt_across"  # at right angles to the way in which it was tilted most
+    SPIN_MORE = "spin_more"
+    BETTER_RESULT = "better_result"  # all was done, and the result is not good enough
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,12 +1,12 @@
 """The instrument behind its marker."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
 from tracker.errors import InvalidInput
-from tracker.geometry import Marker, Rigid, Tool, rotation_between
+from tracker.geometry import Array, Marker, Rigid, Tool, rotation_between
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -19,6 +19,8 @@ class ToolModel:
         marker_from_tool: the tip (origin) and the drilling direction (+z) in the marker's frame.
         radius_mm: radius of the drill's cylinder.
         length_mm: length of the cylinder from the tip backwards.
+        tip_covariance_mm2: (3, 3) of the tip in the marker's frame; 0 where a drawing says where it is.
+        axis_sd_deg: standard deviation of the drilling direction, about each of two axes across it.
     """
 
     name: str
@@ -26,6 +28,13 @@ class ToolModel:
     marker_from_tool: Rigid[Marker, Tool]
     radius_mm: float
     length_mm: float
+    tip_covariance_mm2: Array = field(default_factory=lambda: np.zeros((3, 3)))
+    axis_sd_deg: float = 0.0
+
+    def __post_init__(self) -> None:
+        covariance = np.array(self.tip_covariance_mm2, dtype=np.float64).reshape(3, 3)
+        covariance.setflags(write=False)
+        object.__setattr__(self, "tip_covariance_mm2", covariance)
 
     @classmethod
     def from_tip_and_axis(
@@ -37,6 +46,8 @@ class ToolModel:
         axis_in_marker: npt.ArrayLike,
         radius_mm: float,
         length_mm: float,
+        tip_covariance_mm2: npt.ArrayLike | None = None,
+        axis_sd_deg: float = 0.0,
     ) -> "ToolModel":
         """From the tip (3,) in mm and the drilling direction (3,) of any length, both in the marker's frame.
 
@@ -59,4 +70,8 @@ class ToolModel:
             ),
             radius_mm=radius_mm,
             length_mm=length_mm,
+            tip_covariance_mm2=np.zeros((3, 3))
+            if tip_covariance_mm2 is None
+            else np.array(tip_covariance_mm2),
+            axis_sd_deg=axis_sd_deg,
         )

@@ -133,11 +133,31 @@ export const de: Words = {
     },
     NOT_REGISTERED: {
       state: "NICHT REGISTRIERT",
-      sentence: "Plan und Patient kennen einander nicht. Bisher bringt das nur die Probe mit.",
+      sentence: "Plan und Patient kennen einander nicht: bitte registrieren.",
     },
     NO_PLAN: {
       state: "KEIN PLAN",
-      sentence: "Es gibt keinen geplanten Kanal. Bisher bringt nur die Probe einen mit.",
+      sentence: "Es gibt keinen geplanten Kanal: im CT planen.",
+    },
+    REFERENCE_UNSEEN: {
+      state: "PATIENT NICHT GESEHEN",
+      sentence: "Der Marker am Patienten wird nicht gesehen. Sicht freimachen oder abwischen.",
+    },
+    CAMERA_MOVED: {
+      state: "KAMERA BEWEGT",
+      sentence: "Die Kamera steht anders als bei der Registrierung. Neu registrieren.",
+    },
+    REFERENCE_MOVED: {
+      state: "PATIENT BEWEGT",
+      sentence: "Der Patient oder sein Marker hat sich bewegt. An einer Landmarke prüfen oder neu registrieren.",
+    },
+    POSE_JUMPED: {
+      state: "POSE GESPRUNGEN",
+      sentence: "Der Bohrer scheint weiter bewegt, als eine Hand kann. Kurz ruhig halten.",
+    },
+    NOT_CHECKED: {
+      state: "NICHT GEPRÜFT",
+      sentence: "Registriert, aber noch nicht an einer Landmarke geprüft. Zum Prüfen eine berühren.",
     },
     REFERENCE_UNSEEN: {
       state: "PATIENT NICHT GESEHEN",

@@ -123,11 +123,31 @@ export const en: Words = {
     },
     NOT_REGISTERED: {
       state: "NOT REGISTERED",
-      sentence: "Plan and patient do not know each other. So far only the rehearsal brings that.",
+      sentence: "Plan and patient do not know each other: register them.",
     },
     NO_PLAN: {
       state: "NO PLAN",
-      sentence: "There is no planned channel. So far only the rehearsal brings one.",
+      sentence: "There is no planned channel: plan one on the CT.",
+    },
+    REFERENCE_UNSEEN: {
+      state: "PATIENT NOT SEEN",
+      sentence: "The marker on the patient is not seen. Clear its view, or wipe it.",
+    },
+    CAMERA_MOVED: {
+      state: "CAMERA MOVED",
+      sentence: "The camera stands elsewhere than when plan and patient were registered. Register again.",
+    },
+    REFERENCE_MOVED: {
+      state: "PATIENT MOVED",
+      sentence: "The patient moved, or the marker on the patient. Check on a landmark, or register again.",
+    },
+    POSE_JUMPED: {
+      state: "POSE JUMPED",
+      sentence: "The drill seems to have moved farther than a hand can. Hold it still for a moment.",
+    },
+    NOT_CHECKED: {
+      state: "NOT CHECKED",
+      sentence: "Registered, but not yet held against a landmark. Touch one to check.",
     },
     REFERENCE_UNSEEN: {
       state: "PATIENT NOT SEEN",

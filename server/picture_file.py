@@ -1,4 +1,4 @@
-"""A picture of a board, decoded as the camera made it."""
+"""A picture out of a file, decoded as the camera made it: in one way for calibration and for tracking."""
 
 import cv2
 import numpy as np

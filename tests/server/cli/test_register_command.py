@@ -1,0 +1,172 @@
+"""`coaxial register points` as a person types it."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from server.cli import app
+from server.cli.landmark_rows import read_landmarks
+from tests.tracker.registration.constellations import VERTEBRA, touched
+from tracker.errors import InvalidInput, NavigationError
+
+
+def typed(*words: str | Path) -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["register", *(str(word) for word in words)])
+    if isinstance(result.exception, NavigationError):
+        # `server.cli.main` tells it, with status 2.
+        return 2, f"{result.exception.code}: {result.exception.message}"
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result.exit_code, result.stdout
+
+
+def written(path: Path, points: np.ndarray, header: str = "", names: str = "") -> Path:
+    rows = [",".join(f"{number:.9f}" for number in row) for row in points]
+    if names:
+        rows = [f"{name},{row}" for name, row in zip(names, rows, strict=True)]
+    path.write_text("\n".join(([header] if header else []) + rows) + "\n", encoding="utf-8")
+    return path
+
+
+def test_the_motion_and_its_errors_come_out_as_json(tmp_path: Path) -> None:
+    truth = touched(VERTEBRA, np.random.default_rng(1), 0.3)
+    fixed = written(tmp_path / "f.csv", truth.fixed_mm, "x,y,z")
+    moving = written(tmp_path / "m.csv", truth.moving_mm)
+    status, text = typed("points", "--fixed", fixed, "--moving", moving, "--target-mm", "-12,-30,4", "--json")
+    document = json.loads(text)
+    assert status == 0
+    motion = np.array(document["fixed_from_moving"])
+    off = truth.moving_mm @ motion[:3, :3].T + motion[:3, 3] - truth.fixed_mm
+    assert np.allclose(motion, truth.fixed_from_moving.matrix, atol=1.5)
+    assert document["residuals_mm"] == pytest.approx(np.linalg.norm(off, axis=1).tolist(), abs=1e-6)
+    assert document["fre_rms_mm"] == pytest.approx(np.sqrt((off**2).sum(axis=1).mean()), abs=1e-6)
+    assert 0.2 < document["tre_expected_mm"] < 0.8
+    assert document["targets"][0]["tre_stated_mm"] > document["tre_expected_mm"]
+    assert document["gate"] == {"passed": True, "failures": []}
+
+
+def test_several_targets_give_a_list_and_none_gives_nothing(tmp_path: Path) -> None:
+    fixed = written(tmp_path / "f.csv", VERTEBRA)
+    both = ("--target-mm", "0,0,0", "--target-mm=1 2 3")
+    assert (
+        len(json.loads(typed("points", "--fixed", fixed, "--moving", fixed, *both, "--json")[1])["targets"])
+        == 2
+    )
+    alone = json.loads(typed("points", "--fixed", fixed, "--moving", fixed, "--json")[1])
+    assert alone["tre_expected_mm"] is None
+
+
+def test_without_json_there_is_a_table_with_each_point(tmp_path: Path) -> None:
+    truth = touched(VERTEBRA, np.random.default_rng(2), 0.3)
+    fixed = written(tmp_path / "f.csv", truth.fixed_mm, "name,x,y,z", "abcdef")
+    moving = written(tmp_path / "m.csv", truth.moving_mm)
+    words = ("points", "--fixed", fixed, "--moving", moving, "--exclude", "c", "--target-mm", "0,0,0")
+    status, text = typed(*words)
+    assert status == 0
+    assert [line[0] for line in text.splitlines()[1:7]] == list("abcdef")
+    assert "not used" in text.splitlines()[3]
+    assert "At the target 0, 0, 0 mm" in text
+
+
+def test_names_bring_rows_into_order(tmp_path: Path) -> None:
+    fixed = written(tmp_path / "f.csv", VERTEBRA, "name,x,y,z", "abcdef")
+    moving = written(tmp_path / "m.csv", VERTEBRA[::-1], "", "fedcba")
+    status, text = typed("points", "--fixed", fixed, "--moving", moving, "--json")
+    assert status == 0
+    assert json.loads(text)["fre_rms_mm"] < 1e-6
+    other = written(tmp_path / "n.csv", VERTEBRA, "", "abcdeg")
+    assert typed("points", "--fixed", fixed, "--moving", other)[1].startswith(
+        "POINTS_NAMES_DIFFER: the points f, g"
+    )
+
+
+@pytest.mark.parametrize(
+    ("points", "code"),
+    [
+        pytest.param(VERTEBRA[:2], "POINTS_TOO_FEW", id="too-few"),
+        pytest.param(np.outer(range(5), [9.0, 4.0, 1.0]), "POINTS_COLLINEAR", id="a-line"),
+        pytest.param(VERTEBRA[[0, 2, 1, 3, 4, 5]], "POINTS_SWAPPED", id="swapped"),
+        pytest.param(VERTEBRA * [1.0, 1.0, -1.0], "POINTS_", id="mirrored"),
+    ],
+)
+def test_what_says_no_motion_ends_with_status_2(tmp_path: Path, points: np.ndarray, code: str) -> None:
+    fixed = written(tmp_path / "f.csv", VERTEBRA[: len(points)] if "LINEAR" not in code else points)
+    status, text = typed(
+        "points", "--fixed", fixed, "--moving", written(tmp_path / "m.csv", points), "--json"
+    )
+    assert status == 2
+    assert text.startswith(code)
+
+
+def test_a_limit_that_was_asked_for_ends_with_status_1(tmp_path: Path) -> None:
+    truth = touched(VERTEBRA, np.random.default_rng(3), 0.8)
+    fixed = written(tmp_path / "f.csv", truth.fixed_mm)
+    moving = written(tmp_path / "m.csv", truth.moving_mm)
+    words = ("points", "--fixed", fixed, "--moving", moving, "--json", "--target-mm", "0,-40,0")
+    assert typed(*words)[0] == 0
+    status, text = typed(*words, "--most-fre-mm", "0.2", "--most-tre-mm", "0.2")
+    assert status == 1
+    assert [one["code"] for one in json.loads(text)["gate"]["failures"]] == [
+        "POINTS_FIT_TOO_LARGE",
+        "POINTS_TARGET_UNCERTAIN",
+    ]
+
+
+@pytest.mark.parametrize("words", ["1,2", "1,2,x", "1,2,nan", "1,2,3,4", ""])
+def test_a_target_that_is_none_is_told(tmp_path: Path, words: str) -> None:
+    fixed = written(tmp_path / "f.csv", VERTEBRA)
+    status, text = typed("points", "--fixed", fixed, "--moving", fixed, f"--target-mm={words}")
+    assert (status, text.split(":")[0]) == (2, "TARGET_INVALID")
+
+
+@pytest.mark.parametrize(
+    ("text", "labels"),
+    [
+        pytest.param("1,2,3\n4,5,6.5\n", "", id="bare"),
+        pytest.param("\ufeffx,y,z\r\n1,2,3\r\n4,5,6.5\r\n", "", id="windows"),
+        pytest.param("# made by hand\nX_mm;Y_mm;Z_mm\n1;2;3\n\n4,0;5;6,5\n", "", id="decimal-commas"),
+        pytest.param("1 2 3\n4  5\t6.5\n".replace("\t", " "), "", id="blanks"),
+        pytest.param("x\ty\tz\n1\t2\t3\n4\t5\t6.5\n", "", id="tabs"),
+        pytest.param("a,1,2,3\nb,4,5,6.5\n", "ab", id="names-first"),
+        pytest.param("1,2,3,a\n4,5,6.5,b\n", "ab", id="names-last"),
+        pytest.param("1,1,2,3\n2,4,5,6.5\n", "12", id="counted"),
+        pytest.param("label,z,y,x,note\na,3,2,1,ok\nb,6.5,5,4,\n", "ab", id="other-order"),
+        pytest.param("first,second,third\n1,2,3\n4,5,6.5\n", "", id="a-header-of-no-use"),
+        pytest.param('"a","1.0","2.0","3.0"\n"b","4","5","6.5"\n', "ab", id="quoted"),
+        pytest.param("1,2,3,\n4,5,6.5,\n", "", id="comma-at-the-end"),
+    ],
+)
+def test_points_are_read_in_any_usual_form(tmp_path: Path, text: str, labels: str) -> None:
+    path = tmp_path / "p.csv"
+    path.write_bytes(text.encode())
+    found = read_landmarks(path)
+    assert found.points_mm.tolist() == [[1.0, 2.0, 3.0], [4.0, 5.0, 6.5]]
+    assert "".join(found.labels) == labels
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        pytest.param(b"", "POINTS_INCOMPLETE", id="empty"),
+        pytest.param(b"x,y,z\n", "POINTS_INCOMPLETE", id="only-a-header"),
+        pytest.param(b"1,2,3\n4,5\n", "POINTS_INVALID", id="a-short-line"),
+        pytest.param(b"1,2,3\n4,nan,6\n", "POINTS_INVALID", id="not-a-number"),
+        pytest.param(b"1,2,3\n4,inf,6\n", "POINTS_INVALID", id="infinite"),
+        pytest.param(b"1,2\n4,5\n", "POINTS_INVALID", id="flat"),
+        pytest.param(b"1,2,3,4,5\n4,5,6,7,8\n", "POINTS_INVALID", id="five-numbers"),
+        pytest.param(b"a,1,2,3\na,4,5,6\n", "POINTS_INVALID", id="a-name-twice"),
+        pytest.param(b"\x89PNG\0\xff\xfe\0", "POINTS_UNREADABLE", id="a-picture"),
+    ],
+)
+def test_what_is_no_list_of_points_is_told(tmp_path: Path, content: bytes, code: str) -> None:
+    path = tmp_path / "p.csv"
+    path.write_bytes(content)
+    with pytest.raises(InvalidInput) as caught:
+        read_landmarks(path)
+    assert caught.value.code == code
+
+
+def test_a_missing_file_is_told(tmp_path: Path) -> None:
+    assert typed("points", "--fixed", tmp_path / "no.csv", "--moving", tmp_path / "no.csv")[0] == 2

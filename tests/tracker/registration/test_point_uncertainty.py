@@ -1,0 +1,172 @@
+"""What is stated of a registration by points holds: simulated landmarks with a known truth."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from tests.tracker.registration.constellations import VERTEBRA, random_landmarks, touched
+from tracker.geometry import (
+    Anchor,
+    Rigid,
+    Vertebra,
+    inverse_covariance,
+    point_covariance_mm2,
+    rotation_from_vector,
+    vector_from_rotation,
+)
+from tracker.registration import AnchoredTo
+from tracker.registration.points import PairedPoints, PointRegistration, PointSettings, register_points
+from tracker.registration.points.uncertainty import expected_tre_mm
+
+RUNS = 500
+# Along the camera's depth noise is four times as large as across it.
+LIKE_A_NEEDLE = np.diag([0.3, 0.3, 1.2]) ** 2
+# No floor, and no order is judged: here the noise itself is looked at.
+BARE = PointSettings(least_fle_mm=1e-3, wrong_fre_mm=20.0)
+
+
+@dataclass
+class Simulated:
+    """How often the truth was inside 95 %, and how far off targets were."""
+
+    along: list[bool] = field(default_factory=list)
+    target: list[bool] = field(default_factory=list)
+    pose: list[bool] = field(default_factory=list)
+    off_mm2: list[float] = field(default_factory=list)
+    expected_mm2: list[float] = field(default_factory=list)
+
+    def look(
+        self, found: PointRegistration, truth: Rigid[Vertebra, Anchor], rng: np.random.Generator
+    ) -> None:
+        target = found.pairs.fixed_mm.mean(axis=0) + rng.uniform(-30.0, 30.0, 3)
+        off = found.fixed_from_moving.move_points(truth.inverse.move_points(target)) - target
+        covariance = found.target_covariance_mm2(target)
+        way = np.linalg.qr(rng.normal(size=(3, 3)))[0][0]
+        self.along.append(bool(abs(off @ way) < 1.96 * np.sqrt(way @ covariance @ way)))
+        self.target.append(bool(off @ np.linalg.solve(covariance, off) < stats.chi2.ppf(0.95, 3)))
+        given = found.registration(AnchoredTo.CAMERA)
+        turn = truth.rotation.T @ given.anchor_from_vertebra.rotation.T
+        pose = np.concatenate(
+            [
+                truth.inverse.translation_mm - given.anchor_from_vertebra.translation_mm,
+                vector_from_rotation(turn),
+            ]
+        )
+        self.pose.append(bool(pose @ np.linalg.solve(given.covariance, pose) < stats.chi2.ppf(0.95, 6)))
+        self.off_mm2.append(float(off @ off))
+        self.expected_mm2.append(found.tre_expected_mm(target) ** 2)
+
+
+def simulated(
+    count: int, noise: np.ndarray | float, stated: np.ndarray | None, settings: PointSettings = BARE
+) -> Simulated:
+    rng = np.random.default_rng(count)
+    seen = Simulated()
+    for _ in range(RUNS):
+        truth = touched(random_landmarks(rng, count), rng, noise)
+        pairs = PairedPoints(
+            fixed_mm=truth.fixed_mm,
+            moving_mm=truth.moving_mm,
+            moving_covariances_mm2=None if stated is None else np.broadcast_to(stated, (count, 3, 3)),
+        )
+        seen.look(register_points(pairs, settings=settings), truth.fixed_from_moving, rng)
+    return seen
+
+
+@pytest.mark.parametrize("count", [3, 4, 6])
+@pytest.mark.parametrize(
+    ("noise", "stated"),
+    [
+        pytest.param(0.6, None, id="like-a-ball-and-unknown"),
+        pytest.param(LIKE_A_NEEDLE, None, id="like-a-needle-and-unknown"),
+        pytest.param(LIKE_A_NEEDLE, LIKE_A_NEEDLE, id="like-a-needle-and-stated"),
+    ],
+)
+def test_the_stated_uncertainty_holds_the_truth_as_often_as_it_says(
+    count: int, noise: np.ndarray | float, stated: np.ndarray | None
+) -> None:
+    seen = simulated(count, noise, stated)
+    # 0.010 is the standard deviation of a share of 0.95 over so many runs.
+    assert 0.92 - 0.02 <= np.mean(seen.target) <= 0.98 + 0.013
+    assert 0.92 <= np.mean(seen.along) <= 0.99
+    assert 0.85 <= np.mean(seen.pose) <= 0.99
+
+
+@pytest.mark.parametrize("count", [3, 4, 6])
+def test_fitzpatricks_formula_is_what_targets_are_off(count: int) -> None:
+    rng = np.random.default_rng(20 + count)
+    fixed = random_landmarks(rng, count)
+    target = fixed.mean(axis=0) + np.array([25.0, -30.0, 10.0])
+    off, expected = [], []
+    for _ in range(RUNS):
+        truth = touched(fixed, rng, 0.4)
+        found = register_points(PairedPoints(fixed_mm=fixed, moving_mm=truth.moving_mm), settings=BARE)
+        tip = truth.fixed_from_moving.inverse.move_points(target)
+        off.append(float(((found.fixed_from_moving.move_points(tip) - target) ** 2).sum()))
+        expected.append(found.tre_expected_mm(target) ** 2)
+    by_truth = expected_tre_mm(fixed, 0.4 * np.sqrt(3.0), target)
+    assert np.sqrt(np.mean(off)) == pytest.approx(by_truth, rel=0.08)
+    assert np.sqrt(np.mean(expected)) == pytest.approx(by_truth, rel=0.08)
+
+
+def test_the_formula_on_a_constellation_by_hand() -> None:
+    # Six points at +-10 on each axis: f_k^2 = 4 * 100 / 6 on each; a target 20 off along x: d = (0, 20, 20).
+    points = np.vstack([10.0 * np.eye(3), -10.0 * np.eye(3)])
+    by_hand = np.sqrt(1.0 / 6.0 * (1.0 + 2.0 * 400.0 / (400.0 / 6.0) / 3.0))
+    assert expected_tre_mm(points, 1.0, np.array([20.0, 0.0, 0.0])) == pytest.approx(by_hand)
+    assert expected_tre_mm(points, 1.0, np.zeros(3)) == pytest.approx(np.sqrt(1.0 / 6.0))
+
+
+def test_a_lucky_fit_is_not_surer_than_a_landmark_can_be_found() -> None:
+    truth = touched(VERTEBRA, np.random.default_rng(1))
+    found = register_points(
+        PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm), settings=PointSettings(least_fle_mm=0.6)
+    )
+    middle = VERTEBRA.mean(axis=0)
+    assert found.tre_expected_mm(middle) < 1e-9
+    assert found.tre_stated_mm(middle) == pytest.approx(0.6 / np.sqrt(6.0), rel=1e-6)
+
+
+def test_what_tips_state_is_nearly_a_floor_and_residuals_widen_it() -> None:
+    rng = np.random.default_rng(2)
+    stated = np.broadcast_to(0.01 * np.eye(3), (6, 3, 3))
+    exact, rough = touched(VERTEBRA, rng), touched(VERTEBRA, rng, 0.8)
+    at = VERTEBRA.mean(axis=0)
+    found = [
+        register_points(
+            PairedPoints(fixed_mm=VERTEBRA, moving_mm=one.moving_mm, moving_covariances_mm2=stated),
+            settings=PointSettings(least_fle_mm=1e-6),
+        ).tre_stated_mm(at)
+        for one in (exact, rough)
+    ]
+    assert found[0] == pytest.approx(np.sqrt(0.8 * 3 * 0.01 / 6.0), rel=1e-3)
+    assert found[1] > 4.0 * found[0]
+
+
+def test_the_covariance_of_the_inverse_is_that_of_inverted_samples() -> None:
+    rng = np.random.default_rng(3)
+    root = rng.normal(size=(6, 6)) * np.array([[0.1, 0.1, 0.1, 1e-3, 1e-3, 1e-3]]).T
+    covariance = root @ root.T
+    there: Rigid[Anchor, Vertebra] = Rigid.from_vector([0.4, -0.7, 1.1], [30.0, -20.0, 50.0])
+    samples = []
+    for shift_and_turn in rng.multivariate_normal(np.zeros(6), covariance, 4000):
+        moved: Rigid[Anchor, Vertebra] = Rigid(
+            rotation=rotation_from_vector(shift_and_turn[3:]) @ there.rotation,
+            translation_mm=there.translation_mm + shift_and_turn[:3],
+        )
+        back, was = moved.inverse, there.inverse
+        turn = vector_from_rotation(back.rotation @ was.rotation.T)
+        samples.append(np.concatenate([back.translation_mm - was.translation_mm, turn]))
+    stated = inverse_covariance(there, covariance)
+    scale = np.sqrt(np.diag(stated))
+    assert np.allclose(
+        np.cov(np.array(samples).T) / np.outer(scale, scale), stated / np.outer(scale, scale), atol=0.08
+    )
+    assert np.allclose(inverse_covariance(there.inverse, stated), covariance)
+    # A point at the far end is as sure seen from either side.
+    at = np.array([5.0, 6.0, 7.0])
+    one = point_covariance_mm2(there, covariance, at)
+    other = point_covariance_mm2(there.inverse, stated, there.move_points(at))
+    assert np.trace(one) == pytest.approx(np.trace(other))

@@ -1,0 +1,153 @@
+"""A registration, fixed to the camera or to the patient's reference, and carried into an image."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tracker import CameraModel, Seen, Unseen, UnseenReason
+from tracker.errors import RegistrationError
+from tracker.geometry import (
+    Anchor,
+    Array,
+    Camera,
+    Marker,
+    Rigid,
+    Vertebra,
+    chained_covariance,
+    inverse_covariance,
+    rotation_from_vector,
+    skew,
+    vector_from_rotation,
+)
+from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, PlacedVertebra, Setup, navigate
+from tracker.registration import AnchoredTo, Method, Registration
+
+RANDOM = np.random.default_rng(5)
+CAMERA_FROM_REFERENCE: Rigid[Camera, Marker] = Rigid.from_vector([0.4, -2.0, 0.3], [40, -30, 480])
+REFERENCE_FROM_VERTEBRA: Rigid[Anchor, Vertebra] = Rigid.from_vector([1.0, 0.2, -0.4], [-30, 25, 60])
+
+
+def covariance_of(sd_mm: float, sd_rad: float) -> Array:
+    root = RANDOM.normal(size=(6, 6)) @ np.diag([sd_mm] * 3 + [sd_rad] * 3)
+    scale = np.array([sd_mm] * 3 + [sd_rad] * 3)
+    return np.asarray((root.T @ root) / 6.0 + np.diag(scale**2))
+
+
+OF_REFERENCE, OF_REGISTRATION = covariance_of(0.1, 0.002), covariance_of(0.4, 0.004)
+SETUP = Setup(
+    camera=CameraModel(
+        matrix=np.array([[1100.0, 0, 640], [0, 1100, 360], [0, 0, 1]]),
+        distortion=np.zeros(5),
+        size_wh_px=(1280, 720),
+    ),
+    camera_calibrated=True,
+    tools={},
+    channel=Absent(reason=AbsentReason.NO_PLAN),
+    registration=Registration(
+        method=Method.POINTS,
+        anchored_to=AnchoredTo.REFERENCE,
+        anchor_from_vertebra=REFERENCE_FROM_VERTEBRA,
+        covariance=OF_REGISTRATION,
+    ),
+    reference="patient",
+)
+SEEN = Seen(
+    camera_from_marker=CAMERA_FROM_REFERENCE,
+    pose_covariance=OF_REFERENCE,
+    corners_px=np.zeros((4, 2)),
+    score_ratio=1.0,
+    target_score_ratio=1.0,
+    model_coverage_ratio=1.0,
+    target_coverage_ratio=1.0,
+    fit_error_px2=0.0,
+    found_by="track",
+)
+
+
+def concluded(setup: Setup, sighting: Seen | Unseen) -> NavigationSnapshot:
+    return navigate(
+        setup=setup,
+        sightings={"patient": sighting},
+        image_number=0,
+        captured_at_s=0.0,
+        size_wh_px=(1280, 720),
+        stage_ms={},
+        skipped_images=0,
+    )
+
+
+def off(true: Rigid[Camera, Vertebra], found: Rigid[Camera, Vertebra]) -> Array:
+    """What a covariance is of: the translation, then the rotation as a small vector from the left."""
+    turn = vector_from_rotation(found.rotation @ true.rotation.T)
+    return np.concatenate([found.translation_mm - true.translation_mm, turn])
+
+
+def shaken(pose: Rigid[Camera, Marker], by: Array) -> Rigid[Camera, Marker]:
+    return Rigid(
+        rotation=rotation_from_vector(by[3:]) @ pose.rotation, translation_mm=pose.translation_mm + by[:3]
+    )
+
+
+def test_the_vertebra_is_placed_through_the_reference_as_it_is_seen_in_this_image() -> None:
+    placed = concluded(SETUP, SEEN).vertebra
+    assert isinstance(placed, PlacedVertebra)
+    through = CAMERA_FROM_REFERENCE.matrix @ REFERENCE_FROM_VERTEBRA.matrix
+    np.testing.assert_allclose(placed.camera_from_vertebra.matrix, through, atol=1e-12)
+
+
+def test_without_the_reference_nobody_knows_where_the_vertebra_is() -> None:
+    unseen = Unseen(reason=UnseenReason.NO_CANDIDATE)
+    assert concluded(SETUP, unseen).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
+    # Not even where the settings name no reference: it is fixed to one all the same.
+    nameless = replace(SETUP, reference="")
+    assert concluded(nameless, SEEN).vertebra == Absent(reason=AbsentReason.REFERENCE_UNSEEN)
+
+
+def test_in_an_uncalibrated_camera_a_reference_places_nothing() -> None:
+    placed = concluded(replace(SETUP, camera_calibrated=False), SEEN).vertebra
+    assert placed == Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
+
+
+def test_the_uncertainty_is_that_of_reference_and_registration_together() -> None:
+    runs = 4000
+    near = np.random.default_rng(1).multivariate_normal(np.zeros(6), OF_REFERENCE, runs)
+    far = np.random.default_rng(2).multivariate_normal(np.zeros(6), OF_REGISTRATION, runs)
+    true = Rigid[Camera, Vertebra].from_matrix(CAMERA_FROM_REFERENCE.matrix @ REFERENCE_FROM_VERTEBRA.matrix)
+    errors = []
+    for one, other in zip(near, far, strict=True):
+        anchor: Rigid[Anchor, Vertebra] = Rigid(
+            rotation=rotation_from_vector(other[3:]) @ REFERENCE_FROM_VERTEBRA.rotation,
+            translation_mm=REFERENCE_FROM_VERTEBRA.translation_mm + other[:3],
+        )
+        seen = shaken(CAMERA_FROM_REFERENCE, one)
+        found = Rigid[Camera, Vertebra].from_matrix(seen.matrix @ anchor.matrix)
+        errors.append(off(true, found))
+    placed = concluded(SETUP, SEEN).vertebra
+    assert isinstance(placed, PlacedVertebra)
+    whitened = np.linalg.solve(np.linalg.cholesky(placed.covariance), np.array(errors).T)
+    # Of white noise each variance is 1 within four of its own standard deviations.
+    np.testing.assert_allclose(whitened.var(axis=1), 1.0, atol=4.0 * np.sqrt(2.0 / runs))
+
+
+def test_a_pose_and_its_inverse_err_by_the_same() -> None:
+    back = CAMERA_FROM_REFERENCE.inverse
+    there = inverse_covariance(CAMERA_FROM_REFERENCE, OF_REFERENCE)
+    again = inverse_covariance(back, there)
+    np.testing.assert_allclose(again, OF_REFERENCE, rtol=1e-9, atol=1e-12)
+    both = chained_covariance(CAMERA_FROM_REFERENCE, OF_REFERENCE, back, there)
+    # Back at the start, both turns have swung the origin of the other frame, which is as far away as this.
+    swing = np.eye(6)
+    swing[:3, 3:] = skew(CAMERA_FROM_REFERENCE.translation_mm)
+    np.testing.assert_allclose(both, 2.0 * swing @ OF_REFERENCE @ swing.T, rtol=1e-9, atol=1e-12)
+
+
+def test_a_covariance_that_is_none_is_refused() -> None:
+    with pytest.raises(RegistrationError, match="not a finite covariance") as refused:
+        Registration(
+            method=Method.POINTS,
+            anchored_to=AnchoredTo.REFERENCE,
+            anchor_from_vertebra=REFERENCE_FROM_VERTEBRA,
+            covariance=-np.eye(6),
+        )
+    assert refused.value.code == "REGISTRATION_COVARIANCE_INVALID"

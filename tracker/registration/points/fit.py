@@ -1,0 +1,56 @@
+"""The rigid motion that brings touched points onto marked ones."""
+
+import numpy as np
+
+from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
+
+MOST_ROUNDS = 30
+STILL = 1e-9  # mm and rad
+
+
+def plain_fit(fixed_mm: Array, moving_mm: Array) -> Rigid[Vertebra, Anchor]:
+    """Least squares with every millimetre alike, (n, 3) each (Arun 1987, with the sign of Umeyama 1991)."""
+    to, since = fixed_mm.mean(axis=0), moving_mm.mean(axis=0)
+    left, _, right = np.linalg.svd((fixed_mm - to).T @ (moving_mm - since))
+    mirror = np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
+    rotation = left @ mirror @ right
+    return Rigid(rotation=rotation, translation_mm=to - rotation @ since)
+
+
+def weighted_fit(fixed_mm: Array, moving_mm: Array, noise_mm2: Array) -> Rigid[Vertebra, Anchor]:
+    """Least squares where each touched point has a covariance (n, 3, 3) of its own, in the anchor's frame.
+
+    Gauss-Newton from the plain fit. The weights turn with the points.
+    """
+    fit = plain_fit(fixed_mm, moving_mm)
+    for _ in range(MOST_ROUNDS):
+        middle = fit.move_points(moving_mm).mean(axis=0)
+        residuals = fit.move_points(moving_mm) - fixed_mm
+        weights = weights_in_fixed(fit, noise_mm2)
+        rows = jacobians(fit.move_points(moving_mm) - middle)
+        normal = np.einsum("nik,nij,njl->kl", rows, weights, rows)
+        step = np.linalg.solve(normal, -np.einsum("nik,nij,nj->k", rows, weights, residuals))
+        turn = rotation_from_vector(step[3:])
+        fit = Rigid(
+            rotation=turn @ fit.rotation,
+            translation_mm=turn @ (fit.translation_mm - middle) + middle + step[:3],
+        )
+        if float(np.abs(step).max()) < STILL:
+            break
+    return fit
+
+
+def weights_in_fixed(fit: Rigid[Vertebra, Anchor], noise_mm2: Array) -> Array:
+    """The inverses (n, 3, 3) of covariances in the anchor's frame, seen on the CT."""
+    return np.asarray(np.linalg.inv(fit.rotation @ noise_mm2 @ fit.rotation.T))
+
+
+def jacobians(arms_mm: Array) -> Array:
+    """(n, 3, 6): how points at these arms (n, 3) move by a small shift and turn about the arms' origin."""
+    rows = np.zeros((len(arms_mm), 3, 6))
+    rows[:, :, :3] = np.eye(3)
+    x, y, z = arms_mm.T
+    rows[:, 0, 4], rows[:, 0, 5] = z, -y
+    rows[:, 1, 3], rows[:, 1, 5] = -z, x
+    rows[:, 2, 3], rows[:, 2, 4] = y, -x
+    return rows

@@ -1,0 +1,106 @@
+"""Points to which no rigid motion can be fitted."""
+
+import numpy as np
+
+from tracker.errors import RegistrationError
+from tracker.geometry import Array
+from tracker.registration.points.pairs import PairedPoints
+from tracker.registration.points.settings import PointSettings
+
+LEAST_POINTS = 3
+# Landmarks on one vertebra do not differ by a factor of two, whatever is mistaken; units do.
+MOST_SCALE = 2.0
+SPREAD_REMEDY = "Add a landmark that lies well beside that line, such as a transverse process, and fit again."
+UNITS = ((1000.0, "metres"), (10.0, "centimetres"), (25.4, "inches"))
+
+
+def refuse_unfit(pairs: PairedPoints, settings: PointSettings) -> None:
+    """Raise where these points say no rigid motion, before any is fitted.
+
+    Raises:
+        RegistrationError: POINTS_TOO_FEW, POINTS_UNIT_SUSPECT, POINTS_COINCIDENT or POINTS_COLLINEAR.
+    """
+    if len(pairs) < LEAST_POINTS:
+        raise RegistrationError(
+            "POINTS_TOO_FEW",
+            f"there are {len(pairs)} pairs of points, needed {LEAST_POINTS}",
+            "Touch at least three landmarks that are no line; four or more show a mistake.",
+            {"points": len(pairs), "needed": LEAST_POINTS},
+        )
+    _refuse_units(pairs)
+    for points, which in ((pairs.fixed_mm, "on the CT"), (pairs.moving_mm, "as touched")):
+        _refuse_coincident(points, which, pairs.labels, settings.least_apart_mm)
+    for points, which in ((pairs.fixed_mm, "on the CT"), (pairs.moving_mm, "as touched")):
+        _refuse_line(points, which, settings)
+
+
+def scale_ratio(pairs: PairedPoints) -> float:
+    """How much larger the points are on the CT than as touched."""
+    fixed, moving = _spread_mm(pairs.fixed_mm), _spread_mm(pairs.moving_mm)
+    return fixed / moving if moving > 0.0 else np.inf
+
+
+def _spread_mm(points: Array) -> float:
+    return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))
+
+
+def _refuse_units(pairs: PairedPoints) -> None:
+    fixed, moving = _spread_mm(pairs.fixed_mm), _spread_mm(pairs.moving_mm)
+    least, most = min(fixed, moving), max(fixed, moving)
+    if least <= 0.0 or most <= MOST_SCALE * least:
+        return
+    which = "on the CT" if fixed < moving else "as touched"
+    likely = [name for factor, name in UNITS if 0.8 < most / least / factor < 1.25]
+    guess = f": those {which} seem to be in {likely[0]}" if likely else ""
+    raise RegistrationError(
+        "POINTS_UNIT_SUSPECT",
+        f"the points spread over {fixed:.4g} mm on the CT and over {moving:.4g} mm as touched, "
+        f"{most / least:.4g} times as much{guess}",
+        "Give both in millimetres, and see that both files are of the same landmarks.",
+        {"fixed_spread_mm": fixed, "moving_spread_mm": moving},
+    )
+
+
+def _refuse_coincident(points: Array, which: str, labels: tuple[str, ...], least_mm: float) -> None:
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    apart[np.diag_indices(len(points))] = np.inf
+    first, second = sorted(int(one) for one in np.unravel_index(int(np.argmin(apart)), apart.shape))
+    nearest = float(apart[first, second])
+    if nearest >= least_mm:
+        return
+    hint = ""
+    if _spread_mm(points) < least_mm:
+        hint = f"; all of them lie within {float(apart[np.isfinite(apart)].max()):.3g} mm, as if in metres"
+    raise RegistrationError(
+        "POINTS_COINCIDENT",
+        f"points {labels[first]} and {labels[second]} are {nearest:.2f} mm apart {which}, "
+        f"needed {least_mm:g} mm{hint}",
+        "Leave one of them out, or touch it again where it belongs.",
+        {"points": [labels[first], labels[second]], "apart_mm": nearest, "needed_mm": least_mm},
+    )
+
+
+def _refuse_line(points: Array, which: str, settings: PointSettings) -> None:
+    extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False) / np.sqrt(len(points))
+    ratio = float(extents[1] / extents[0])
+    # Points beside their own line hold the rotation about it: the farther and the more, the better.
+    beside_mm = float(np.hypot(extents[1], extents[2]) * np.sqrt(len(points)))
+    sd_deg = np.inf
+    if beside_mm > 0.0:
+        sd_deg = float(np.degrees(settings.least_fle_mm / np.sqrt(3.0) / beside_mm))
+    if ratio >= settings.least_spread_ratio and sd_deg <= settings.most_turn_sd_deg:
+        return
+    raise RegistrationError(
+        "POINTS_COLLINEAR",
+        f"the points are nearly a line {which}: they reach {extents[0]:.1f} mm along it and only "
+        f"{extents[1]:.2f} mm beside it (RMS), so that the rotation about that line is ambiguous "
+        f"(known to {min(sd_deg, 180.0):.0f} deg, allowed {settings.most_turn_sd_deg:g} deg; "
+        f"needed beside it {settings.least_spread_ratio * extents[0]:.2f} mm at least)",
+        SPREAD_REMEDY,
+        {
+            "along_mm": float(extents[0]),
+            "beside_mm": float(extents[1]),
+            "turn_sd_deg": min(sd_deg, 180.0),
+            "allowed_deg": settings.most_turn_sd_deg,
+        },
+    )

@@ -1,0 +1,216 @@
+"""Registration by points: landmarks of the plan against the tip on them."""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import RegistrationError
+from tracker.geometry import Anchor, Array, Rigid, Vertebra, inverse_covariance, point_covariance_mm2
+from tracker.plan.remark import Remark
+from tracker.registration.points.fit import plain_fit, weighted_fit
+from tracker.registration.points.orders import refuse_mistaken
+from tracker.registration.points.pairs import PairedPoints
+from tracker.registration.points.refusals import LEAST_POINTS, refuse_unfit, scale_ratio
+from tracker.registration.points.settings import PointGate, PointSettings
+from tracker.registration.points.uncertainty import (
+    covariance_from_noise,
+    covariance_from_residuals,
+    expected_tre_mm,
+    fle_from_fre_mm,
+)
+from tracker.registration.record import AnchoredTo, Method, Registration
+
+# A scale that differs by less is no news to anybody, whatever the noise.
+LEAST_SCALE_NEWS = 0.02
+SURE_SDS = 4.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointRegistration:
+    """Where the vertebra is, by landmarks.
+
+    Attributes:
+        pairs: the points, used or not.
+        used: (n,) which of them were fitted.
+        fixed_from_moving: takes tips to the CT.
+        covariance: (6, 6) of it [mm, rad], translation first, then a small left-multiplied rotation vector on
+            the CT's axes.
+        residuals_mm: (n, 3) where each tip comes to lie, minus its landmark on the CT; of those that were not
+            used too.
+        fre_rms_mm: root mean square length of the residuals of those that were used.
+        fle_mm: the error of one landmark (3-D RMS) that these residuals show.
+        settings: with which it was made.
+        scale_ratio: how much larger the points are on the CT than as touched.
+        remarks: what should be known, such as a swap that would not be noticed.
+    """
+
+    pairs: PairedPoints
+    used: npt.NDArray[np.bool_]
+    fixed_from_moving: Rigid[Vertebra, Anchor]
+    covariance: Array
+    residuals_mm: Array
+    fre_rms_mm: float
+    fle_mm: float
+    settings: PointSettings
+    scale_ratio: float
+    remarks: tuple[Remark, ...]
+
+    @property
+    def distances_mm(self) -> Array:
+        """(n,) how far each tip comes to lie from its landmark."""
+        return np.asarray(np.linalg.norm(self.residuals_mm, axis=1))
+
+    @property
+    def left_out_mm(self) -> Mapping[int, float]:
+        """By index, how far a used point lies from its landmark when all the others alone are fitted.
+
+        Not there for a point without which the others are too few or a line. Fits anew for each point.
+        """
+        chosen = [int(index) for index in np.flatnonzero(self.used)]
+        return _left_out_mm(self.pairs, chosen, self.settings)
+
+    def tre_expected_mm(self, target_mm: npt.ArrayLike) -> float:
+        """The error (3-D RMS) at a target (3,) on the CT, by Fitzpatrick's formula and residuals alone."""
+        target = np.asarray(target_mm, dtype=np.float64)
+        return expected_tre_mm(self.pairs.fixed_mm[self.used], self.fle_mm, target)
+
+    def target_covariance_mm2(self, target_mm: npt.ArrayLike) -> Array:
+        """Covariance (3, 3), on the CT's axes, of where a target (3,) on the CT is thought to be."""
+        target_in_moving = self.fixed_from_moving.inverse.move_points(target_mm)
+        return point_covariance_mm2(self.fixed_from_moving, self.covariance, target_in_moving)
+
+    def tre_stated_mm(self, target_mm: npt.ArrayLike) -> float:
+        """The error (3-D RMS) stated for a target (3,) on the CT; wider than expected for few points."""
+        return float(np.sqrt(np.trace(self.target_covariance_mm2(target_mm))))
+
+    def registration(self, anchored_to: AnchoredTo) -> Registration:
+        """The same as navigation uses it."""
+        return Registration(
+            method=Method.POINTS,
+            anchored_to=anchored_to,
+            anchor_from_vertebra=self.fixed_from_moving.inverse,
+            covariance=inverse_covariance(self.fixed_from_moving, self.covariance),
+        )
+
+    def failures(self, gate: PointGate, targets_mm: Sequence[npt.ArrayLike]) -> tuple[RegistrationError, ...]:
+        """What keeps it from being used for these targets on the CT; nothing where it passes."""
+        found = []
+        if not self.fre_rms_mm <= gate.most_fre_mm:
+            worst = int(np.argmax(np.where(self.used, self.distances_mm, -1.0)))
+            found.append(
+                RegistrationError(
+                    "POINTS_FIT_TOO_LARGE",
+                    f"landmarks fit to {self.fre_rms_mm:.2f} mm RMS, allowed {gate.most_fre_mm:.2f} mm; "
+                    f"point {self.pairs.labels[worst]} is off by {self.distances_mm[worst]:.2f} mm",
+                    "Touch that landmark again, or leave it out, then register again.",
+                    {"fre_rms_mm": self.fre_rms_mm, "allowed_mm": gate.most_fre_mm},
+                )
+            )
+        stated = max((self.tre_stated_mm(target) for target in targets_mm), default=0.0)
+        if not stated <= gate.most_tre_mm:
+            found.append(
+                RegistrationError(
+                    "POINTS_TARGET_UNCERTAIN",
+                    f"at the target the registration is known to {stated:.2f} mm (3-D RMS), "
+                    f"allowed {gate.most_tre_mm:.2f} mm",
+                    "Add landmarks, farther apart and around the target, then register again.",
+                    {"tre_stated_mm": stated, "allowed_mm": gate.most_tre_mm},
+                )
+            )
+        return tuple(found)
+
+
+def register_points(
+    pairs: PairedPoints, *, excluded: Collection[int] = (), settings: PointSettings | None = None
+) -> PointRegistration:
+    """The rigid motion from tips to landmarks on the CT, with how sure it is.
+
+    Where tips state covariances the fit weighs them by these and the least error of a landmark; else every
+    millimetre counts alike. `excluded`: indexes of points that have no say.
+
+    Raises:
+        RegistrationError: POINTS_TOO_FEW, POINTS_UNIT_SUSPECT, POINTS_COINCIDENT, POINTS_COLLINEAR,
+            POINTS_SWAPPED, POINTS_MIRRORED, POINTS_AMBIGUOUS.
+    """
+    settings = settings or PointSettings()
+    chosen = [index for index in range(len(pairs)) if index not in set(excluded)]
+    used = pairs.of(chosen)
+    refuse_unfit(used, settings)
+    plain = plain_fit(used.fixed_mm, used.moving_mm)
+    plain_fre = _rms(plain.move_points(used.moving_mm) - used.fixed_mm)
+    remarks = refuse_mistaken(used, plain_fre, settings)
+    fit, covariance = _fitted(used, settings)
+    residuals = fit.move_points(pairs.moving_mm) - pairs.fixed_mm
+    fre = _rms(residuals[chosen])
+    fle = fle_from_fre_mm(fre, len(used))
+    mask = np.zeros(len(pairs), dtype=np.bool_)
+    mask[chosen] = True
+    for array in (mask, covariance, residuals):
+        array.setflags(write=False)
+    return PointRegistration(
+        pairs=pairs,
+        used=mask,
+        fixed_from_moving=fit,
+        covariance=covariance,
+        residuals_mm=residuals,
+        fre_rms_mm=fre,
+        fle_mm=fle,
+        settings=settings,
+        scale_ratio=scale_ratio(used),
+        remarks=(*remarks, *_scale_remarks(used, fle)),
+    )
+
+
+def _fitted(used: PairedPoints, settings: PointSettings) -> tuple[Rigid[Vertebra, Anchor], Array]:
+    if used.moving_covariances_mm2 is None:
+        fit = plain_fit(used.fixed_mm, used.moving_mm)
+        covariance = covariance_from_residuals(
+            fit, used.fixed_mm, used.moving_mm, least_fle_mm=settings.least_fle_mm
+        )
+        return fit, covariance
+    noise = used.moving_covariances_mm2 + settings.least_fle_mm**2 / 3.0 * np.eye(3)
+    fit = weighted_fit(used.fixed_mm, used.moving_mm, noise)
+    return fit, covariance_from_noise(fit, used.fixed_mm, used.moving_mm, noise)
+
+
+def _left_out_mm(pairs: PairedPoints, chosen: Sequence[int], settings: PointSettings) -> dict[int, float]:
+    found: dict[int, float] = {}
+    if len(chosen) <= LEAST_POINTS:
+        return found
+    for index in chosen:
+        others = pairs.of([one for one in chosen if one != index])
+        try:
+            refuse_unfit(others, settings)
+        except RegistrationError:
+            # The others alone say no motion, so that they say nothing of this point either.
+            continue
+        fit = _fitted(others, settings)[0]
+        off = fit.move_points(pairs.moving_mm[index]) - pairs.fixed_mm[index]
+        found[index] = float(np.linalg.norm(off))
+    return found
+
+
+def _scale_remarks(used: PairedPoints, fle_mm: float) -> tuple[Remark, ...]:
+    ratio = scale_ratio(used)
+    spread = float(np.sqrt(((used.fixed_mm - used.fixed_mm.mean(axis=0)) ** 2).sum()))
+    # The scale's share of the residuals is taken out, or it would excuse itself.
+    noise = np.sqrt(
+        max(fle_mm**2 * (len(used) - 2) - ((ratio - 1.0) * spread) ** 2, 0.0) / (3 * len(used) - 6)
+    )
+    if abs(ratio - 1.0) <= max(LEAST_SCALE_NEWS, SURE_SDS * noise / spread):
+        return ()
+    larger = "larger" if ratio < 1.0 else "smaller"
+    return (
+        Remark(
+            code="POINTS_SCALE_DIFFERS",
+            message=f"as touched the points are {abs(1.0 / ratio - 1.0):.1%} {larger} than on the CT",
+            remedy="Measure the printed marker's side again and check the camera with 'coaxial accuracy'.",
+            context={"scale_ratio": ratio},
+        ),
+    )
+
+
+def _rms(residuals: Array) -> float:
+    return float(np.sqrt((residuals**2).sum(axis=1).mean()))
