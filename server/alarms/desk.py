@@ -11,8 +11,9 @@ from server.alarms.log import AlarmLog, NoLog
 from server.alarms.screens import Screens
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
-from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
+from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import (
+    NOT_KNOWN,
     QUIET,
     AlarmEngine,
     AlarmEvent,
@@ -24,8 +25,6 @@ from tracker.navigation.alarms import (
     observed_of,
     remembered,
 )
-
-UNKNOWN = Absent(reason=AbsentReason.NOT_CHECKED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -212,10 +211,10 @@ class AlarmDesk:
             camera_works=self._camera_works,
             registration_current=facts.registration_current,
             calibration_current=facts.calibration_current,
-            check_age_s=UNKNOWN if facts.checked_at_s is None else at_s - facts.checked_at_s,
+            check_age_s=NOT_KNOWN if facts.checked_at_s is None else at_s - facts.checked_at_s,
             armed_screens=self._screens.armed(at_s),
             lost_screens=self._screens.lost(at_s),
-            free_disk_mb=UNKNOWN if free_mb is None else free_mb,
+            free_disk_mb=NOT_KNOWN if free_mb is None else free_mb,
             recording_runs=facts.recording_runs and self._log.is_well,
             hold_asked_by=self._hold_asked_by,
         )
