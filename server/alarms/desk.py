@@ -119,11 +119,13 @@ class AlarmDesk:
         """One more moment of the live images: a new image, or None when none came."""
         running = process.state is ProcessState.RUNNING and source.state is SourceState.RUNNING
         with self._lock:
+            at_s = self._clock()
             if snapshot is not None:
                 self._snapshot = snapshot
-                self._memory = remembered(self._memory, snapshot)
+                fresh_s = self._limits.camera_silent_after_s
+                self._memory = remembered(self._memory, snapshot, now_s=at_s, fresh_s=fresh_s)
             self._camera_works = running
-            return self._stepped(self._clock())
+            return self._stepped(at_s)
 
     def know(self, facts: ProcedureFacts) -> None:
         """What the procedure knows from now on."""

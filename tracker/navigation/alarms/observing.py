@@ -29,17 +29,18 @@ class Memory:
     reference_seen_at_s: float = 0.0
 
 
-def remembered(memory: Memory, snapshot: NavigationSnapshot) -> Memory:
-    """What is known after one more image.
+def remembered(memory: Memory, snapshot: NavigationSnapshot, *, now_s: float, fresh_s: float) -> Memory:
+    """What is known after one more image, looked at `now_s`.
 
-    Navigation begins with the first numbers. It ends when there is no channel or no registration any more,
+    Navigation begins with the first numbers that are not older than `fresh_s`: while everything is being
+    started, images come late. It ends when there is no channel or no registration any more,
     but not when a marker, or what was moved, takes the numbers away: that is what alarms are for.
     """
     setup, at_s = snapshot.setup, snapshot.captured_at_s
     if isinstance(setup.channel, Absent) or setup.registration == NOT_REGISTERED:
         memory = replace(memory, navigating=False)
     elif any(isinstance(deviation, Deviation) for deviation in snapshot.deviations.values()):
-        memory = replace(memory, navigating=True)
+        memory = replace(memory, navigating=memory.navigating or now_s - at_s <= fresh_s)
     markers = {tool.marker for tool in setup.tools.values()}
     if any(isinstance(snapshot.sightings.get(marker), Seen) for marker in markers):
         memory = replace(memory, drill_seen_at_s=at_s)
