@@ -19,7 +19,9 @@ from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
 from server.api.plan import plan_router
+from server.api.procedure import procedure_router
 from server.api.refused_uploads import RefusedUploads
+from server.api.registration import registration_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
 from server.api.tools import tools_router
@@ -111,6 +113,8 @@ def create_app(parts: AppParts) -> FastAPI:
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
         app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(procedure_router(parts.steps.procedure))
+        app.include_router(registration_router(parts.steps.registration))
         app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
