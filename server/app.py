@@ -21,7 +21,9 @@ from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.page import mount_page, page_folder
 from server.api.plan import plan_router
+from server.api.procedure import procedure_router
 from server.api.refused_uploads import RefusedUploads
+from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
@@ -135,4 +137,6 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
         app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(procedure_router(parts.steps.procedure))
+        app.include_router(registration_router(parts.steps.registration))
         app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))

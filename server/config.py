@@ -145,6 +145,29 @@ class ToolCalibrationConfig(Section):
     most_axis_sd_deg: Annotated[float, Field(gt=0.0, le=45.0)] = 0.5
 
 
+class RegistrationConfig(Section):
+    """What a registration, and its check on anatomy, must reach before anybody navigates by it."""
+
+    least_points: Annotated[int, Field(ge=3, le=40)] = 3
+    """Landmarks that are touched; four show a mistake that three hide."""
+    most_fre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.5
+    """RMS distance of the landmarks from where the fit lays them."""
+    most_tre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
+    """The stated error (3-D RMS) at the entry point of every channel of the vertebra."""
+    capture_images: Annotated[int, Field(ge=3, le=300)] = 15
+    """Images in a row in which the tip rests on a landmark, and is seen in all of them."""
+    most_capture_spread_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0
+    """RMS distance of the tip from its mean in these images."""
+    check_required: bool = True
+    """false: navigate by a registration that was not checked on a landmark."""
+    most_check_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
+    """Distance of the tip on a landmark from where the plan has it."""
+    check_again_after_min: Annotated[float, Field(ge=1.0, le=1440.0)] = 30
+    """From then on the check is asked for again; navigation goes on."""
+    moved_after_s: Annotated[float, Field(ge=0.1, le=60.0)] = 1.0
+    """How long camera or reference must stand elsewhere before a registration is withdrawn for it."""
+
+
 class TrackerConfig(Section):
     """When a marker counts as found."""
 
@@ -236,6 +259,7 @@ class Config(Section):
     tools: dict[Name, ToolConfig] = {}
     reference: ReferenceConfig = ReferenceConfig()
     tool_calibration: ToolCalibrationConfig = ToolCalibrationConfig()
+    registration: RegistrationConfig = RegistrationConfig()
     tracker: TrackerConfig = TrackerConfig()
     smoothing: SmoothingConfig = SmoothingConfig()
     calibration: CalibrationConfig = CalibrationConfig()

@@ -7,13 +7,17 @@ import structlog
 
 from server.procedure.camera import MAIN_CAMERA, kept_camera
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
+from server.procedure.registered import check_name, kept_registration
+from server.procedure.state import Brought, Procedure
 from server.procedure.tool import kept_tool
 from server.setup import CaseSetup
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.camera import CameraModel
 from tracker.errors import NavigationError
+from tracker.navigation import AbsentReason
 from tracker.plan import Channel
 from tracker.pose import ToolModel
+from tracker.registration import Registration
 
 log = structlog.get_logger(__name__)
 
@@ -21,18 +25,30 @@ log = structlog.get_logger(__name__)
 class CaseInUse:
     """Hands what the open case knows to whatever tracks.
 
-    What is out of date, withdrawn, unreadable or of another camera is not used: it is then unknown.
+    What is out of date, withdrawn, unreadable or of another camera is not used: it is then unknown. Of the
+    registrations the one of the vertebra that is to be drilled counts, and numbers against it are withheld
+    until it was checked.
 
     Args:
         store: where cases are kept.
         adopt: told what the open case knows, whenever that has changed.
-        source: of the camera, in words; a calibration of another one is not used.
+        procedure: its state, which says whether numbers are withheld.
+        brought: by the settings: a calibration of another camera's source, or what is fixed to another
+            reference, is not used.
     """
 
-    def __init__(self, store: CaseStore, adopt: Callable[[CaseSetup], None], *, source: str) -> None:
+    def __init__(
+        self,
+        store: CaseStore,
+        adopt: Callable[[CaseSetup], None],
+        *,
+        procedure: Procedure,
+        brought: Brought,
+    ) -> None:
         self._store = store
         self._adopt = adopt
-        self._source = source
+        self._procedure = procedure
+        self._brought = brought
         self._lock = threading.Lock()
         self._in_use: tuple[str, ...] = ()
 
@@ -53,24 +69,44 @@ class CaseInUse:
         kinds = (DocumentKind.CAMERA, DocumentKind.TOOL)
         newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
         active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
-        newest += [] if active is None else [active]
+        vertebra = self._procedure.active_vertebra(case.id)
+        registered = (
+            []
+            if vertebra is None
+            else [
+                self._store.latest(case.id, DocumentKind.REGISTRATION, vertebra),
+                self._store.latest(case.id, DocumentKind.CHECK, check_name(vertebra)),
+            ]
+        )
+        newest += [document for document in (active, *registered) if document is not None]
         return [document for document in newest if isinstance(self._store.standing(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
         cameras: dict[str, CameraModel] = {}
         tools: dict[str, ToolModel] = {}
         channel: Channel | None = None
+        registration: Registration | None = None
         for document in documents:
             try:
                 if document.kind is DocumentKind.CAMERA:
-                    cameras[document.name] = kept_camera(document, source=self._source)
+                    cameras[document.name] = kept_camera(document, source=self._brought.source)
                 elif document.kind is DocumentKind.PLAN:
                     channel = kept_channel(document).channel
-                else:
+                elif document.kind is DocumentKind.REGISTRATION:
+                    kept = kept_registration(document, reference=self._brought.reference)
+                    registration = kept.registration
+                elif document.kind is DocumentKind.TOOL:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        return CaseSetup(camera=cameras.get(MAIN_CAMERA), tools=tools, channel=channel)
+        is_withheld = registration is not None and self._procedure.state().waits_for_check
+        return CaseSetup(
+            camera=cameras.get(MAIN_CAMERA),
+            tools=tools,
+            channel=channel,
+            registration=registration,
+            withheld=AbsentReason.NOT_CHECKED if is_withheld else None,
+        )
 
 
 def _named(name: str, tool: ToolModel | None) -> Mapping[str, ToolModel]:

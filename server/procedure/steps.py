@@ -1,9 +1,10 @@
 """All steps of the set-up, made for one server."""
 
+import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from server.capture.address import source_from_text
+from server.capture.address import SourceKind, source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
@@ -11,11 +12,16 @@ from server.procedure.camera import CameraStep
 from server.procedure.ct import CtStep, OpenedCt
 from server.procedure.in_use import CaseInUse
 from server.procedure.plan import PlanStep
+from server.procedure.registration import RegistrationSteps
+from server.procedure.state import Brought, Procedure
 from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
 from server.store import CaseStore
 from tracker.pose.tool import ToolGate
+
+# As the rehearsal's theatre calls it; to load the theatre for a name takes time.
+REHEARSED_TOOL = "drill"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +35,8 @@ class Steps:
         opened_ct: the CT that the others look at and plan on.
         plan: measures pedicles, lays channels, chooses screws.
         surface: makes the surface of the bone.
+        procedure: what may follow what.
+        registration: finds the vertebra on the patient.
     """
 
     camera: CameraStep
@@ -37,6 +45,8 @@ class Steps:
     opened_ct: OpenedCt
     plan: PlanStep
     surface: SurfaceStep
+    procedure: Procedure
+    registration: RegistrationSteps
 
     @classmethod
     def of(
@@ -59,12 +69,15 @@ class Steps:
             side_mm_from_marker: the markers that are looked for.
             adopt: has the tracking process work with what a case knows.
         """
-        source = source_from_text(config.camera.source).name
-        in_use = CaseInUse(store, adopt, source=source)
+        brought = brought_by(config)
+        source = brought.source
+        procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
+        in_use = CaseInUse(store, adopt, procedure=procedure, brought=brought)
         store.call_after_writing(in_use.refresh)
         # A case that was open when the server stopped is open again.
         in_use.refresh()
         opened_ct = OpenedCt(store)
+        plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
             camera=CameraStep(
                 hub=hub,
@@ -82,11 +95,38 @@ class Steps:
             ),
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
-            plan=PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan),
+            plan=plan,
             surface=SurfaceStep(store=store, jobs=jobs, opened=opened_ct),
+            procedure=procedure,
+            registration=RegistrationSteps.of(
+                hub=hub,
+                store=store,
+                plans=plan.shelf,
+                procedure=procedure,
+                brought=brought,
+                gate=config.registration,
+            ),
         )
 
     def close(self) -> None:
         """Collect no more."""
         self.camera.end()
         self.tool.end()
+        self.registration.close()
+
+
+def brought_by(config: Config) -> Brought:
+    """What the settings bring, whatever the case has."""
+    source = source_from_text(config.camera.source)
+    knows_itself = source.kind is SourceKind.REHEARSAL and config.rehearsal.brings_setup
+    return Brought(
+        source=source.name,
+        reference=config.reference.marker or "",
+        has_camera=config.camera.calibration is not None or knows_itself,
+        tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),
+    )
+
+
+def new_run() -> str:
+    """A name of this run of the server that no other run has."""
+    return secrets.token_hex(8)

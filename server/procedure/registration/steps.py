@@ -1,0 +1,60 @@
+"""All ways to register, and the check, made for one server."""
+
+from dataclasses import dataclass
+
+from server.config import RegistrationConfig
+from server.live import LiveHub
+from server.procedure.plan import PlanShelf
+from server.procedure.registration.check import CheckStep
+from server.procedure.registration.ground import GroundFinder
+from server.procedure.registration.points import PointsStep
+from server.procedure.registration.shelf import RegistrationShelf
+from server.procedure.registration.watch import MoveWatch
+from server.procedure.state import Brought, Procedure
+from server.store import CaseStore
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegistrationSteps:
+    """The steps that find the vertebra on the patient.
+
+    Attributes:
+        shelf: where registrations lie.
+        points: by landmarks that are touched.
+        check: on a landmark that was not used.
+        watch: withdraws a registration when camera or reference were moved.
+    """
+
+    shelf: RegistrationShelf
+    points: PointsStep
+    check: CheckStep
+    watch: MoveWatch
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        hub: LiveHub,
+        store: CaseStore,
+        plans: PlanShelf,
+        procedure: Procedure,
+        brought: Brought,
+        gate: RegistrationConfig,
+    ) -> "RegistrationSteps":
+        """The steps; from here on a move of camera or reference withdraws what was registered before."""
+        grounds = GroundFinder(store, hub=hub, plans=plans, procedure=procedure, brought=brought)
+        shelf = RegistrationShelf(store, procedure=procedure, brought=brought)
+        return cls(
+            shelf=shelf,
+            points=PointsStep(hub=hub, grounds=grounds, shelf=shelf, gate=gate),
+            check=CheckStep(
+                hub=hub, store=store, grounds=grounds, shelf=shelf, procedure=procedure, gate=gate
+            ),
+            watch=MoveWatch(hub, store=store, procedure=procedure, after_s=gate.moved_after_s),
+        )
+
+    def close(self) -> None:
+        """Look no more."""
+        self.points.end()
+        self.check.end()
+        self.watch.stop()
