@@ -1,0 +1,104 @@
+"""Check on anatomy: the tip on a landmark that was not used must come to lie there."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.errors import RegistrationError
+from tracker.geometry import Array
+from tracker.registration.record import Registration
+
+MOST_MM = 2.0
+# Nearer to a landmark that was used, a check repeats what the fit has made small already.
+LEAST_APART_MM = 5.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LandmarkCheck:
+    """How far the tip seems to be from the landmark that it touches.
+
+    Attributes:
+        landmark: its name.
+        distance_mm: between tip and landmark.
+        off_mm: (3,) tip minus landmark to the patient's left, back and head.
+        sd_mm: how unsure that distance is (3-D RMS) by what registration and tip state.
+        most_mm: what was allowed.
+    """
+
+    landmark: str
+    distance_mm: float
+    off_mm: Array
+    sd_mm: float
+    most_mm: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether navigation may go on."""
+        return self.distance_mm <= self.most_mm
+
+    def failures(self) -> tuple[RegistrationError, ...]:
+        """What keeps navigation from going on; nothing where the check passes."""
+        if self.passed:
+            return ()
+        left, back, head = self.off_mm
+        return (
+            RegistrationError(
+                "LANDMARK_CHECK_FAILED",
+                f"on '{self.landmark}' the tip seems to be {self.distance_mm:.1f} mm off, allowed "
+                f"{self.most_mm:g} mm (left {left:+.1f}, back {back:+.1f}, head {head:+.1f} mm)",
+                "Touch it again; if that stays, patient or reference has moved: register again.",
+                {"landmark": self.landmark, "distance_mm": self.distance_mm, "allowed_mm": self.most_mm},
+            ),
+        )
+
+
+def check_landmark(
+    registration: Registration,
+    landmark: str,
+    landmark_mm: npt.ArrayLike,
+    tip_in_anchor_mm: npt.ArrayLike,
+    *,
+    used_mm: Mapping[str, npt.ArrayLike],
+    tip_covariance_mm2: npt.ArrayLike | None = None,
+    most_mm: float = MOST_MM,
+) -> LandmarkCheck:
+    """The distance of the tip (3,) from a landmark (3,) of the CT, by a registration that did not use it.
+
+    `used_mm`: the landmarks on the CT that the registration stands on, by name; empty for other methods.
+
+    Raises:
+        RegistrationError: LANDMARK_WAS_USED, or CHECK_INVALID, a number is not finite.
+    """
+    at = np.asarray(landmark_mm, dtype=np.float64)
+    tip = np.asarray(tip_in_anchor_mm, dtype=np.float64)
+    if at.shape != (3,) or tip.shape != (3,) or not (np.isfinite(at).all() and np.isfinite(tip).all()):
+        raise RegistrationError(
+            "CHECK_INVALID",
+            "landmark and tip are not three finite numbers each",
+            "Give both in mm: the landmark on the CT, the tip in the anchor's frame.",
+        )
+    for name, place in used_mm.items():
+        apart = float(np.linalg.norm(np.asarray(place, dtype=np.float64) - at))
+        if name == landmark or apart < LEAST_APART_MM:
+            raise RegistrationError(
+                "LANDMARK_WAS_USED",
+                f"'{landmark}' lies {apart:.1f} mm from '{name}', which the registration was made with; "
+                f"needed {LEAST_APART_MM:g} mm",
+                "Check on another landmark: one that was used fits by construction.",
+                {"landmark": landmark, "used": name, "apart_mm": apart},
+            )
+    back = registration.anchor_from_vertebra.inverse
+    off = back.move_points(tip) - at
+    covariance = registration.point_covariance_mm2(at)
+    if tip_covariance_mm2 is not None:
+        covariance = covariance + np.asarray(tip_covariance_mm2, dtype=np.float64)
+    off.setflags(write=False)
+    return LandmarkCheck(
+        landmark=landmark,
+        distance_mm=float(np.linalg.norm(off)),
+        off_mm=off,
+        sd_mm=float(np.sqrt(np.trace(covariance))),
+        most_mm=most_mm,
+    )

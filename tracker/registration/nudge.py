@@ -1,0 +1,182 @@
+"""Nudges by hand: small steps of a registration along and about the patient's axes, bounded and undoable.
+
+What a hand nudges, nobody has measured. So each nudge widens the stated uncertainty as if the truth lay
+anywhere between the registration as made and as nudged; undone, that is gone too.
+"""
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from tracker.errors import RegistrationError
+from tracker.geometry import Array, Rigid, Vertebra, rotation_from_vector, skew, vector_from_rotation
+from tracker.registration.record import Registration
+
+STEPS_MM = (0.1, 0.5, 1.0)
+STEPS_DEG = (0.1, 0.5, 1.0)
+ROUNDING = 1e-9
+
+
+class NudgeAxis(StrEnum):
+    """The patient's axes, each named for the way that is positive."""
+
+    LEFT = "left"
+    BACK = "back"
+    HEAD = "head"
+
+
+class NudgeKind(StrEnum):
+    """What a nudge does: shift along its axis in mm, or turn about it in degrees, right-handed."""
+
+    SHIFT = "shift"
+    TURN = "turn"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Nudge:
+    """One step: how the drawn vertebra moves on the patient.
+
+    Attributes:
+        kind: shift or turn.
+        axis: along or about which.
+        amount: in mm or degrees, with its sign; one of the steps.
+
+    Raises:
+        RegistrationError: NUDGE_STEP_INVALID.
+    """
+
+    kind: NudgeKind
+    axis: NudgeAxis
+    amount: float
+
+    def __post_init__(self) -> None:
+        steps = STEPS_MM if self.kind is NudgeKind.SHIFT else STEPS_DEG
+        if not any(abs(abs(self.amount) - step) < ROUNDING for step in steps):
+            unit = "mm" if self.kind is NudgeKind.SHIFT else "deg"
+            raise RegistrationError(
+                "NUDGE_STEP_INVALID",
+                f"a nudge of {self.amount:g} {unit} is no step, those are "
+                f"{', '.join(f'{step:g}' for step in steps)} {unit}",
+                "Nudge in small steps, and register again where many would be needed.",
+                {"amount": self.amount, "allowed": list(steps)},
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NudgeLimits:
+    """How far all nudges together may lead from the registration as it was made."""
+
+    most_mm: float = 5.0
+    most_deg: float = 5.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NudgedRegistration:
+    """A registration as it was made, and the nudges on it in their order.
+
+    Attributes:
+        made: the registration without any nudge.
+        pivot_mm: (3,) on the CT, about which turns are made, such as the entry point.
+        limits: how far nudges may lead.
+        nudges: all that hold, the oldest first; the log of who made them and when is the caller's.
+    """
+
+    made: Registration
+    pivot_mm: Array
+    limits: NudgeLimits = NudgeLimits()
+    nudges: tuple[Nudge, ...] = ()
+
+    def __post_init__(self) -> None:
+        pivot = np.array(self.pivot_mm, dtype=np.float64)
+        if pivot.shape != (3,) or not np.isfinite(pivot).all():
+            raise RegistrationError(
+                "NUDGE_PIVOT_INVALID",
+                "the point about which to turn is not three finite numbers",
+                "Give a point of the plan in mm, such as the entry point.",
+            )
+        pivot.setflags(write=False)
+        object.__setattr__(self, "pivot_mm", pivot)
+
+    def nudged(self, nudge: Nudge) -> "NudgedRegistration":
+        """With one more nudge.
+
+        Raises:
+            RegistrationError: NUDGE_TOO_FAR, all together would lead farther than allowed.
+        """
+        after = replace(self, nudges=(*self.nudges, nudge))
+        shift_mm, turn_deg = after.shift_mm, after.turn_deg
+        # What leads back is always let through, also where limits were made narrower meanwhile.
+        too_far = shift_mm > max(self.limits.most_mm, self.shift_mm) + ROUNDING
+        too_turned = turn_deg > max(self.limits.most_deg, self.turn_deg) + ROUNDING
+        if too_far or too_turned:
+            raise RegistrationError(
+                "NUDGE_TOO_FAR",
+                f"with this nudge the registration would be {shift_mm:.1f} mm and {turn_deg:.1f} deg "
+                f"from where it was made, allowed {self.limits.most_mm:g} mm and "
+                f"{self.limits.most_deg:g} deg",
+                "Undo nudges, or register again: what is this far off is no matter of nudging.",
+                {"shift_mm": shift_mm, "turn_deg": turn_deg},
+            )
+        return after
+
+    def undone(self) -> "NudgedRegistration":
+        """Without the last nudge.
+
+        Raises:
+            RegistrationError: NUDGE_NONE, there is none.
+        """
+        if not self.nudges:
+            raise RegistrationError(
+                "NUDGE_NONE", "there is no nudge to undo", "The registration stands as it was made."
+            )
+        return replace(self, nudges=self.nudges[:-1])
+
+    @property
+    def shift_mm(self) -> float:
+        """How far the pivot lies from where it was as made."""
+        return float(np.linalg.norm(self._moved().move_points(self.pivot_mm) - self.pivot_mm))
+
+    @property
+    def turn_deg(self) -> float:
+        """How far all nudges together turn it."""
+        return float(np.degrees(np.linalg.norm(vector_from_rotation(self._moved().rotation))))
+
+    @property
+    def registration(self) -> Registration:
+        """As navigation uses it: moved, and stated as less sure by the nudges."""
+        if not self.nudges:
+            return self.made
+        moved = self._moved()
+        anchor_from_vertebra = self.made.anchor_from_vertebra @ moved
+        turn = self.made.anchor_from_vertebra.turn_directions(vector_from_rotation(moved.rotation))
+        was = self.made.anchor_from_vertebra.move_points(self.pivot_mm)
+        shift = anchor_from_vertebra.move_points(self.pivot_mm) - was
+        # What is known is known of the pivot's surroundings; the CT's origin is far, and its arc no straight
+        # line, so that the pivot keeps its own uncertainty and gets the shift.
+        before = skew(self.made.anchor_from_vertebra.turn_directions(self.pivot_mm))
+        after = skew(anchor_from_vertebra.turn_directions(self.pivot_mm))
+        carried = np.eye(6)
+        carried[:3, 3:] = after - before
+        way = np.concatenate([shift + after @ turn, turn])
+        return replace(
+            self.made,
+            anchor_from_vertebra=anchor_from_vertebra,
+            # Anywhere between both with equal right: a third of the square.
+            covariance=carried @ self.made.covariance @ carried.T + np.outer(way, way) / 3.0,
+        )
+
+    def _moved(self) -> Rigid[Vertebra, Vertebra]:
+        moved: Rigid[Vertebra, Vertebra] = Rigid.identity()
+        for nudge in self.nudges:
+            moved = moved @ _step(nudge, self.pivot_mm)
+        return moved
+
+
+def _step(nudge: Nudge, pivot_mm: Array) -> Rigid[Vertebra, Vertebra]:
+    # LPS: left, back and head are x, y and z.
+    axis = np.eye(3)[list(NudgeAxis).index(nudge.axis)]
+    if nudge.kind is NudgeKind.SHIFT:
+        return Rigid(rotation=np.eye(3), translation_mm=nudge.amount * axis)
+    turn = rotation_from_vector(np.radians(nudge.amount) * axis)
+    return Rigid(rotation=turn, translation_mm=pivot_mm - turn @ pivot_mm)

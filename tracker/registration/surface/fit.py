@@ -1,0 +1,143 @@
+"""Lays swept points on the surface from one start: iterated closest points, point to plane, robust."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
+from tracker.registration.points.fit import jacobians
+from tracker.registration.surface.nearest import NearestOnSurface
+
+MOST_ROUNDS = 60
+STILL_MM = 1e-4  # at the lever of the sweep
+# Tukey's biweight: 95 % as sharp as least squares where there are no outliers.
+TUKEY = 4.685
+SD_FROM_MEDIAN = 1.4826
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sweep:
+    """What is fitted: swept points, and landmarks beside them.
+
+    Attributes:
+        points_mm: (n, 3) in the anchor's frame.
+        shares: (n,) how much of a point of its own each is; 1 where none is near.
+        landmarks_fixed_mm, landmarks_moving_mm: (m, 3) on the CT and as touched; m may be 0.
+        landmark_weights: (m, 3, 3) the inverse covariance of each, on the CT's axes.
+        least_sd_mm, tip_radius_mm: see `SurfaceSettings`.
+    """
+
+    points_mm: Array
+    shares: Array
+    landmarks_fixed_mm: Array
+    landmarks_moving_mm: Array
+    landmark_weights: Array
+    least_sd_mm: float
+    tip_radius_mm: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Laid:
+    """A fit from one start.
+
+    Attributes:
+        fixed_from_moving: takes swept points to the CT.
+        off_mm: (n,) signed distances from the surface, positive outside, less the tip's radius.
+        normals: (n, 3) of the surface where each point lies.
+        nearest_mm: (n, 3) where that is.
+        weights: (n,) of each point's say, 0..1.
+        sd_mm: of one point about the surface.
+    """
+
+    fixed_from_moving: Rigid[Vertebra, Anchor]
+    off_mm: Array
+    normals: Array
+    nearest_mm: Array
+    weights: Array
+    sd_mm: float
+
+
+def shares_of(points_mm: Array, alike_mm: float) -> Array:
+    """(n,): one by how many points are within reach of each; a place that was dwelt upon counts once."""
+    near = cKDTree(points_mm).query_ball_point(points_mm, alike_mm, return_length=True)
+    return np.asarray(1.0 / np.asarray(near, dtype=np.float64))
+
+
+def laid_on(
+    nearest: NearestOnSurface, sweep: Sweep, start: Rigid[Vertebra, Anchor], *, still_mm: float = STILL_MM
+) -> Laid:
+    """The fit that this start leads to, once a round moves it by less than `still_mm`."""
+    fit = start
+    lever = float(np.sqrt(((sweep.points_mm - sweep.points_mm.mean(axis=0)) ** 2).sum(axis=1).mean()))
+    for _ in range(MOST_ROUNDS):
+        laid = look(nearest, sweep, fit)
+        moved = fit.move_points(sweep.points_mm)
+        middle = moved.mean(axis=0)
+        normal, right = equations(sweep, laid, middle)
+        ridge = 1e-9 * np.trace(normal[:3, :3]) * np.diag([1.0] * 3 + [lever**2] * 3)
+        step = np.linalg.solve(normal + ridge, right)
+        # The surface is taken as flat about each point, which holds no farther than a few mm.
+        size = max(float(np.abs(step[:3]).max()), lever * float(np.abs(step[3:]).max()))
+        step *= min(1.0, 5.0 / max(size, 1e-12))
+        turn = rotation_from_vector(step[3:])
+        fit = Rigid(
+            rotation=turn @ fit.rotation,
+            translation_mm=turn @ (fit.translation_mm - middle) + middle + step[:3],
+        )
+        if size < still_mm:
+            break
+    return look(nearest, sweep, fit)
+
+
+def look(nearest: NearestOnSurface, sweep: Sweep, fit: Rigid[Vertebra, Anchor]) -> Laid:
+    """How swept points lie under this motion, and who agrees."""
+    moved = fit.move_points(sweep.points_mm)
+    at = nearest.at(moved)
+    off = ((moved - at.points_mm) * at.normals).sum(axis=1)
+    # Beside an edge the way to the surface is not along the triangle's normal.
+    way = moved - at.points_mm
+    length = np.linalg.norm(way, axis=1)
+    aslant = (length > 1e-6) & (np.abs(off) < 0.999 * length)
+    sign = np.where(off >= 0.0, 1.0, -1.0)
+    normals = np.where(aslant[:, None], way * (sign / np.maximum(length, 1e-12))[:, None], at.normals)
+    off = np.where(aslant, sign * length, off) - sweep.tip_radius_mm
+    order = np.argsort(np.abs(off))
+    middle = np.searchsorted(np.cumsum(sweep.shares[order]), 0.5 * sweep.shares.sum())
+    median = float(np.abs(off)[order[min(int(middle), len(order) - 1)]])
+    sd = max(SD_FROM_MEDIAN * median, sweep.least_sd_mm)
+    weights = np.clip(1.0 - (off / (TUKEY * sd)) ** 2, 0.0, None) ** 2
+    return Laid(
+        fixed_from_moving=fit, off_mm=off, normals=normals, nearest_mm=at.points_mm, weights=weights, sd_mm=sd
+    )
+
+
+def equations(
+    sweep: Sweep, laid: Laid, about_mm: Array, *, normals: Array | None = None, landmarks: bool = True
+) -> tuple[Array, Array]:
+    """Normal matrix (6, 6) and right side (6,) of the next step: a shift, and a turn about this point."""
+    fit = laid.fixed_from_moving
+    rows = np.einsum(
+        "ni,nik->nk",
+        laid.normals if normals is None else normals,
+        jacobians(fit.move_points(sweep.points_mm) - about_mm),
+    )
+    say = laid.weights * sweep.shares / laid.sd_mm**2
+    normal, right = (rows * say[:, None]).T @ rows, -rows.T @ (say * laid.off_mm)
+    if landmarks and len(sweep.landmarks_fixed_mm):
+        moved = fit.move_points(sweep.landmarks_moving_mm)
+        arms = jacobians(moved - about_mm)
+        weighed = np.einsum("nik,nij->nkj", arms, sweep.landmark_weights)
+        normal = normal + np.einsum("nkj,njl->kl", weighed, arms)
+        right = right - np.einsum("nkj,nj->k", weighed, moved - sweep.landmarks_fixed_mm)
+    return normal, right
+
+
+def cost(sweep: Sweep, laid: Laid, sd_mm: float) -> float:
+    """How badly a fit explains sweep and landmarks, in squared standard deviations; outliers are cut off."""
+    squares = np.minimum((laid.off_mm / sd_mm) ** 2, TUKEY**2)
+    total = float((sweep.shares * squares).sum())
+    if len(sweep.landmarks_fixed_mm):
+        off = laid.fixed_from_moving.move_points(sweep.landmarks_moving_mm) - sweep.landmarks_fixed_mm
+        total += float(np.einsum("ni,nij,nj->", off, sweep.landmark_weights, off))
+    return total
