@@ -109,13 +109,7 @@ def create_app(parts: AppParts) -> FastAPI:
     if parts.jobs is not None:
         app.include_router(jobs_router(parts.jobs))
     if parts.steps is not None and parts.store is not None:
-        app.include_router(camera_router(parts.steps.camera, parts.store.home))
-        app.include_router(tools_router(parts.steps.tool))
-        app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
-        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
-        app.include_router(procedure_router(parts.steps.procedure))
-        app.include_router(registration_router(parts.steps.registration))
-        app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))
+        _include_steps(app, parts.steps, parts.store)
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
         app,
@@ -126,3 +120,13 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     mount_page(app, camera=config.camera.name, folder=page_folder())
     return app
+
+
+def _include_steps(app: FastAPI, steps: Steps, store: CaseStore) -> None:
+    app.include_router(camera_router(steps.camera, store.home))
+    app.include_router(tools_router(steps.tool))
+    app.include_router(ct_router(steps.ct, steps.opened_ct, store.home))
+    app.include_router(plan_router(steps.plan, steps.opened_ct, store.home))
+    app.include_router(procedure_router(steps.procedure))
+    app.include_router(registration_router(steps.registration))
+    app.include_router(surface_router(steps.surface, store, store.home))

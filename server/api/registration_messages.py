@@ -66,8 +66,8 @@ class TouchMessage(Message):
     images: int
     """In which the tip was seen so far."""
     wanted: int
-    spread_mm: float | None
-    """RMS distance of the tip from its mean; null until it is taken."""
+    spread_mm: list[float] | None
+    """Standard deviation of the tip along the anchor's axes; null until it is taken."""
     trouble: TroubleMessage | None
     """Why it was refused."""
 
@@ -80,7 +80,7 @@ class TouchedLandmarkMessage(Message):
     touched: bool
     used: bool
     tip_in_anchor_mm: list[float] | None
-    spread_mm: float | None
+    spread_mm: list[float] | None
     tip_sd_mm: float | None
     """How sure the tip is (root of the sum of variances)."""
     residual_mm: float | None
@@ -167,8 +167,8 @@ def points_message(status: PointsStatus, missing: list[TroubleMessage]) -> Point
                 point_lps_mm=one.point_lps_mm.tolist(),
                 touched=one.touched is not None,
                 used=one.touched is not None and one.used,
-                tip_in_anchor_mm=None if one.touched is None else one.touched.point_mm.tolist(),
-                spread_mm=None if one.touched is None else one.touched.spread_mm,
+                tip_in_anchor_mm=None if one.touched is None else one.touched.tip_in_anchor_mm.tolist(),
+                spread_mm=None if one.touched is None else one.touched.spread_mm.tolist(),
                 tip_sd_mm=None
                 if one.touched is None
                 else float(np.sqrt(np.trace(one.touched.covariance_mm2))),
@@ -207,7 +207,7 @@ def touch_message(status: TouchStatus) -> TouchMessage:
         state=status.state,
         images=status.images,
         wanted=status.wanted,
-        spread_mm=None if status.touched is None else status.touched.spread_mm,
+        spread_mm=None if status.touched is None else status.touched.spread_mm.tolist(),
         trouble=trouble_message(status.trouble),
     )
 

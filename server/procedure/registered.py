@@ -86,10 +86,10 @@ class KeptCheck(Section):
     passed: bool
     run: str
     """Which run of the server it was made in."""
-    found_in_vertebra_mm: list[float]
-    """Where the registration says that the tip was, LPS."""
-    expected_sd_mm: float
-    """The distance that the stated uncertainty makes likely (root of the sum of variances)."""
+    off_lps_mm: list[float]
+    """Where the registration has the tip, minus the landmark: to the left, the back, the head."""
+    sd_mm: float
+    """How unsure that distance is (3-D RMS), by what registration and tip state."""
     images: int
 
 
