@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from fastapi import FastAPI
 
+from server.alarms import AlarmDesk
+from server.api.alarms import alarms_router
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
@@ -22,12 +24,14 @@ from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.refused_uploads import RefusedUploads
 from server.api.registration import registration_router
+from server.api.rehearsal import rehearsal_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
 from server.api.tools import tools_router
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
+from server.loop.rehearsed import Rehearsed
 from server.overlay.words import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.scene import mount_scene
@@ -53,6 +57,8 @@ class AppParts:
         steps: of the set-up; None where nothing is kept.
         setup: what stands before the first image, for the scene; None when it is known only later.
         surface: the bone, for the scene.
+        alarms: of this theatre; None makes some that nobody feeds.
+        rehearsed: what is rehearsed; None for every other source.
     """
 
     hub: LiveHub
@@ -62,12 +68,13 @@ class AppParts:
     steps: Steps | None = None
     setup: Setup | None = None
     surface: Surface | None = None
+    alarms: AlarmDesk | None = None
+    rehearsed: Rehearsed | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
     """The application, ready to be served."""
-    hub, config = parts.hub, parts.config
-    limits = config.limits
+    hub, config, limits = parts.hub, parts.config, parts.config.limits
     viewers = Viewers()
     metrics = Metrics(hub=hub, viewers=viewers)
     video = Video(hub=hub, viewers=viewers, stale_after_ms=limits.video_stale_after_ms)
@@ -101,15 +108,12 @@ def create_app(parts: AppParts) -> FastAPI:
     app.add_middleware(RefusedUploads)
     app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
     app.include_router(live_router(hub))
+    app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
-    if parts.store is not None:
-        app.include_router(cases_router(parts.store))
-    if parts.jobs is not None:
-        app.include_router(jobs_router(parts.jobs))
-    if parts.steps is not None and parts.store is not None:
-        _include_steps(app, parts.steps, parts.store)
+    app.include_router(rehearsal_router(parts.rehearsed, hub, config.camera))
+    _add_procedure(app, parts)
     app.include_router(documentation_router(app.openapi, openapi_path=OPENAPI_PATH))
     mount_scene(
         app,
@@ -122,11 +126,17 @@ def create_app(parts: AppParts) -> FastAPI:
     return app
 
 
-def _include_steps(app: FastAPI, steps: Steps, store: CaseStore) -> None:
-    app.include_router(camera_router(steps.camera, store.home))
-    app.include_router(tools_router(steps.tool))
-    app.include_router(ct_router(steps.ct, steps.opened_ct, store.home))
-    app.include_router(plan_router(steps.plan, steps.opened_ct, store.home))
-    app.include_router(procedure_router(steps.procedure))
-    app.include_router(registration_router(steps.registration))
-    app.include_router(surface_router(steps.surface, store, store.home))
+def _add_procedure(app: FastAPI, parts: AppParts) -> None:
+    """The doors to cases, jobs and the steps, where there is a store."""
+    if parts.store is not None:
+        app.include_router(cases_router(parts.store))
+    if parts.jobs is not None:
+        app.include_router(jobs_router(parts.jobs))
+    if parts.steps is not None and parts.store is not None:
+        app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(tools_router(parts.steps.tool))
+        app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
+        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(procedure_router(parts.steps.procedure))
+        app.include_router(registration_router(parts.steps.registration))
+        app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))

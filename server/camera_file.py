@@ -6,6 +6,7 @@ from pathlib import Path
 
 import yaml
 
+from server.yaml_file import yaml_in
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError, InvalidInput
 
@@ -43,15 +44,7 @@ def read_camera_file(path: Path) -> CameraFile:
             CAMERA_MODEL_INVALID; the message names the file.
     """
     context: dict[str, object] = {"file": str(path)}
-    try:
-        # JSON is YAML too.
-        values = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        message = f"the camera file {path} cannot be read: {error.strerror}"
-        raise InvalidInput("CAMERA_FILE_UNREADABLE", message, REMEDY, context) from error
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        message = f"the camera file {path} is neither YAML nor JSON"
-        raise InvalidInput("CAMERA_FILE_UNREADABLE", message, REMEDY, context) from error
+    values = yaml_in(path, what="camera file", code="CAMERA_FILE_UNREADABLE", remedy=REMEDY)
     if not isinstance(values, dict):
         message = f"the camera file {path} is a {type(values).__name__}, needed keys with values"
         raise InvalidInput("CAMERA_FILE_INVALID", message, REMEDY, context)

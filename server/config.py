@@ -52,6 +52,28 @@ class CameraConfig(Section):
     """Asked of a local camera; the rate of a folder, and of a file that has none (30 if left out)."""
 
 
+class RehearsalEventConfig(Section):
+    """Something that goes wrong in the rehearsal, at a known time."""
+
+    kind: Literal[
+        "camera_moves",
+        "patient_moves",
+        "drill_jumps",
+        "drill_hidden",
+        "reference_hidden",
+        "camera_stops",
+        "camera_stalls",
+    ]
+    at_s: Annotated[float, Field(ge=0.0, le=100_000.0)]
+    """Since the scene began."""
+    lasts_s: Annotated[float, Field(gt=0.0, le=100_000.0)] | None = None
+    """Left out: for good."""
+    every_s: Annotated[float, Field(gt=0.0, le=100_000.0)] | None = None
+    """Left out: once."""
+    size_mm: Annotated[float, Field(ge=0.0, le=60.0)] = 12.0
+    size_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 2.0
+
+
 class RehearsalConfig(Section):
     """The theatre that exists only in software."""
 
@@ -63,8 +85,15 @@ class RehearsalConfig(Section):
     blur: Strength = 1.0
     clutter: Strength = 1.0
     light: Annotated[float, Field(gt=0.0, le=10.0)] = 1.0
-    scene: Literal["operation", "pivot", "spin", "board"] = "operation"
-    """A drill at work; its tip at rest while it tilts, or turns; a board to calibrate with."""
+    scene: Literal["operation", "pivot", "spin", "board", "landmarks", "sweep", "check"] = "operation"
+    """A drill at work; its tip at rest while it tilts, or turns; a board to calibrate with; its tip on one
+    landmark after the other, sweeping over the bone, on a landmark that is left for the check."""
+    skill: Literal["wandering", "good", "breaching"] = "wandering"
+    """How the drill is held in the operation: off by millimetres at last, true, or through the wall."""
+    reference: bool = False
+    """A second marker is fixed to the patient."""
+    events: Annotated[list[RehearsalEventConfig], Field(max_length=20)] = []
+    """What goes wrong, and when."""
     board: Literal["dots", "checkerboard", "charuco"] = "dots"
     """Which calibration board is shown."""
     brings_setup: bool = True
@@ -182,6 +211,29 @@ class LimitsConfig(Section):
     most_tip_sd_mm: Annotated[float, Field(ge=0.1, le=100.0)] = 3.0
 
 
+class AlarmsConfig(Section):
+    """From where on something is an alarm; an image is missed after `limits.video_stale_after_ms`."""
+
+    warning_distance_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 1.0
+    """Bone between the drill's cylinder and the pedicle's wall."""
+    hysteresis_mm: Annotated[float, Field(ge=0.05, le=5.0)] = 0.3
+    """How much better a distance must be than its limit for the alarm to clear."""
+    breach_ratio: Annotated[float, Field(gt=0.0, lt=1.0)] = 0.05
+    """Probability of being through the wall."""
+    breach_hysteresis_ratio: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.02
+    again_after_mm: Annotated[float, Field(ge=0.1, le=20.0)] = 1.0
+    """An acknowledged breach that gets deeper by this sounds again."""
+    drill_unseen_after_ms: Annotated[float, Field(ge=100.0, le=60_000.0)] = 1000
+    reference_unseen_after_ms: Annotated[float, Field(ge=100.0, le=60_000.0)] = 1000
+    put_away_after_s: Annotated[float, Field(ge=5.0, le=3600.0)] = 120
+    """A drill unseen for longer lies somewhere on purpose, and is no longer missed."""
+    check_due_after_min: Annotated[float, Field(ge=1.0, le=1440.0)] = 30
+    """Since the last check on anatomy."""
+    screen_lost_after_s: Annotated[float, Field(ge=3.0, le=600.0)] = 6
+    """A screen with armed sound that says nothing for this long is lost."""
+    least_free_disk_mb: Annotated[float, Field(ge=0.0, le=1e7)] = 2000
+
+
 class VideoConfig(Section):
     """The picture that goes out."""
 
@@ -216,5 +268,6 @@ class Config(Section):
     smoothing: SmoothingConfig = SmoothingConfig()
     calibration: CalibrationConfig = CalibrationConfig()
     limits: LimitsConfig = LimitsConfig()
+    alarms: AlarmsConfig = AlarmsConfig()
     plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()

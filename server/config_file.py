@@ -122,7 +122,8 @@ def _mapping_from_file(file: Path) -> dict[str, Any]:
         ) from error
     try:
         raw = yaml.load(text, Loader=_StrictLoader)  # noqa: S506  a SafeLoader
-    except yaml.YAMLError as error:
+    except (ValueError, RecursionError, yaml.YAMLError) as error:
+        # Beside what is no YAML: a date that there is not, lists in lists without end.
         raise _yaml_error(file, error) from None
     if raw is None:
         return {}
@@ -132,7 +133,7 @@ def _mapping_from_file(file: Path) -> dict[str, Any]:
     return {key: value for key, value in raw.items() if value is not None}
 
 
-def _yaml_error(file: Path, error: yaml.YAMLError) -> ConfigError:
+def _yaml_error(file: Path, error: Exception) -> ConfigError:
     mark = getattr(error, "problem_mark", None)
     reason = getattr(error, "problem", None) or str(error)
     place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark is not None else ""
@@ -233,12 +234,14 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
         mistakes.append(Mistake(where=where.of(("camera", lone)), key=f"camera.{other}", sentence=sentence))
     known = set(config.markers)
     if source_from_text(camera.source).kind is SourceKind.REHEARSAL:
-        known.add("drill")
-        for section in ("markers", "tools"):
-            if "drill" in getattr(config, section):
-                sentence = f"'{section}.drill' is taken by the rehearsal's own drill, allowed: another name"
+        taken = [("markers", "drill"), ("tools", "drill")]
+        taken += [("markers", "reference")] if config.rehearsal.reference else []
+        known |= {name for _, name in taken}
+        for section, name in taken:
+            if name in getattr(config, section):
+                sentence = f"'{section}.{name}' is taken by the rehearsal's own {name}, allowed: another name"
                 mistakes.append(
-                    Mistake(where=where.of((section, "drill")), key=f"{section}.drill", sentence=sentence)
+                    Mistake(where=where.of((section, name)), key=f"{section}.{name}", sentence=sentence)
                 )
     reference = config.reference.marker
     if reference is not None and reference not in known:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
+from tracker.navigation.alarms import QUIET, AlarmPicture
 
 
 class SourceState(StrEnum):
@@ -102,6 +103,7 @@ class Instant:
         image: the same image as the camera gave it, (h, w, 3) uint8 BGR, for set-up; None when there is no
             snapshot. Never written into.
         server_ms: time of the server's own stages ("overlay", "encode") for this image.
+        alarms: what the alarms say, this image looked at.
     """
 
     sequence: int
@@ -111,6 +113,7 @@ class Instant:
     jpeg: bytes = b""
     image: npt.NDArray[np.uint8] | None = None
     server_ms: dict[str, float] = field(default_factory=dict)
+    alarms: AlarmPicture = QUIET
 
 
 class LiveHub:

@@ -1,5 +1,6 @@
 """What stands before the first image: camera, markers, tools, plan and registration, from the settings."""
 
+import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -9,7 +10,7 @@ import numpy as np
 
 from server.camera_file import load_camera_file
 from server.capture.address import SourceKind, source_from_text
-from server.config import Config
+from server.config import Config, RehearsalConfig
 from server.marker_file import load_marker_image
 from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
@@ -177,8 +178,10 @@ def build_setup(config: Config) -> Preparation:
         smoothing=smoothing,
     )
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
-        theatre = _theatre(config)
-        unknowing = replace(bare, models=(theatre.marker, *models), theatre=theatre)
+        theatre = theatre_of(config.rehearsal)
+        brought = (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)
+        named = config.reference.marker or ("" if theatre.reference is None else theatre.reference.name)
+        unknowing = replace(bare, models=(*brought, *models), theatre=theatre, reference=named)
         return _with_what_it_brings(unknowing, theatre) if config.rehearsal.brings_setup else unknowing
     return bare
 
@@ -189,8 +192,10 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
         unknowing,
         camera=theatre.camera,
         tools={theatre.tool.name: theatre.tool, **unknowing.tools},
-        channel=theatre.channels[0],
-        registration=Registration.known_to_camera(theatre.camera_from_vertebra),
+        channel=replace(theatre.channels[0], name=f"rehearsal's {theatre.channels[0].name}"),
+        registration=Registration.known_to_reference(theatre.reference_from_vertebra)
+        if theatre.reference is not None and unknowing.reference == theatre.reference.name
+        else Registration.known_to_camera(theatre.camera_from_vertebra),
     )
 
 
@@ -205,11 +210,34 @@ def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
     )
 
 
-def _theatre(config: Config) -> "Theatre":
-    # Here, because it takes time to load and only the rehearsal needs it.
-    from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings  # noqa: PLC0415
+def theatre_of(rehearsal: RehearsalConfig) -> "Theatre":
+    """The theatre that these settings ask for.
 
-    rehearsal = config.rehearsal
+    Raises:
+        InvalidInput: REHEARSAL_SETTING_INVALID.
+    """
+    # Here, because it takes time to load and only the rehearsal needs it.
+    from tracker.rehearsal import (  # noqa: PLC0415
+        BoardKind,
+        Event,
+        EventKind,
+        Scene,
+        Skill,
+        Theatre,
+        TheatreSettings,
+    )
+
+    events = tuple(
+        Event(
+            kind=EventKind(event.kind),
+            at_s=event.at_s,
+            lasts_s=math.inf if event.lasts_s is None else event.lasts_s,
+            every_s=math.inf if event.every_s is None else event.every_s,
+            size_mm=event.size_mm,
+            size_deg=event.size_deg,
+        )
+        for event in rehearsal.events
+    )
     return Theatre(
         TheatreSettings(
             seed=rehearsal.seed,
@@ -220,5 +248,8 @@ def _theatre(config: Config) -> "Theatre":
             light=rehearsal.light,
             scene=Scene(rehearsal.scene),
             board=BoardKind(rehearsal.board),
+            skill=Skill(rehearsal.skill),
+            reference=rehearsal.reference,
+            events=events,
         )
     )

@@ -8,6 +8,7 @@ import yaml
 from pydantic import Field, ValidationError
 
 from server.config import MarkerConfig, Name, Point, Section, ToolConfig
+from server.yaml_file import yaml_in
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
 from tracker.pose.tool import PivotCalibration, SpinCalibration
@@ -66,14 +67,7 @@ def load_tool_file(path: Path) -> ToolFile:
         InvalidInput: TOOL_FILE_UNREADABLE or TOOL_FILE_INVALID; the message names the file.
     """
     context: dict[str, object] = {"file": str(path)}
-    try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        message = f"the tool file {path} cannot be read: {error.strerror}"
-        raise InvalidInput("TOOL_FILE_UNREADABLE", message, REMEDY, context) from error
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        message = f"the tool file {path} is no YAML"
-        raise InvalidInput("TOOL_FILE_UNREADABLE", message, REMEDY, context) from error
+    values = yaml_in(path, what="tool file", code="TOOL_FILE_UNREADABLE", remedy=REMEDY)
     try:
         return ToolFile.model_validate(values)
     except ValidationError as error:

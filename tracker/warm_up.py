@@ -3,9 +3,13 @@
 import numpy as np
 
 from tracker.camera import CameraModel
+from tracker.geometry import Rigid, Tool, Vertebra
 from tracker.marker import MarkerModel, explanation_of
+from tracker.navigation.certainty import Drill, Placed, Room, judge
+from tracker.navigation.clearance import field_of_bone
 from tracker.pipeline import Tracker
 from tracker.pipeline.practice import PracticePicture, practice_picture
+from tracker.plan import Channel, Surface
 
 
 def warm_up() -> None:
@@ -24,6 +28,32 @@ def warm_up() -> None:
     for at_s in (0.0, 0.03, 0.06):
         tracker.step(picture.image, captured_at_s=at_s)
     _explain(model, picture)
+    _judge()
+
+
+def _judge() -> None:
+    """Hold a drill against the wall of a block of bone: distances made, looked up, and weighed."""
+    corners = np.array([[x, y, z] for x in (-9.0, 9.0) for y in (-9.0, 9.0) for z in (-9.0, 9.0)])
+    faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    halves = np.array([half for a, b, c, d in faces for half in ((a, b, c), (a, c, d))])
+    channel = Channel(
+        name="warm-up",
+        entry_in_vertebra_mm=np.array([0.0, 9.0, 0.0]),
+        target_in_vertebra_mm=np.array([0.0, -5.0, 0.0]),
+        radius_mm=3.0,
+    )
+    wall = field_of_bone(Surface(vertices_mm=corners, faces=halves), channel, step_mm=1.0, margin_mm=8.0)
+    pose: Rigid[Vertebra, Tool] = Rigid(
+        rotation=np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), translation_mm=np.zeros(3)
+    )
+    judge(
+        Placed(pose=pose, covariance=np.diag([9.0] * 3 + [0.01] * 3)),
+        channel,
+        wall,
+        Room(room_mm=1.0, lever_mm=10.0),
+        Drill(radius_mm=2.0, length_mm=50.0),
+    )
+    wall.distances_mm(np.zeros((1, 3)))
 
 
 def _explain(model: MarkerModel, picture: PracticePicture) -> None:

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
+from server.api.case_messages import MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, TroubleMessage, trouble_message
 from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
@@ -104,13 +105,13 @@ class AccuracyRequest(Message):
     """A board that is in the picture now, and who checks."""
 
     board: BoardMessage
-    made_by: Annotated[str, Field(min_length=1, max_length=200)]
+    made_by: MadeBy
 
 
 class CalibrationRequest(Message):
     """Who calibrates."""
 
-    made_by: Annotated[str, Field(min_length=1, max_length=200)]
+    made_by: MadeBy
 
 
 def board_of(message: BoardMessage) -> Board:

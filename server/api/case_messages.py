@@ -1,8 +1,8 @@
 """What the answers about cases say."""
 
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from server.store import (
     Case,
@@ -16,8 +16,16 @@ from server.store import (
     StoredFile,
     Withdrawal,
 )
+from server.store.checks import checked_name
 from server.stream.messages import Message
 
+
+def _person(name: str) -> str:
+    """Refused here, before a long upload or job, and not when its result is to be kept."""
+    return checked_name(name, of="name of who makes it")
+
+
+MadeBy: TypeAlias = Annotated[str, Field(min_length=1, max_length=200), AfterValidator(_person)]
 Words = Annotated[str, Field(min_length=1, max_length=1000)]
 
 

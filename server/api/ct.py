@@ -8,10 +8,9 @@ from anyio import to_thread
 from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.responses import FileResponse
 
-from server.api.case_messages import heading_message
+from server.api.case_messages import MadeBy, heading_message
 from server.api.ct_messages import (
     CtMessage,
-    MadeBy,
     ProbeMessage,
     ProbeRequest,
     SliceMessage,

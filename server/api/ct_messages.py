@@ -16,7 +16,6 @@ from tracker.plan.slices.planes import VIEWS
 # No patient is farther from the scanner's origin.
 Coordinate: TypeAlias = Annotated[float, Field(ge=-10_000.0, le=10_000.0, allow_inf_nan=False)]
 PointLps: TypeAlias = Annotated[list[Coordinate], Field(min_length=3, max_length=3)]
-MadeBy: TypeAlias = Annotated[str, Field(min_length=1, max_length=200)]
 
 
 class UploadMessage(JobMessage):

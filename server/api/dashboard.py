@@ -4,9 +4,10 @@ from importlib.metadata import PackageNotFoundError, version
 
 from fastapi import APIRouter
 
+from server.api.alarms import ARMED_EVERY_S, SoundMessage, sound_messages
 from server.config import Config
 from server.overlay.words import RESEARCH_SOFTWARE
-from server.stream.messages import Message
+from server.stream.message import Message
 
 PRODUCT = "Coaxial"
 
@@ -51,6 +52,10 @@ class DashboardMessage(Message):
     limits: LimitsMessage
     scene_available: bool
     paths: PathsMessage
+    sounds: list[SoundMessage]
+    """Of the alarms, the highest first."""
+    armed_every_s: float
+    """How often a screen says whether its sound is armed."""
 
 
 def product_version() -> str:
@@ -85,6 +90,8 @@ def dashboard_message(config: Config, *, scene_available: bool) -> DashboardMess
             health="/health",
             metrics="/metrics",
         ),
+        sounds=sound_messages(),
+        armed_every_s=ARMED_EVERY_S,
     )
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, TypeAlias
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
-from server.api.ct_messages import MadeBy
+from server.api.case_messages import MadeBy
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import HU, PNG_ANSWER, WindowHu, asked_window, picture

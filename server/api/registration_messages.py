@@ -5,8 +5,7 @@ from typing import Annotated, TypeAlias
 import numpy as np
 from pydantic import Field
 
-from server.api.case_messages import HeadingMessage, heading_message
-from server.api.ct_messages import MadeBy
+from server.api.case_messages import HeadingMessage, MadeBy, heading_message
 from server.config import Name
 from server.procedure.registered import KeptCheck, KeptRegistration, Value
 from server.procedure.registration import (

@@ -7,8 +7,8 @@ from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, document_message
-from server.api.ct_messages import MadeBy, PointLps
+from server.api.case_messages import DocumentMessage, MadeBy, document_message
+from server.api.ct_messages import PointLps
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import KEEP

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Response
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, document_message
+from server.api.case_messages import DocumentMessage, MadeBy, document_message
 from server.api.errors import refusals
 from server.config import Name, Point
 from server.live import Trouble
@@ -78,7 +78,7 @@ class GatheringMessage(Message):
 class ConclusionRequest(Message):
     """Keep the result; what is left out stays as it was, or comes from the settings."""
 
-    made_by: Annotated[str, Field(min_length=1, max_length=200)]
+    made_by: MadeBy
     radius_mm: Annotated[float, Field(gt=0.0, le=50.0)] | None = None
     length_mm: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
     axis_in_marker: Point | None = None

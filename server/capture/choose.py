@@ -1,12 +1,13 @@
 """From the settings to the source of images."""
 
 import threading
+from collections.abc import Sequence
 from pathlib import Path
 
 from server.capture.address import SourceAddress, SourceKind, source_from_text
 from server.capture.folder import FolderSource
 from server.capture.local_camera import LocalCameraSource
-from server.capture.rehearsal import RehearsalSource, Renderer
+from server.capture.rehearsal import Begun, RehearsalSource, Renderer, Silence
 from server.capture.shot import Shot, Source
 from server.capture.stream import StreamSource
 from server.capture.video_file import VideoFileSource
@@ -15,7 +16,13 @@ from server.errors import CaptureError
 
 
 def source_from_config(
-    config: Config, *, stop: threading.Event, renderer: Renderer | None = None, first_number: int = 0
+    config: Config,
+    *,
+    stop: threading.Event,
+    renderer: Renderer | None = None,
+    first_number: int = 0,
+    begun: Begun | None = None,
+    silences: Sequence[Silence] = (),
 ) -> Source:
     """The source that `camera.source` names, not yet opened.
 
@@ -24,6 +31,8 @@ def source_from_config(
         stop: set when the source shall wait no longer for the next image to be due.
         renderer: of the rehearsal's theatre; needed for that source only.
         first_number: the number of its first image.
+        begun: what of the rehearsal is played, and since when.
+        silences: when the rehearsal's camera gives no image.
 
     Raises:
         CaptureError: REHEARSAL_WITHOUT_THEATRE.
@@ -43,6 +52,8 @@ def source_from_config(
             stop=stop,
             fast=camera.rate == "fast",
             first_number=first_number,
+            begun=begun,
+            silences=silences,
         )
     if address.kind is SourceKind.LOCAL_CAMERA:
         size = None if camera.width is None or camera.height is None else (camera.width, camera.height)

@@ -41,7 +41,10 @@ class Source(Protocol):
 
     name: str
     waits_for_taker: bool
-    stalls: bool
+
+    @property
+    def stalls(self) -> bool:
+        """Whether silence means that something is wrong."""
 
     @property
     def defect(self) -> CaptureError | None:

@@ -5,24 +5,18 @@ from typing import Annotated
 
 import typer
 
-from server.cli.board_names import BoardOptions, Layout, Pattern
-from server.cli.calibration.commands import (
+from server.cli.board_names import BoardOptions
+from server.cli.board_typed import (
     DictionaryOption,
     FiducialsOption,
+    LayoutOption,
     MarkerOption,
+    PatternOption,
     PitchOption,
+    SizeOption,
     SquareOption,
 )
 
-PatternOption = Annotated[
-    Pattern | None, typer.Option(help="What is printed on the board in the image.", show_default=False)
-]
-SizeOption = Annotated[
-    str | None, typer.Option(help="Columns x rows of the board, as for 'coaxial calibrate'.", metavar="14x16")
-]
-LayoutOption = Annotated[
-    Layout | None, typer.Option(help="Asymmetric dots; ChArUco's layout is found.", show_default=False)
-]
 LimitOption = Annotated[
     float, typer.Option("--limit-mm", help="The largest error that passes.", metavar="MM", min=0.0)
 ]

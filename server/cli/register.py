@@ -44,7 +44,7 @@ def register_from_files(order: PointsOrder, *, as_json: bool) -> int:
         NavigationError: a file cannot be used, or the points say no motion.
     """
     targets = [target_from_text(text) for text in order.targets]
-    pairs = _pairs(read_landmarks(order.fixed), read_landmarks(order.moving))
+    pairs = pairs_of_files(read_landmarks(order.fixed), read_landmarks(order.moving))
     settings = PointSettings(least_fle_mm=order.least_fle_mm)
     found = register_points(pairs, excluded=_excluded(order.excluded, pairs), settings=settings)
     failures = found.failures(
@@ -85,7 +85,7 @@ def target_from_text(text: str) -> Array:
     return target
 
 
-def _pairs(fixed: LandmarkRows, moving: LandmarkRows) -> PairedPoints:
+def pairs_of_files(fixed: LandmarkRows, moving: LandmarkRows) -> PairedPoints:
     """The points of both files in one order: by their names, where both have some."""
     if not (fixed.labels and moving.labels):
         labels = fixed.labels or moving.labels

@@ -87,3 +87,52 @@ def points(
         most_tre_mm=most_tre_mm,
     )
     raise typer.Exit(register_from_files(order, as_json=json))
+
+
+@register_app.command()
+def surface(
+    surface: Annotated[
+        Path, typer.Option("--surface", help="The bone's mesh: STL, OBJ or PLY, as the CT.", metavar="MESH")
+    ],
+    points: Annotated[
+        Path, typer.Option("--points", help="The swept tip, a point a line: x,y,z in mm.", metavar="CSV")
+    ],
+    fixed: Annotated[
+        Path | None, typer.Option("--fixed", help="Landmarks on the CT: the start.", metavar="CSV")
+    ] = None,
+    moving: Annotated[
+        Path | None, typer.Option("--moving", help="The tip on the same landmarks.", metavar="CSV")
+    ] = None,
+    start: Annotated[
+        Path | None,
+        typer.Option(
+            "--start", help="In place of landmarks: JSON with a 4x4 fixed_from_moving.", metavar="JSON"
+        ),
+    ] = None,
+    unit: Annotated[
+        str | None, typer.Option("--unit", help="Of the mesh: mm, cm, m, inch.", metavar="UNIT")
+    ] = None,
+    target_mm: TargetOption = None,
+    tip_radius_mm: Annotated[
+        float,
+        typer.Option("--tip-radius-mm", help="Of a ball whose middle is tracked.", min=0.0, max=20.0),
+    ] = 0.0,
+    json: JsonOption = False,
+) -> None:
+    """Lay points swept over the bone on its mesh, from a fit by landmarks.
+
+    Exit status 2 where the sweep slides (a direction that it does not hold), fits in two places, or lies off.
+    """
+    from server.cli.register_surface import SurfaceOrder, register_sweep  # noqa: PLC0415  loaded when needed
+
+    order = SurfaceOrder(
+        surface=surface,
+        unit=unit,
+        points=points,
+        start=start,
+        fixed=fixed,
+        moving=moving,
+        targets=tuple(target_mm or ()),
+        tip_radius_mm=tip_radius_mm,
+    )
+    register_sweep(order, as_json=json)

@@ -53,9 +53,11 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
                 code="NO_MARKER",
                 remedy="Give its picture with --marker and its side with --side-mm, or in the settings.",
             )
+        from server.alarms import AlarmDesk, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
+        from server.loop.rehearsed import Rehearsed  # noqa: PLC0415
         from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
@@ -67,6 +69,10 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
             side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
             adopt=tracked.adopt,
         )
+        alarm_log = StoredAlarmLog(kept.store)
+        ending.callback(alarm_log.stop)
+        alarms = AlarmDesk(config, log=alarm_log)
+        alarms.tell = tracked.wake
         app = create_app(
             AppParts(
                 hub=tracked.hub,
@@ -76,11 +82,14 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
                 steps=steps,
                 setup=preparation.setup,
                 surface=preparation.surface,
+                alarms=alarms,
+                rehearsed=None
+                if preparation.theatre is None
+                else Rehearsed(config.rehearsal, play=tracked.play, begun=lambda: tracked.begun),
             )
         )
-        tracked.publish(
-            Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))
-        )
+        picture = Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))
+        tracked.publish(picture, look=alarms.look)
         serve_until(app, listener, stopping, on_ready=lambda: _greet(listener))
 
 

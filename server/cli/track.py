@@ -60,7 +60,8 @@ def track_video(
         cycle = round(theatre.cycle_s * config.rehearsal.rate_hz)
         images = cycle if images is None else images
     renderer = None if theatre is None else theatre.renderer()
-    source = source_from_config(config, stop=threading.Event(), renderer=renderer)
+    silences = () if theatre is None else theatre.settings.events
+    source = source_from_config(config, stop=threading.Event(), renderer=renderer, silences=silences)
     summary = _Summary()
     inputs = _read_files(given, config)
     try:

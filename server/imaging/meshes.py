@@ -114,9 +114,11 @@ def _refuse_large(size: int) -> None:
 def _parsed(content: bytes, file_format: str) -> trimesh.Trimesh:
     """What trimesh makes of the bytes, with each of its many errors told in one way."""
     try:
-        mesh = trimesh.load_mesh(
-            io.BytesIO(content), file_type=file_format, process=False, resolver=None, skip_materials=True
-        )
+        # Coordinates that are no numbers are refused by name, not warned of in passing.
+        with np.errstate(all="ignore"):
+            mesh = trimesh.load_mesh(
+                io.BytesIO(content), file_type=file_format, process=False, resolver=None, skip_materials=True
+            )
         if not isinstance(mesh, trimesh.Trimesh) or np.ndim(mesh.faces) != 2:
             mesh = trimesh.Trimesh()
     except NavigationError:

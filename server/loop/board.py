@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection, wait
 
+from server.capture.rehearsal import Begun
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.loop.ring import ImageRing
 
@@ -33,6 +34,7 @@ class Board:
         self._lock = threading.Lock()
         self._posted = Posted(process=ProcessStatus(state=ProcessState.STARTING), generation=0, ring=None)
         self._source = SourceStatus(name=source_name, state=SourceState.OPENING)
+        self._begun: Begun | None = None
         # One pipe for all tracking processes, one after the other, and for waking the publisher.
         self._notices, self.notice = Pipe(duplex=False)
         os.set_blocking(self._notices.fileno(), False)
@@ -50,6 +52,12 @@ class Board:
         with self._lock:
             return self._source
 
+    @property
+    def begun(self) -> Begun | None:
+        """What of the rehearsal is played, as last reported."""
+        with self._lock:
+            return self._begun
+
     def post(self, process: ProcessStatus, ring: ImageRing | None) -> None:
         """The supervisor's: the process changed."""
         with self._lock:
@@ -62,6 +70,12 @@ class Board:
         """The publisher's: what the process said of the source."""
         with self._lock:
             self._source = source
+
+    def note_begun(self, begun: Begun | None) -> None:
+        """The publisher's: what the process said of the rehearsal."""
+        if begun is not None:
+            with self._lock:
+                self._begun = begun
 
     def note_running(self, generation: int) -> None:
         """The publisher's: the process of this generation has spoken."""

@@ -2,7 +2,8 @@
 
 One thread draws the overlay and encodes it once for all viewers. Newest wins: what came while it was busy is
 dropped, and counted. Whatever happens, an instant goes out at least once a second, and never with a picture
-that is known to be dead.
+that is known to be dead. Alarms are looked for with every image, before it is drawn, and twenty times a
+second where none comes: they go out with the image that raised them, and silence raises its own.
 """
 
 import threading
@@ -15,13 +16,19 @@ import numpy as np
 import numpy.typing as npt
 import structlog
 
+from server.alarms import no_alarms
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
 from server.loop.board import Board, Posted
 from server.loop.report import Report, ReportUnpacker
 from tracker.navigation import NavigationSnapshot
+from tracker.navigation.alarms import QUIET, AlarmPicture
 
 Image: TypeAlias = npt.NDArray[np.uint8]
+Look: TypeAlias = Callable[[NavigationSnapshot | None, SourceStatus, ProcessStatus], AlarmPicture]
 HEARTBEAT_S = 0.9
+TICK_S = 0.05
+# An alarm that is told between two images goes out with the picture before it, if that is as young as this.
+SHOWN_AGAIN_S = 0.15
 
 log = structlog.get_logger(__name__)
 
@@ -31,11 +38,11 @@ class Picture:
     """How the outgoing picture is made.
 
     Attributes:
-        draw: a new image with the overlay of a snapshot.
+        draw: a new image with the overlay of a snapshot and of its alarms.
         encode: JPEG of an image.
     """
 
-    draw: Callable[[Image, NavigationSnapshot], Image]
+    draw: Callable[[Image, NavigationSnapshot, AlarmPicture], Image]
     encode: Callable[[Image], bytes]
 
 
@@ -52,10 +59,11 @@ class Shown:
 class Publisher:
     """Publishes what the tracking process reports, in a thread of its own."""
 
-    def __init__(self, *, board: Board, hub: LiveHub, picture: Picture) -> None:
+    def __init__(self, *, board: Board, hub: LiveHub, picture: Picture, look: Look = no_alarms) -> None:
         self._board = board
         self._hub = hub
         self._picture = picture
+        self._look = look
         self._stop = threading.Event()
         self._sequence = 0
         self._dropped = 0
@@ -66,7 +74,9 @@ class Publisher:
         self._last: Instant | None = None
         self._last_at_s = 0.0
         self._trouble: Trouble | None = None
-        self._drawing_failed = ""
+        self._alarms = QUIET
+        self._shown = Shown()
+        self._told = ""
         self._thread = threading.Thread(target=self._run, name="publisher", daemon=True)
 
     def start(self) -> None:
@@ -87,7 +97,7 @@ class Publisher:
                 # A thread that ends here would leave a server that looks alive and shows nothing.
                 log.exception("an instant could not be published")
                 self._stop.wait(HEARTBEAT_S)
-            self._board.wait(self._last_at_s + HEARTBEAT_S - time.monotonic())
+            self._board.wait(min(self._last_at_s + HEARTBEAT_S - time.monotonic(), TICK_S))
 
     def publish_newest(self) -> None:
         """Publish the newest report, a change of the process, or a sign of life when it is due."""
@@ -98,10 +108,11 @@ class Publisher:
             return
         self._board.note_running(posted.generation)
         self._board.note_source(report.source)
+        self._board.note_begun(report.begun)
         self._trouble = report.trouble
-        shown = Shown()
-        if report.snapshot is not None and image is not None:
-            shown = self._drawn(report.snapshot, image)
+        snapshot = None if image is None else report.snapshot
+        self._watch(snapshot, report.source)
+        shown = Shown() if snapshot is None or image is None else self._drawn(snapshot, image)
         now = self._board.posted
         if now.generation != posted.generation:
             # It died while its picture was drawn.
@@ -125,20 +136,32 @@ class Publisher:
         return report, entry.image
 
     def _publish_without_image(self, posted: Posted) -> None:
-        """Tell a change of the process at once, otherwise only that the server is alive."""
-        last = self._last
-        due = time.monotonic() - self._last_at_s >= HEARTBEAT_S
+        """Tell a change of the process or of the alarms at once, otherwise only that the server is alive."""
+        last, now_s = self._last, time.monotonic()
+        source = self._board.source
+        if posted.process.state is not ProcessState.RUNNING:
+            source = replace(source, state=SourceState.OPENING, trouble=None, rate_hz=0.0)
+        self._watch(None, source)
         process = self._status(posted.process)
         changed = last is None or (last.process.state, last.process.trouble) != (
             process.state,
             process.trouble,
         )
-        if not (due or changed):
-            return
-        source = self._board.source
-        if posted.process.state is not ProcessState.RUNNING:
-            source = replace(source, state=SourceState.OPENING, trouble=None, rate_hz=0.0)
-        self._publish(posted.process, source, Shown())
+        if changed or now_s - self._last_at_s >= HEARTBEAT_S:
+            self._publish(posted.process, source, Shown())
+        elif last is not None and last.alarms.revision != self._alarms.revision:
+            snapshot = self._shown.snapshot
+            young = snapshot is not None and now_s - snapshot.captured_at_s <= SHOWN_AGAIN_S
+            self._publish(posted.process, source, self._shown if young else Shown())
+
+    def _watch(self, snapshot: NavigationSnapshot | None, source: SourceStatus) -> None:
+        """Look for alarms; when that fails, it is told as a trouble, and the picture goes on."""
+        try:
+            self._alarms = self._look(snapshot, source, self._board.posted.process)
+        except Exception as error:  # noqa: BLE001  told once below, and shown on the page
+            self._tell_failed(
+                error, code="ALARMS_FAILED", what="alarms cannot be raised", remedy="Do not navigate. "
+            )
 
     def _status(self, process: ProcessStatus) -> ProcessStatus:
         trouble = process.trouble or (self._trouble if process.state is ProcessState.RUNNING else None)
@@ -153,7 +176,9 @@ class Publisher:
             jpeg=shown.jpeg,
             image=shown.image,
             server_ms=shown.server_ms,
+            alarms=self._alarms,
         )
+        self._shown = shown
         self._sequence += 1
         self._last, self._last_at_s = instant, time.monotonic()
         self._hub.publish(instant)
@@ -162,23 +187,23 @@ class Publisher:
         """The picture of a snapshot; nothing at all when it cannot be drawn, and why in the status."""
         started_s = time.monotonic()
         try:
-            drawn = self._picture.draw(image, snapshot)
+            drawn = self._picture.draw(image, snapshot, self._alarms)
             drawn_s = time.monotonic()
             jpeg = self._picture.encode(drawn)
         except Exception as error:  # noqa: BLE001  told once below, and shown on the page
-            self._tell_drawing_failed(error)
+            self._tell_failed(error, code="OVERLAY_FAILED", what="the overlay cannot be drawn")
             return Shown()
         done_s = time.monotonic()
         server_ms = {"overlay": (drawn_s - started_s) * 1e3, "encode": (done_s - drawn_s) * 1e3}
         return Shown(snapshot=snapshot, image=image, jpeg=jpeg, server_ms=server_ms)
 
-    def _tell_drawing_failed(self, error: Exception) -> None:
+    def _tell_failed(self, error: Exception, *, code: str, what: str, remedy: str = "") -> None:
         sentence = f"{type(error).__name__}: {error}"
         self._trouble = Trouble(
-            code="OVERLAY_FAILED",
-            message=f"the overlay cannot be drawn: {sentence}",
-            remedy="Start the program again; if it stays, report it with the log.",
+            code=code,
+            message=f"{what}: {sentence}",
+            remedy=f"{remedy}Start the program again; if it stays, report it with the log.",
         )
-        if sentence != self._drawing_failed:
-            self._drawing_failed = sentence
-            log.error("the overlay cannot be drawn", exc_info=error)
+        if self._told != f"{code} {sentence}":
+            self._told = f"{code} {sentence}"
+            log.error(what, exc_info=error)

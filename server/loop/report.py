@@ -9,6 +9,7 @@ import pickle
 import struct
 from dataclasses import dataclass
 
+from server.capture.rehearsal import Begun
 from server.live import SourceStatus, Trouble
 from tracker.navigation import NavigationSnapshot, Setup
 
@@ -25,12 +26,14 @@ class Report:
         snapshot: what the image says that goes with it; None when there is no image.
         trouble: why it cannot track, although it runs.
         tracked_images: how many images this process has reported.
+        begun: what of the rehearsal is played; None for every other source.
     """
 
     source: SourceStatus
     snapshot: NavigationSnapshot | None = None
     trouble: Trouble | None = None
     tracked_images: int = 0
+    begun: Begun | None = None
 
 
 class ReportPacker:

@@ -22,6 +22,7 @@ from server.live import ProcessState, ProcessStatus, Trouble
 from server.loop.board import Board
 from server.loop.forks import ending_words, forking_context
 from server.loop.ring import ImageRing
+from server.loop.staging import SceneOrder
 from server.loop.worker import WorkerLink, WorkerOrder, run_worker
 from server.setup import CaseSetup
 
@@ -91,10 +92,19 @@ class Supervisor:
         """Have the tracking process, and every later one, work with what this case knows. From any thread."""
         with self._orders_lock:
             self._order = replace(self._order, case=case)
-            if self._orders is not None:
-                # A process that is just ending is followed by one that has it in its order.
-                with contextlib.suppress(OSError):
-                    self._orders.send(case)
+            self._tell(case)
+
+    def play(self, scene: SceneOrder) -> None:
+        """Have the tracking process, and every later one, rehearse this scene. From any thread."""
+        with self._orders_lock:
+            self._order = replace(self._order, scene=scene)
+            self._tell(scene)
+
+    def _tell(self, told: CaseSetup | SceneOrder) -> None:
+        if self._orders is not None:
+            # A process that is just ending is followed by one that has it in its order.
+            with contextlib.suppress(OSError):
+                self._orders.send(told)
 
     def stop(self) -> None:
         """End the tracking process, and wait for it."""
@@ -177,8 +187,12 @@ class Supervisor:
         orders.close()
 
     def _next_order(self) -> WorkerOrder:
-        source = self._board.source
-        return replace(self._order, first_number=source.images, skipped_before=source.skipped_images)
+        source, begun, scene = self._board.source, self._board.begun, self._order.scene
+        if scene is not None and begun is not None and begun.scene_number == scene.number:
+            scene = replace(scene, first_number=begun.first_number)
+        return replace(
+            self._order, first_number=source.images, skipped_before=source.skipped_images, scene=scene
+        )
 
     def _wait_until_allowed(self, trouble: Trouble) -> None:
         """Returns when it may be started again; until then it is given up, and says so."""

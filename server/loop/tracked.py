@@ -1,11 +1,14 @@
 """Everything between a source and the live hub, started and stopped as one."""
 
+from server.alarms import no_alarms
 from server.capture.address import source_from_text
+from server.capture.rehearsal import Begun
 from server.config import Config
 from server.live import LiveHub
 from server.logs import LogSettings
 from server.loop.board import Board
-from server.loop.publisher import Picture, Publisher
+from server.loop.publisher import Look, Picture, Publisher
+from server.loop.staging import SceneOrder
 from server.loop.supervisor import Supervisor, Watch
 from server.loop.worker import WorkerOrder
 from server.setup import CaseSetup
@@ -31,14 +34,27 @@ class Tracked:
         """Start the tracking process; call it from the main thread. Nothing is published yet."""
         self._supervisor.start()
 
-    def publish(self, picture: Picture) -> None:
-        """Begin to publish, with pictures made in this way."""
-        self._publisher = Publisher(board=self._board, hub=self.hub, picture=picture)
+    def publish(self, picture: Picture, *, look: Look = no_alarms) -> None:
+        """Begin to publish, with pictures made in this way, and the alarms of whoever looks for them."""
+        self._publisher = Publisher(board=self._board, hub=self.hub, picture=picture, look=look)
         self._publisher.start()
+
+    def wake(self) -> None:
+        """Have what has changed beside the images published at once. From any thread."""
+        self._board.wake()
 
     def adopt(self, case: CaseSetup) -> None:
         """Work with what this case knows, from the next image on and over restarts. From any thread."""
         self._supervisor.adopt(case)
+
+    def play(self, scene: SceneOrder) -> None:
+        """Rehearse this scene, as soon as it is ready and over restarts. From any thread."""
+        self._supervisor.play(scene)
+
+    @property
+    def begun(self) -> Begun | None:
+        """What of the rehearsal is played, as last reported; None before the first report."""
+        return self._board.begun
 
     def stop(self) -> None:
         """End the process and the threads; harmless when they were not started."""

@@ -10,14 +10,16 @@ import signal
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing.connection import Connection
+from typing import Generic, TypeAlias, TypeVar
 
 import cv2
 import structlog
 
 from server.capture.capture import Capture
 from server.capture.choose import source_from_config
+from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot, Source
 from server.config import Config
 from server.live import Trouble
@@ -25,13 +27,16 @@ from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
+from server.loop.staging import SceneOrder, Staging
 from server.loop.tracking import Tracking
-from server.setup import CaseSetup, build_setup
+from server.setup import CaseSetup, Preparation, build_setup
 from tracker.errors import NavigationError
 
 # A sign of life when no image comes.
 HEARTBEAT_S = 0.5
 STOP_GRACE_S = 0.7
+
+Told = TypeVar("Told")
 
 log = structlog.get_logger(__name__)
 
@@ -46,6 +51,7 @@ class WorkerOrder:
         case: what the open case knows; later changes come through `WorkerLink.orders`.
         first_number: the number of its first image, above all that were reported before.
         skipped_before: images that were skipped before.
+        scene: of the rehearsal, in place of what the settings say; None while no other one was ordered.
     """
 
     config: Config
@@ -53,6 +59,7 @@ class WorkerOrder:
     case: CaseSetup = field(default_factory=CaseSetup)
     first_number: int = 0
     skipped_before: int = 0
+    scene: SceneOrder | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,7 +69,8 @@ class WorkerLink:
     Attributes:
         ring: where reports and images go.
         notice: one byte in here says that something was written; never blocks.
-        orders: a `CaseSetup` from the server when the open case changes; closed when the process shall end.
+        orders: from the server: a `CaseSetup` when the open case changes, a `SceneOrder` when another scene
+            is rehearsed; closed when the process shall end.
     """
 
     ring: ImageRing
@@ -78,23 +86,27 @@ class WorkerLink:
             os.write(self.notice.fileno(), b".")
 
 
-class NewestCase:
-    """What the open case knows, handed from the thread that listens to the one that tracks; newest wins."""
+class Newest(Generic[Told]):
+    """What the server told, handed from the thread that listens to the one that tracks; newest wins."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._case: CaseSetup | None = None
+        self._told: Told | None = None
 
-    def put(self, case: CaseSetup) -> None:
+    def put(self, told: Told) -> None:
         """Replace what has not been taken yet."""
         with self._lock:
-            self._case = case
+            self._told = told
 
-    def take(self) -> CaseSetup | None:
+    def take(self) -> Told | None:
         """What changed since it was last taken; None if nothing did."""
         with self._lock:
-            case, self._case = self._case, None
-        return case
+            told, self._told = self._told, None
+        return told
+
+
+NewestCase: TypeAlias = Newest[CaseSetup]
+NewestScene: TypeAlias = Newest[SceneOrder]
 
 
 def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
@@ -106,26 +118,49 @@ def run_worker(order: WorkerOrder, link: WorkerLink) -> None:
     # Two: one core is left to the server, and the tracker's images are small.
     cv2.setNumThreads(2)
     stop = threading.Event()
-    newest = NewestCase()
-    threading.Thread(target=_listen, args=(link.orders, newest, stop), name="orders", daemon=True).start()
+    newest, scenes = NewestCase(), NewestScene()
+    listening = (link.orders, newest, scenes, stop)
+    threading.Thread(target=_listen, args=listening, name="orders", daemon=True).start()
     try:
-        preparation = build_setup(order.config)
-        theatre = preparation.theatre
-        source = source_from_config(
-            order.config,
-            stop=stop,
-            renderer=None if theatre is None else theatre.renderer(),
-            first_number=order.first_number,
-        )
+        preparation = build_setup(_config_of(order))
+        source, staging = _staged(order, preparation, stop)
         tracking = Tracking(preparation)
         tracking.adopt(order.case)
-        work(order, link, stop, source, tracking, newest=newest)
+        work(order, link, stop, source, tracking, newest=newest, scenes=scenes, staging=staging)
     except BrokenPipeError:
         # The server is gone.
         os._exit(0)
     except Exception:
         log.exception("the tracking process failed")
         os._exit(1)
+
+
+def _config_of(order: WorkerOrder) -> Config:
+    """The settings, with the scene that was ordered last."""
+    if order.scene is None:
+        return order.config
+    return order.config.model_copy(update={"rehearsal": order.scene.rehearsal})
+
+
+def _staged(
+    order: WorkerOrder, preparation: Preparation, stop: threading.Event
+) -> tuple[Source, Staging | None]:
+    """The source of images, and what changes its scene where it is the rehearsal."""
+    theatre = preparation.theatre
+    if theatre is None:
+        return source_from_config(order.config, stop=stop, first_number=order.first_number), None
+    renderer = theatre.renderer()
+    if theatre.settings.events:
+        renderer.prepare()
+    source = source_from_config(
+        order.config,
+        stop=stop,
+        renderer=renderer,
+        first_number=order.first_number,
+        begun=None if order.scene is None else order.scene.begun(order.first_number),
+        silences=theatre.settings.events,
+    )
+    return source, Staging(source, renderer) if isinstance(source, RehearsalSource) else None
 
 
 def work(
@@ -136,6 +171,8 @@ def work(
     tracking: Tracking,
     *,
     newest: NewestCase,
+    scenes: NewestScene | None = None,
+    staging: Staging | None = None,
     clock: Callable[[], float] = time.monotonic,
 ) -> None:
     """Track the newest image of the source until `stop` is set."""
@@ -149,29 +186,35 @@ def work(
         case = newest.take()
         if case is not None:
             tracking.adopt(case)
-        status = capture.status()
+        scene = None if scenes is None else scenes.take()
+        if scene is not None and staging is not None:
+            staging.order(scene)
+        told = Report(source=capture.status(), begun=None if staging is None else staging.begun)
         if shot is None:
-            link.send(Report(source=status, trouble=trouble, tracked_images=tracked))
+            link.send(replace(told, trouble=trouble, tracked_images=tracked))
             continue
         try:
-            snapshot = tracking.conclude(shot, skipped_images=status.skipped_images, clock=clock)
+            snapshot = tracking.conclude(shot, skipped_images=told.source.skipped_images, clock=clock)
             trouble = tracking.trouble
-            report = Report(source=status, snapshot=snapshot, trouble=trouble, tracked_images=tracked + 1)
-            link.send(report, shot)
+            link.send(replace(told, snapshot=snapshot, trouble=trouble, tracked_images=tracked + 1), shot)
             tracked += 1
         except NavigationError as error:
             if trouble is None or trouble.code != error.code:
                 log.warning(error.message, code=error.code, remedy=error.remedy)
             trouble = Trouble.from_error(error)
-            link.send(Report(source=status, trouble=trouble, tracked_images=tracked))
+            link.send(replace(told, trouble=trouble, tracked_images=tracked))
     capture.close(STOP_GRACE_S)
 
 
-def _listen(orders: Connection, newest: NewestCase, stop: threading.Event) -> None:
+def _listen(orders: Connection, newest: NewestCase, scenes: NewestScene, stop: threading.Event) -> None:
     """Hands on what the server says, and ends this process when it lets go of its end of the pipe."""
     with contextlib.suppress(EOFError, OSError):
         while True:
-            newest.put(orders.recv())
+            told = orders.recv()
+            if isinstance(told, SceneOrder):
+                scenes.put(told)
+            else:
+                newest.put(told)
     stop.set()
     time.sleep(STOP_GRACE_S)
     # Whatever still hangs (a driver, a stream that does not answer) is not worth waiting for.

@@ -4,25 +4,31 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from server.overlay.alarm_band import draw_alarm_band
+from server.overlay.bullseye import LEAST_REACH_MM, Inset, Target, draw_bullseye
 from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.ink import Image
-from server.overlay.panel import draw_panel, draw_small_print
+from server.overlay.panel import MARGIN_PX, WIDTH_PX, draw_panel, draw_small_print
 from server.overlay.view import View
 from server.overlay.words import panel_of
 from tracker.errors import InvalidInput
-from tracker.navigation import Absent, Deviation, NavigationSnapshot
+from tracker.navigation import Absent, Deviation, NavigationSnapshot, seen_along
+from tracker.navigation.alarms import QUIET, AlarmPicture
 from tracker.pose import Seen
 
 BASE_HEIGHT_PX = 720.0
 # What the words at the top and in the panel need beside each other.
 LEAST_WIDTH_PX = 880.0
+GAP_PX = 8.0
 AHEAD_MM = 50.0
 PAST_TARGET_MM = 10.0
 FARTHEST_AHEAD_MM = 150.0
 
 
-def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> Image:
+def draw_overlay(
+    image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot, alarms: AlarmPicture = QUIET
+) -> Image:
     """The image with all that is known at its instant burned in; the image handed in is never written.
 
     In a camera that is not calibrated only outlines, names and scores are drawn. What is absent is not drawn,
@@ -31,6 +37,7 @@ def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> 
     Args:
         image: uint8, BGR (h, w, 3) or grey (h, w), the very image of this snapshot.
         snapshot: what was concluded from it.
+        alarms: what they say of it.
 
     Raises:
         InvalidInput: OVERLAY_SIZE, image and snapshot do not belong together.
@@ -50,8 +57,11 @@ def draw_overlay(image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot) -> 
     for name, sighting in snapshot.sightings.items():
         if isinstance(sighting, Seen):
             draw_marker(drawn, name, sighting, scale=scale)
-    draw_panel(drawn, panel_of(snapshot), scale=scale)
+    panel = panel_of(snapshot)
+    top_px = draw_panel(drawn, panel, scale=scale)
+    _draw_inset(drawn, snapshot, panel.tool, below_px=top_px, scale=scale)
     draw_small_print(drawn, snapshot, scale=scale)
+    draw_alarm_band(drawn, alarms, scale=scale)
     return drawn
 
 
@@ -65,6 +75,34 @@ def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> N
         if not isinstance(in_view, Absent):
             ahead = _ahead_mm(snapshot.deviations[name])
             draw_drill(image, view, setup.tools[name], in_view, ahead_mm=ahead, scale=scale)
+
+
+def _draw_inset(
+    image: Image, snapshot: NavigationSnapshot, tool: str, *, below_px: float, scale: float
+) -> None:
+    """Draw the view along the channel above the panel, for the tool whose numbers stand there."""
+    channel = snapshot.setup.channel
+    if not tool or isinstance(channel, Absent):
+        return
+    placed = snapshot.vertebra_from_tool(tool)
+    if isinstance(placed, Absent):
+        return
+    side = WIDTH_PX * scale
+    draw_bullseye(
+        image,
+        Inset(
+            left_px=MARGIN_PX * scale,
+            top_px=below_px - GAP_PX * scale - side,
+            side_px=side,
+            reach_mm=max(LEAST_REACH_MM, 2.0 * channel.radius_mm),
+            scale=scale,
+        ),
+        Target(
+            seen=seen_along(placed, channel),
+            channel_radius_mm=channel.radius_mm,
+            drill_radius_mm=snapshot.setup.tools[tool].radius_mm,
+        ),
+    )
 
 
 def _ahead_mm(deviation: Deviation | Absent) -> float:

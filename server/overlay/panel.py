@@ -28,31 +28,33 @@ PADDING_PX = 14.0
 NOTE_PX = 24.0
 
 
-def draw_panel(image: Image, panel: Panel, *, scale: float) -> None:
+def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
     """Draw the panel: readings one above the other, or the state in words, in the lower left corner.
 
-    There it hides least: the camera is turned to the wound, which is in the middle.
+    There it hides least: the camera is turned to the wound, which is in the middle. Answers the panel's top
+    in px.
     """
-    left, bottom = MARGIN_PX * scale, image.shape[0] - MARGIN_PX * scale
+    left, bottom = MARGIN_PX * scale, float(image.shape[0] - MARGIN_PX * scale)
     if panel.readings:
         note_px = NOTE_PX if panel.note else 0.0
-        top = bottom - (ROW_PX * len(panel.readings) + 6.0 + note_px) * scale
+        top = float(bottom - (ROW_PX * len(panel.readings) + 6.0 + note_px) * scale)
         ground(image, left, top, left + WIDTH_PX * scale, bottom)
         if panel.note:
             at = (left + PADDING_PX * scale, bottom - 9.0 * scale)
             text(image, panel.note, at, QUIET, size_px=SMALL_PX * scale, weight=REGULAR)
         for index, reading in enumerate(panel.readings):
             _draw_reading(image, reading, left + PADDING_PX * scale, top + ROW_PX * index * scale, scale)
-        return
+        return top
     rows = [(panel.state, STATE_PX * scale, SEMIBOLD, DRILL_ORANGE)]
     rows += [(detail, DETAIL_PX * scale, REGULAR, WHITE) for detail in panel.details]
     width = max(text_width_px(words, size_px=size, weight=weight) for words, size, weight, _ in rows)
-    top = bottom - (62.0 + 34.0 * len(panel.details)) * scale
+    top = float(bottom - (62.0 + 34.0 * len(panel.details)) * scale)
     ground(image, left, top, left + width + 2.0 * PADDING_PX * scale, bottom)
     base = top + 46.0 * scale
     for words, size, weight, colour in rows:
         text(image, words, (left + PADDING_PX * scale, base), colour, size_px=size, weight=weight)
         base += 36.0 * scale
+    return top
 
 
 def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale: float) -> None:

@@ -53,8 +53,9 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Panel:
-    """What the panel says: readings and a quiet note, or in their place a state and its details."""
+    """What the panel says: readings of a tool and a quiet note, or in their place a state and its details."""
 
+    tool: str = ""
     readings: tuple[Reading, ...] = ()
     note: str = ""
     state: str = ""
@@ -69,7 +70,7 @@ def panel_of(snapshot: NavigationSnapshot) -> Panel:
     for name, deviation in snapshot.deviations.items():
         if isinstance(deviation, Deviation):
             readings = _readings(deviation, tool=name if len(snapshot.tools) > 1 else "")
-            return Panel(readings=readings, note=_note(snapshot.tools[name]))
+            return Panel(tool=name, readings=readings, note=_note(snapshot.tools[name]))
     reason, marker = _reason(snapshot)
     return Panel(state=STATE_WORDS[reason], details=_details(snapshot, reason, marker))
 

@@ -15,6 +15,8 @@ from tracker.plan.mesh.intake import Space
 
 MESH, PLY = "mesh", "surface.ply"
 STL_HEADER_BYTES, STL_FACE_BYTES = 84, 50
+# What programs write before a binary STL: words, filled up with nothing.
+PLAIN, HEAD_BYTES = frozenset((0, *range(32, 127))), 4096
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +66,13 @@ def format_of(content: bytes) -> str:
         return "ply"
     faces = int.from_bytes(content[80:STL_HEADER_BYTES], "little")
     is_binary = len(content) == STL_HEADER_BYTES + STL_FACE_BYTES * faces
+    # One that was cut off is told as such, by what it announces and has.
+    is_cut = (
+        len(content) > STL_HEADER_BYTES and b"\0" in content[:HEAD_BYTES] and not set(content[:80]) - PLAIN
+    )
     if (len(content) > STL_HEADER_BYTES and is_binary) or (start.startswith(b"solid") and b"facet" in start):
+        return "stl"
+    if is_cut and faces:
         return "stl"
     if any(line.split()[:1] in ([b"v"], [b"o"], [b"g"], [b"#"], [b"mtllib"]) for line in start.splitlines()):
         return "obj"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from server.live import Instant, LiveHub, Trouble
+from server.live import Instant, LiveHub, SourceState, Trouble
 from server.procedure.following import Follower
 from tracker.camera import Board
 from tracker.camera.collecting import BoardCollector, CollectingProgress, Judgement
@@ -127,7 +127,7 @@ class BoardCollection:
 
     def _look(self, instant: Instant) -> None:
         if instant.image is None or instant.snapshot is None:
-            self._note_absence("there is no picture", -1)
+            self._note_absence(_no_picture(instant), -1)
             return
         found = find_board(instant.image, self._board)
         number = instant.snapshot.image_number
@@ -176,3 +176,12 @@ class BoardCollection:
                 {"size_wh_px": [width, height], "before_wh_px": list(before)},
             )
         return self._collector
+
+
+def _no_picture(instant: Instant) -> str:
+    """That there is none, and why, as far as camera or tracking say."""
+    trouble = instant.source.trouble or instant.process.trouble
+    if trouble is not None:
+        return f"there is no picture: {trouble.message}"
+    ended = instant.source.state is SourceState.ENDED
+    return "there is no picture: the camera's images have ended" if ended else "there is no picture"

@@ -14,7 +14,7 @@ from server.procedure.opened import opened_case
 from server.store import Case, CaseStore, Document, DocumentKind
 from tracker.camera import Board, CameraModel
 from tracker.camera.accuracy import accuracy_of_grid
-from tracker.camera.calibration import calibrate
+from tracker.camera.calibration import calibrate, with_board_judged
 from tracker.camera.detection import BoardNotFound, find_board
 from tracker.errors import CalibrationError, InvalidInput
 
@@ -87,7 +87,7 @@ class CameraStep:
         return self._jobs.start(
             "calibrating the camera",
             calibrate_views,
-            {"taken": taken, "size_wh_px": status.size_wh_px},
+            {"taken": taken, "size_wh_px": status.size_wh_px, "board": status.board},
             conclude=keep,
         )
 
@@ -167,11 +167,13 @@ class CameraStep:
 
 
 def calibrate_views(
-    report: Report, *, taken: tuple[TakenView, ...], size_wh_px: tuple[int, int]
+    report: Report, *, taken: tuple[TakenView, ...], size_wh_px: tuple[int, int], board: Board
 ) -> dict[str, object]:
     """The work itself, in a process of its own: the camera's values with its report, and its pictures."""
     report(0.1, f"fitting the camera to {len(taken)} views")
-    found = calibrate([one.view for one in taken], size_wh_px=size_wh_px, names=[one.name for one in taken])
+    views = [one.view for one in taken]
+    fitted = calibrate(views, size_wh_px=size_wh_px, names=[one.name for one in taken])
+    found = with_board_judged(fitted, views, board)
     return {
         "report": {**report_values(found), "views": [view_values(view) for view in found.views]},
         "plots": {"residuals": residuals_svg(found), "coverage": coverage_svg(found)},

@@ -59,7 +59,7 @@ class ToolCollection:
         self.tool, self.marker, self.purpose = tool, marker, purpose
         self._lock = threading.Lock()
         self._collector = PoseCollector(purpose, tip_in_marker_mm=tip_in_marker_mm, gate=gate)
-        self._newest = Taking.NOT_SEEN
+        self._newest = Taking.NO_PICTURE
         self._follower = Follower(hub, self._look, name=f"gathering poses of {tool}")
 
     @property
@@ -83,6 +83,9 @@ class ToolCollection:
     def _look(self, instant: Instant) -> None:
         snapshot = instant.snapshot
         if snapshot is None:
+            with self._lock:
+                # What became of the last image is no news any more.
+                self._newest = Taking.NO_PICTURE
             return
         if not snapshot.setup.camera_calibrated:
             raise CalibrationError(

@@ -11,6 +11,8 @@ from tracker.errors import InvalidInput
 LONGEST_NAME = 200
 LARGEST_CONTENT_BYTES = 16 * 2**20
 DEEPEST_CONTENT = 64
+# Letters that turn the direction of what follows; languages that need them do so by their own letters.
+TURNING = frozenset("\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 SUFFIX = re.compile(r"(\.[a-z0-9]{1,10}){1,2}")
 
 
@@ -21,16 +23,23 @@ def checked_name(name: str, *, of: str) -> str:
         InvalidInput: NAME_INVALID.
     """
     kept = unicodedata.normalize("NFC", name).strip()
-    odd = sorted({f"U+{ord(letter):04X}" for letter in kept if unicodedata.category(letter) in ("Cc", "Cs")})
-    if kept and len(kept) <= LONGEST_NAME and not odd:
+    odd = sorted({f"U+{ord(letter):04X}" for letter in kept if _is_odd(letter)})
+    visible = sum(unicodedata.category(letter)[0] not in "CZ" for letter in kept)
+    if visible and len(kept) <= LONGEST_NAME and not odd:
         return kept
-    problem = f"has control characters ({', '.join(odd[:3])})" if odd else f"has {len(kept)} letters"
+    problem = f"has {len(kept)} letters" if visible else "has 0 letters that can be seen"
+    problem = f"has control characters ({', '.join(odd[:3])})" if odd else problem
     raise InvalidInput(
         "NAME_INVALID",
         f"the {of} {problem}, allowed are 1 to {LONGEST_NAME} letters on one line",
         "Give another one.",
         {"letters": len(kept), "allowed": LONGEST_NAME},
     )
+
+
+def _is_odd(letter: str) -> bool:
+    """Whether it breaks the line, or turns what stands around it: another name would be seen than is kept."""
+    return unicodedata.category(letter) in ("Cc", "Cs", "Zl", "Zp") or letter in TURNING
 
 
 def checked_suffix(suffix: str) -> str:

@@ -9,17 +9,13 @@ import math
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.stream.alarm_messages import AlarmsMessage, alarms_message
+from server.stream.message import Message as Message  # noqa: PLC0414  the doors take it from here
 from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot, ToolInView
 from tracker.pose import FoundBy, Seen, Sighting, UnseenReason
-
-
-class Message(BaseModel):
-    """Common to all messages: nothing unknown, nothing changed after it was made."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
 
 class PoseMessage(Message):
@@ -161,6 +157,8 @@ class LiveMessage(Message):
     process: ProcessMessage
     snapshot: SnapshotMessage | None
     """Null before the first image and while capture or tracking is dead."""
+    alarms: AlarmsMessage
+    """With this image looked at."""
 
 
 def live_message(instant: Instant, *, now_s: float) -> LiveMessage:
@@ -173,6 +171,7 @@ def live_message(instant: Instant, *, now_s: float) -> LiveMessage:
         snapshot=None
         if instant.snapshot is None
         else _snapshot(instant.snapshot, instant.server_ms, now_s=now_s),
+        alarms=alarms_message(instant.alarms, now_s=now_s),
     )
 
 

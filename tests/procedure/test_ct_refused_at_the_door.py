@@ -88,6 +88,7 @@ def test_a_surface_that_cannot_be_read_leaves_nothing(server: Server) -> None:
         (b"solid nothing", {}, "MESH_FORMAT_UNKNOWN"),
         (b"hello", {}, "MESH_FORMAT_UNKNOWN"),
         (b"ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n", {}, "MESH_UNREADABLE"),
+        (stl(50.0)[:-10], {}, "MESH_UNREADABLE"),
         (stl(0.05), {}, "MESH_UNIT_NEEDED"),
         (stl(50.0), {"unit": "m"}, "MESH_SIZE_IMPLAUSIBLE"),
     ):
@@ -186,3 +187,20 @@ def test_a_first_slice_is_there_before_the_ct(server: Server) -> None:
     assert shown.content.startswith(b"\x89PNG")
     assert state is JobState.RUNNING
     server.ask("DELETE", f"/api/jobs/{begun['id']}", 200)
+
+
+def test_who_has_no_name_that_can_be_kept_is_told_before_anything_is_done(server: Server) -> None:
+    opened(server)
+    for name in ("ito\nroot", "\u202eoti", " ", "\x00"):
+        by = {"made_by": name}
+        for path, sent_up in (
+            ("/api/ct", {"params": by, "content": b"PK"}),
+            ("/api/surface", {"params": by, "content": b"PK"}),
+            ("/api/surface/from-ct", {"json": by}),
+            ("/api/plan/vertebrae", {"json": {**by, "name": "L3"}}),
+            ("/api/camera/calibration", {"json": by}),
+            ("/api/tools/collection/conclusion", {"json": by}),
+        ):
+            told = server.ask("POST", path, 422, **sent_up)
+            assert told["code"] == "NAME_INVALID", path
+    assert server.jobs.list() == ()

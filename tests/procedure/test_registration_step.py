@@ -134,9 +134,7 @@ def test_a_capture_is_refused_where_the_tip_moves_or_is_not_seen(server: Server)
     server.ask("POST", f"{POINTS}/captures", 202, json=start)
     for index in range(4):
         patient.show(patient.tip_on(USED[0], off_mm=(0.0, 1.2 * index, 0.0)))
-        server.until(
-            partial(looked_at, index)
-        )
+        server.until(partial(looked_at, index))
     told = server.ask("GET", POINTS, 200)
     assert told["capture"]["trouble"]["code"] == "CAPTURE_MOVED"
     assert not any(one["touched"] for one in told["landmarks"])

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.store import DocumentKind
 from tests.procedure.conftest import Server, sighting
 from tests.procedure.test_camera_step import open_a_case
@@ -138,3 +139,14 @@ def test_shape_is_asked_for_where_nobody_knows_it(server: Server) -> None:
     gather(server, Scene.PIVOT, "pivot")
     refused = server.ask("POST", "/api/tools/collection/conclusion", 422, json={"made_by": "ito"})
     assert refused["code"] == "TOOL_SHAPE_UNKNOWN"
+
+
+def test_when_the_camera_is_gone_no_pose_seems_to_be_taken_any_more(server: Server) -> None:
+    calibrated(server)
+    assert gather(server, Scene.PIVOT, "pivot", images=5)["newest"] != "no_picture"
+    gone = SourceStatus(name="0", state=SourceState.RECONNECTING)
+    running = ProcessStatus(state=ProcessState.RUNNING)
+    server.hub.publish(Instant(sequence=server.number + 1, source=gone, process=running))
+    server.until(lambda: server.ask("GET", "/api/tools/collection", 200)["newest"] == "no_picture")
+    told = server.ask("GET", "/api/tools/collection", 200)
+    assert (told["running"], told["trouble"]) == (True, None), "it goes on when the camera is back"

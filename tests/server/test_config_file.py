@@ -99,6 +99,19 @@ TOOL = {
         pytest.param(
             {"markers": {"drill": {"image": "m.png", "side_mm": 4}}}, ["rehearsal's own"], id="drill-is-taken"
         ),
+        pytest.param(
+            {
+                "rehearsal": {"reference": True},
+                "markers": {"reference": {"image": "m.png", "side_mm": 4}},
+            },
+            ["markers.reference", "rehearsal's own"],
+            id="reference-is-taken",
+        ),
+        pytest.param(
+            {"rehearsal": {"events": [{"kind": "earthquake", "at_s": 1}]}},
+            ["earthquake", "camera_moves or patient_moves"],
+            id="no-such-event",
+        ),
     ],
 )
 def test_a_mistake_is_told_with_file_key_value_and_what_is_allowed(

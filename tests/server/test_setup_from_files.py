@@ -165,7 +165,14 @@ def test_a_channel_of_the_case_is_not_registered_by_what_registered_another() ->
     changed = rehearsal.with_case(CaseSetup(channel=channel))
     assert changed.channel is channel
     assert changed.registration == Absent(reason=AbsentReason.NOT_REGISTERED)
-    assert rehearsal.with_case(CaseSetup()).registration is rehearsal.registration
+
+
+def test_after_a_case_is_closed_the_rehearsals_own_channel_says_whose_it_is() -> None:
+    rehearsal = build_setup(Config())
+    closed = rehearsal.with_case(CaseSetup())
+    assert closed.registration is rehearsal.registration
+    assert not isinstance(closed.channel, Absent)
+    assert closed.channel.name == "rehearsal's L3 left"
 
 
 def test_a_rehearsal_that_brings_no_setup_knows_its_marker_alone() -> None:

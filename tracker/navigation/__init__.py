@@ -1,5 +1,6 @@
 """From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
 
+from tracker.navigation.along import AlongChannel, seen_along
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.navigation.snapshot import (
     Absent,
@@ -15,6 +16,7 @@ from tracker.navigation.steadying import Steadying
 __all__ = [
     "Absent",
     "AbsentReason",
+    "AlongChannel",
     "Deviation",
     "NavigationSnapshot",
     "PlacedVertebra",
@@ -23,4 +25,5 @@ __all__ = [
     "ToolInView",
     "deviation_from_channel",
     "navigate",
+    "seen_along",
 ]

@@ -35,12 +35,16 @@ class Directions:
         medial: across the axis, to the patient's middle.
         cranial: across the axis, to the head.
         side: the side of the patient on which the channel lies.
+        basis: (3, 3), the three as rows, in this order.
+        entry_mm: (3,), the channel's entry.
     """
 
     axis: Array
     medial: Array
     cranial: Array
     side: Side
+    basis: Array
+    entry_mm: Array
 
     def wall_towards(self, direction: Array) -> Wall:
         """The wall that lies in a direction (3,) of any length."""
@@ -58,18 +62,24 @@ def side_of(channel: Channel) -> Side:
 
     Not sure where a channel runs nearly straight forwards, as at the lower thoracic levels.
     """
-    return "left" if channel.axis_in_vertebra[0] <= 0.0 else "right"
+    return _side_along(channel.axis_in_vertebra)
+
+
+def _side_along(axis: Array) -> Side:
+    return "left" if axis[0] <= 0.0 else "right"
 
 
 def directions_of(channel: Channel, side: Side | None = None) -> Directions:
     """The directions across a channel; its side as the plan says it, or else as `side_of`."""
-    entry, target = channel.entry_in_vertebra_mm, channel.target_in_vertebra_mm
-    return _directions(tuple((target - entry).tolist()), side or side_of(channel))
+    return _directions(channel.entry_in_vertebra_mm.tobytes(), channel.target_in_vertebra_mm.tobytes(), side)
 
 
 @lru_cache(maxsize=16)
-def _directions(way: tuple[float, ...], side: Side) -> Directions:
-    axis = np.array(way) / np.linalg.norm(way)
+def _directions(entry: bytes, target: bytes, side: Side | None) -> Directions:
+    start = np.frombuffer(entry)
+    way = np.frombuffer(target) - start
+    axis = way / np.linalg.norm(way)
+    side = side or _side_along(axis)
     up = np.array([0.0, 0.0, 1.0])
     if np.linalg.norm(np.cross(axis, up)) < LEAST_ACROSS:
         up = np.array([0.0, 1.0, 0.0])
@@ -78,6 +88,8 @@ def _directions(way: tuple[float, ...], side: Side) -> Directions:
     left = np.cross(axis, cranial)
     left *= 1.0 if left[0] >= 0.0 else -1.0
     medial = -left if side == "left" else left
-    for direction in (axis, cranial, medial):
-        direction.setflags(write=False)
-    return Directions(axis=axis, medial=medial, cranial=cranial, side=side)
+    basis = np.stack([axis, medial, cranial])
+    basis.setflags(write=False)
+    return Directions(
+        axis=basis[0], medial=basis[1], cranial=basis[2], side=side, basis=basis, entry_mm=start
+    )

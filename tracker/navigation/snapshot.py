@@ -133,6 +133,17 @@ class NavigationSnapshot:
     stage_ms: Mapping[str, float]
     skipped_images: int
 
+    def vertebra_from_tool(self, tool: str) -> Rigid[Vertebra, Tool] | Absent:
+        """Where a tool is in the plan; Absent where it has no numbers either, for the same reason."""
+        deviation, in_view, vertebra = self.deviations[tool], self.tools[tool], self.vertebra
+        if isinstance(deviation, Absent):
+            return deviation
+        if isinstance(in_view, Absent):
+            return in_view
+        if isinstance(vertebra, Absent):
+            return vertebra
+        return vertebra.camera_from_vertebra.inverse @ in_view.camera_from_tool
+
 
 def tool_in_view(
     setup: Setup, tool: ToolModel, sighting: Sighting, steadied: SteadyPose | None = None

@@ -6,7 +6,7 @@ from enum import StrEnum
 import numpy as np
 
 from tracker.errors import RegistrationError
-from tracker.geometry import Anchor, Array, Camera, Rigid, Vertebra, point_covariance_mm2
+from tracker.geometry import Anchor, Array, Camera, Reference, Rigid, Vertebra, point_covariance_mm2
 
 
 class Method(StrEnum):
@@ -53,6 +53,19 @@ class Registration:
             anchored_to=AnchoredTo.CAMERA,
             anchor_from_vertebra=Rigid(
                 rotation=camera_from_vertebra.rotation, translation_mm=camera_from_vertebra.translation_mm
+            ),
+            covariance=np.zeros((6, 6)),
+        )
+
+    @classmethod
+    def known_to_reference(cls, reference_from_vertebra: Rigid[Reference, Vertebra]) -> "Registration":
+        """The same, fixed to the marker on the patient."""
+        return cls(
+            method=Method.REHEARSAL,
+            anchored_to=AnchoredTo.REFERENCE,
+            anchor_from_vertebra=Rigid(
+                rotation=reference_from_vertebra.rotation,
+                translation_mm=reference_from_vertebra.translation_mm,
             ),
             covariance=np.zeros((6, 6)),
         )

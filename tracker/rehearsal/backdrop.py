@@ -1,12 +1,16 @@
 """The still scenery as the camera sees it, and how something that moves is laid over it."""
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import numpy.typing as npt
 
 from tracker.rehearsal.lens import Box, RayGrid
+from tracker.rehearsal.placement import Placement
 from tracker.rehearsal.scenery import still_scenery
 from tracker.rehearsal.sensor import DEFOCUS_PX, Sensor
+from tracker.rehearsal.settings import BoardKind, Scene, Skill, TheatreSettings
 from tracker.rehearsal.theatre import Theatre
 
 Image8 = npt.NDArray[np.uint8]
@@ -19,13 +23,13 @@ class Backdrop:
     Attributes:
         rays: of the camera.
         depth_mm: (h, w) float32 along the optical axis, of the nearest still thing.
-        points_mm: (h/4, w/4, 3) float32, where the middle of each 4x4 block lies, in the vertebra's frame.
+        points_mm: (h/4, w/4, 3) float32, where the middle of each 4x4 block lies, in the room's frame.
     """
 
-    def __init__(self, theatre: Theatre) -> None:
-        self.rays = RayGrid(theatre.camera)
-        self._sensor = Sensor(theatre.settings)
-        scenery = still_scenery(theatre, self.rays)
+    def __init__(self, theatre: Theatre, placement: Placement, rays: RayGrid, sensor: Sensor) -> None:
+        self.rays = rays
+        self._sensor = sensor
+        scenery = still_scenery(theatre, rays, placement)
         self.depth_mm, self.points_mm = scenery.depth_mm, scenery.points_mm
         picture = scenery.picture * self._sensor.gain[..., None]
         sigma = DEFOCUS_PX * theatre.settings.blur
@@ -68,3 +72,29 @@ class Backdrop:
             part = np.s_[y : y + height, x : x + width]
             sigmas[part] = self._sensor.sigmas(image[part])
         return self._sensor.read_out(image, sigmas, at_s)
+
+
+class Backdrops:
+    """The still scenery of each place that camera and patient are in, rendered when it is first needed."""
+
+    def __init__(self, theatre: Theatre) -> None:
+        self._theatre = theatre
+        self._stage = _stage(theatre.settings)
+        self._rays = RayGrid(theatre.camera)
+        self._sensor = Sensor(theatre.settings)
+        self._kept: dict[bytes, Backdrop] = {}
+
+    def at(self, placement: Placement) -> Backdrop:
+        """The scenery there."""
+        if placement.key not in self._kept:
+            self._kept[placement.key] = Backdrop(self._theatre, placement, self._rays, self._sensor)
+        return self._kept[placement.key]
+
+    def show(self, theatre: Theatre) -> bool:
+        """Whether they are of this theatre, whatever is played in it."""
+        return _stage(theatre.settings) == self._stage
+
+
+def _stage(settings: TheatreSettings) -> TheatreSettings:
+    """The settings without what is played."""
+    return replace(settings, scene=Scene.OPERATION, board=BoardKind.DOTS, skill=Skill.WANDERING, events=())

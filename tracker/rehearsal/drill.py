@@ -68,9 +68,9 @@ def drill_portrait() -> Image8:
     return _premultiplied(colour, coverage)
 
 
-def board_face(emblem: Image8) -> Image8:
+def board_face(emblem: Image8, half_mm: float = BOARD_HALF_MM) -> Image8:
     """The white board with the marker in its middle, grey, `BOARD_PER_MM` pixels to a millimetre."""
-    side = round(2 * BOARD_HALF_MM * BOARD_PER_MM)
+    side = round(2 * half_mm * BOARD_PER_MM)
     face = np.full((side, side), BOARD_WHITE, dtype=np.float32)
     start = (side - emblem.shape[0]) // 2
     printed = BOARD_BLACK + (BOARD_WHITE - BOARD_BLACK) * emblem.astype(np.float32) / 255.0

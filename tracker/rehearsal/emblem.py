@@ -1,4 +1,4 @@
-"""The drill's marker: a unique geometric shape in a black square, drawn by the project itself."""
+"""The markers: unique geometric shapes in black squares, drawn by the project itself."""
 
 import cv2
 import numpy as np
@@ -10,6 +10,12 @@ import numpy.typing as npt
 BOOT = ((0.17, 0.17), (0.59, 0.17), (0.59, 0.41), (0.83, 0.65), (0.83, 0.83), (0.17, 0.83))
 BAR = ((0.71, 0.17), (0.83, 0.17), (0.83, 0.41), (0.71, 0.41))
 DISC_CENTRE, DISC_RADIUS = (0.38, 0.60), 0.125
+# The reference's: a white comb with three unequal teeth, and a white wedge above them.
+COMB = (
+    *((0.16, 0.84), (0.16, 0.64), (0.30, 0.44), (0.30, 0.64), (0.43, 0.64), (0.43, 0.50), (0.56, 0.50)),
+    *((0.56, 0.64), (0.70, 0.64), (0.70, 0.28), (0.84, 0.28), (0.84, 0.84)),
+)
+WEDGE = ((0.16, 0.16), (0.56, 0.16), (0.56, 0.32), (0.16, 0.32))
 SHIFT_BITS = 4
 FINER = 4
 
@@ -23,6 +29,19 @@ def drill_emblem(side_px: int = 400) -> npt.NDArray[np.uint8]:
     centre = _fixed((DISC_CENTRE,), fine_px)[0]
     radius = round(DISC_RADIUS * fine_px * 2**SHIFT_BITS)
     cv2.circle(image, (int(centre[0]), int(centre[1])), radius, 0, -1, cv2.LINE_8, SHIFT_BITS)
+    return _shrunk(image, side_px)
+
+
+def reference_emblem(side_px: int = 400) -> npt.NDArray[np.uint8]:
+    """The reference's printed face, as `drill_emblem`."""
+    fine_px = side_px * FINER
+    image = np.zeros((fine_px, fine_px), dtype=np.uint8)
+    for shape in (COMB, WEDGE):
+        cv2.fillPoly(image, [_fixed(shape, fine_px)], 255, lineType=cv2.LINE_8, shift=SHIFT_BITS)
+    return _shrunk(image, side_px)
+
+
+def _shrunk(image: npt.NDArray[np.uint8], side_px: int) -> npt.NDArray[np.uint8]:
     small = cv2.resize(image, (side_px, side_px), interpolation=cv2.INTER_AREA)
     return np.asarray(small, dtype=np.uint8)
 

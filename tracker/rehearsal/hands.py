@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.geometry import Array
-from tracker.rehearsal.motion import CYCLE_S, Pose6
+from tracker.rehearsal.motion import CYCLE_S, Phase, Pose6
 
 # Whole turns a cycle keep the motion periodic; unequal ones lead the tool to all sides.
 TILT_TURNS, TILT_DEG = (4, 7), (24.0, 26.0)
@@ -13,11 +13,25 @@ SPIN_TURNS, SPIN_DEG = 3, 52.0
 REST_TURNS, REST_MM = np.array([311, 363, 407]), 0.015
 
 
-class PivotingHand:
-    """Tilts the tool to all sides about its tip, which rests in a divot."""
+class _Calibrating:
+    """What both have in common: a tip in a divot."""
+
+    cycle_s = CYCLE_S
 
     def __init__(self, seed: int) -> None:
         self._at_rest = _Rest(seed)
+
+    def phase_at(self, _at_s: float) -> Phase:
+        """What the hand is doing at this time."""
+        return Phase.CALIBRATE
+
+    def touched_at(self, _at_s: float) -> str:
+        """It rests on no landmark."""
+        return ""
+
+
+class PivotingHand(_Calibrating):
+    """Tilts the tool to all sides about its tip, which rests in a divot."""
 
     def at(self, at_s: float) -> Pose6:
         """Where the hand holds the tool at this time."""
@@ -29,11 +43,8 @@ class PivotingHand:
         return self._at_rest.pose(at_s, np.array([*turns, roll]))
 
 
-class SpinningHand:
+class SpinningHand(_Calibrating):
     """Turns the tool to and fro about its own axis, tip in a divot, as steadily as a hand can."""
-
-    def __init__(self, seed: int) -> None:
-        self._at_rest = _Rest(seed)
 
     def at(self, at_s: float) -> Pose6:
         """Where the hand holds the tool at this time."""

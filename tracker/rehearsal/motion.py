@@ -23,6 +23,9 @@ class Phase(StrEnum):
     AWAY = "away"  # out of the picture
     RETURN = "return"  # back into it
     CALIBRATE = "calibrate"  # the tip in a divot, or a board before the camera
+    TOUCH = "touch"  # the tip rests on a landmark
+    SWEEP = "sweep"  # the tip sweeps over the bone
+    MOVE = "move"  # from one place on the bone to the next
 
 
 PHASE_STARTS_S = (
@@ -81,14 +84,38 @@ class Pose6:
     turn_deg: Array
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Script:
+    """What a hand plays.
+
+    Attributes:
+        keyframes: (n, 7), as `KEYFRAMES`.
+        phases: when each begins.
+        sway_ratio: how much it wobbles.
+        shake_ratio: how much it trembles.
+        variety_ratio: how much the way through the air differs from seed to seed.
+    """
+
+    keyframes: Array
+    phases: tuple[tuple[float, Phase], ...]
+    sway_ratio: float = 1.0
+    shake_ratio: float = 1.0
+    variety_ratio: float = 1.0
+
+
+WANDERING = Script(keyframes=KEYFRAMES, phases=PHASE_STARTS_S)
+
+
 class Hand:
     """A hand that plays the same 40 seconds again and again; which 40 seconds follows from the seed."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, script: Script = WANDERING) -> None:
         random = np.random.default_rng([seed, 0x48414E44])
-        self._table = _smooth_table(_varied(KEYFRAMES, random))
-        sway = WOBBLE_SIZE * random.uniform(0.7, 1.3, (6, 4))
-        shake = TREMOR_SIZE * random.uniform(0.7, 1.3, (6, 4))
+        self.cycle_s = CYCLE_S
+        self._phases = script.phases
+        self._table = _smooth_table(_varied(script.keyframes, random, script.variety_ratio))
+        sway = WOBBLE_SIZE * random.uniform(0.7, 1.3, (6, 4)) * script.sway_ratio
+        shake = TREMOR_SIZE * random.uniform(0.7, 1.3, (6, 4)) * script.shake_ratio
         # Along its axis a hand that presses is steadier than across it; roll is the loosest.
         shake[2] *= 0.5
         sway[3:5] *= 2.5
@@ -100,21 +127,24 @@ class Hand:
     def at(self, at_s: float) -> Pose6:
         """Where the hand holds the drill at this time."""
         time_s = at_s % CYCLE_S
-        slow = _catmull_rom(self._table, time_s * TABLE_HZ)
+        slow = catmull_rom(self._table, time_s * TABLE_HZ)
         values = slow + (self._sizes * np.sin(self._rates * time_s + self._offsets)).sum(axis=1)
         return Pose6(across_mm=values[:2], depth_mm=float(values[2]), turn_deg=values[3:])
 
+    def phase_at(self, at_s: float) -> Phase:
+        """What the hand is doing at this time."""
+        time_s = at_s % CYCLE_S
+        return [phase for start_s, phase in self._phases if start_s <= time_s][-1]
 
-def phase_at(at_s: float) -> Phase:
-    """What the hand is doing at this time."""
-    time_s = at_s % CYCLE_S
-    return [phase for start_s, phase in PHASE_STARTS_S if start_s <= time_s][-1]
+    def touched_at(self, _at_s: float) -> str:
+        """It rests on no landmark."""
+        return ""
 
 
-def _varied(keyframes: Array, random: np.random.Generator) -> Array:
+def _varied(keyframes: Array, random: np.random.Generator, ratio: float) -> Array:
     """Each seed is a slightly different hand, most of all where there is room in the air."""
     out = keyframes.copy()
-    room = np.clip(-out[:, 3] / 60.0, 0.0, 1.0)[:, None]
+    room = ratio * np.clip(-out[:, 3] / 60.0, 0.0, 1.0)[:, None]
     out[:, 1:4] += room * random.normal(0.0, 5.0, (len(out), 3))
     out[:, 4:7] += room * random.normal(0.0, 2.0, (len(out), 3))
     return out
@@ -131,8 +161,8 @@ def _smooth_table(keyframes: Array) -> Array:
     return np.stack([np.fft.irfft(np.fft.rfft(column) * spectrum, n=count) for column in columns], axis=1)
 
 
-def _catmull_rom(table: Array, position: float) -> Array:
-    """The periodic table's value between its rows, with a steady velocity."""
+def catmull_rom(table: Array, position: float) -> Array:
+    """A periodic table's value between its rows, with a steady velocity."""
     row = int(np.floor(position))
     f = position - row
     a, b, c, d = (table[(row + i) % len(table)] for i in (-1, 0, 1, 2))

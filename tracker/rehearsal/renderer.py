@@ -5,7 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array, Camera, Rigid, Tool
-from tracker.rehearsal.backdrop import Backdrop
+from tracker.rehearsal.backdrop import Backdrop, Backdrops
 from tracker.rehearsal.drill import (
     BOARD_EDGE_GREY,
     BOARD_HALF_MM,
@@ -20,9 +20,12 @@ from tracker.rehearsal.drill import (
     board_face,
     drill_portrait,
 )
+from tracker.rehearsal.events import EventKind
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
 from tracker.rehearsal.lens import NODE_PX, Box, spread
 from tracker.rehearsal.printed import PrintedPlane
+from tracker.rehearsal.reference import REFERENCE_HALF_MM
+from tracker.rehearsal.reference_picture import cloth_px, draw_cloth
 from tracker.rehearsal.sensor import spread_kernel
 from tracker.rehearsal.theatre import Theatre, Truth
 
@@ -45,11 +48,10 @@ class Renderer:
     state between images, so that they may be asked for in any order.
     """
 
-    def __init__(self, theatre: Theatre) -> None:
+    def __init__(self, theatre: Theatre, kept: Backdrops | None = None) -> None:
         self._theatre = theatre
-        self._backdrop = Backdrop(theatre)
-        self._rays = self._backdrop.rays
-        self._depth_mm, self._points_mm = self._backdrop.depth_mm, self._backdrop.points_mm
+        self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre)
+        self._rays = self.backdrops.at(theatre.placement_at(0.0)).rays
         self._portrait = drill_portrait()
         self._marker_board = PrintedPlane(
             board_face(theatre.marker.image),
@@ -57,19 +59,42 @@ class Renderer:
             middle_px=(BOARD_HALF_MM * BOARD_PER_MM,) * 2,
         )
 
+    def prepare(self) -> None:
+        """Render all still scenery that will come, so that no image has to wait for it."""
+        for placement in self._theatre.placements():
+            self.backdrops.at(placement)
+
     def image_at(self, at_s: float) -> Image8:
         """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
         truth = self._theatre.truth_at(at_s)
-        image = self._backdrop.picture()
-        self._cast_shadow(image, truth)
+        backdrop = self.backdrops.at(self._theatre.placement_at(at_s))
+        image = backdrop.picture()
+        self._cast_shadow(image, truth, backdrop.points_mm)
         kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
         reach_px = 4 if kernel is None else 4 + kernel.shape[0] // 2
         box = self._rays.box_around(self._outline_px(truth), reach_px)
         if box is not None:
-            layer = self._body(box, truth)
+            layer = self._body(box, truth, backdrop.depth_mm)
             self._add_board(layer, box, truth)
-            self._backdrop.lay_over(image, box, layer, kernel)
-        return self._backdrop.read_out(image, box, at_s)
+            if self._theatre.is_on(EventKind.DRILL_HIDDEN, at_s):
+                cloth = cloth_px(self._theatre.camera, truth.camera_from_marker, BOARD_HALF_MM)
+                draw_cloth(layer, cloth - box[:2])
+            backdrop.lay_over(image, box, layer, kernel)
+        covered = self._cover_reference(image, truth, backdrop)
+        return backdrop.read_out(image, _both(box, covered), at_s)
+
+    def _cover_reference(self, image: Image8, truth: Truth, backdrop: Backdrop) -> Box | None:
+        """Lays a cloth over the reference while it is hidden; answers with what of the image has changed."""
+        pose = truth.camera_from_reference
+        if pose is None or not self._theatre.is_on(EventKind.REFERENCE_HIDDEN, truth.at_s):
+            return None
+        cloth = cloth_px(self._theatre.camera, pose, REFERENCE_HALF_MM)
+        box = self._rays.box_around(cloth, 8)
+        if box is not None:
+            layer = np.zeros((box[3], box[2], 4), dtype=np.uint8)
+            draw_cloth(layer, cloth - box[:2])
+            backdrop.lay_over(image, box, layer, spread_kernel(self._theatre.settings.blur, np.zeros(2)))
+        return box
 
     def _outline_px(self, truth: Truth) -> Array:
         """Points (n, 2) around everything of the drill that can be in the image."""
@@ -96,7 +121,7 @@ class Renderer:
             ends.append(self._theatre.camera.px_from_camera(pose.translation_mm)[0])
         return np.asarray((ends[1] - ends[0]) / SPEED_OVER_S, dtype=np.float64)
 
-    def _body(self, box: Box, truth: Truth) -> Image8:
+    def _body(self, box: Box, truth: Truth, still_mm: Image32) -> Image8:
         """The drill's body (h, w, 4), premultiplied, without what is hidden in or behind the bone."""
         rays = self._rays.block(*box)
         where = spread(_along_across_depth(rays, truth.camera_from_tool), 1)
@@ -104,18 +129,19 @@ class Renderer:
         column = (along - np.float32(PORTRAIT_START_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
         row = (across + np.float32(PORTRAIT_HALF_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
         layer = np.asarray(cv2.remap(self._portrait, column, row, cv2.INTER_LINEAR), dtype=np.uint8)
-        self._hide_behind_bone(layer, box, along, across, depth)
+        x, y, _, _ = box
+        still = still_mm[y : y + layer.shape[0], x : x + layer.shape[1]]
+        self._hide_behind_bone(layer, still, along, across, depth)
         return layer
 
     def _hide_behind_bone(
-        self, layer: Image8, box: Box, along: Image32, across: Image32, depth: Image32
+        self, layer: Image8, still_mm: Image32, along: Image32, across: Image32, depth: Image32
     ) -> None:
-        x, y, _, _ = box
         near = np.flatnonzero((along < NEAR_BONE_MM).any(axis=1) & (layer[..., 3].any(axis=1)))
         if len(near) == 0:
             return
         rows = slice(int(near[0]), int(near[-1]) + 1)
-        still = self._depth_mm[y : y + layer.shape[0], x : x + layer.shape[1]][rows]
+        still = still_mm[rows]
         at = np.s_[rows.start : rows.start + still.shape[0], : still.shape[1]]
         radius = np.interp(along[at], PROFILE_MM, RADIUS_MM).astype(np.float32)
         front = depth[at] - np.sqrt(np.maximum(radius**2 - across[at] ** 2, 0.0))
@@ -133,7 +159,7 @@ class Renderer:
         if inner is None:
             return
         self._add_board_edge(layer, box, truth, front)
-        brightness = float(lit((truth.camera_from_vertebra.rotation.T @ pose.rotation[:, 2])[None])[0])
+        brightness = float(lit((truth.camera_from_room.rotation.T @ pose.rotation[:, 2])[None])[0])
         self._marker_board.draw(layer, box, inner, self._rays, pose, brightness)
 
     def _add_board_edge(self, layer: Image8, box: Box, truth: Truth, front_px: Array) -> None:
@@ -144,28 +170,37 @@ class Renderer:
         grey = round(255 * BOARD_EDGE_GREY)
         cv2.fillConvexPoly(layer, hull, (grey, grey, grey, 255), cv2.LINE_AA, 4)
 
-    def _cast_shadow(self, image: Image8, truth: Truth) -> None:
-        """The drill's soft shadow on the still scenery."""
-        vertebra_from_tool = truth.camera_from_vertebra.inverse @ truth.camera_from_tool
-        tip, back = vertebra_from_tool.translation_mm, -vertebra_from_tool.rotation[:, 2]
+    def _cast_shadow(self, image: Image8, truth: Truth, points_mm: Image32) -> None:
+        """The drill's soft shadow on the still scenery, whose places are `points_mm`."""
+        room_from_tool = truth.camera_from_room.inverse @ truth.camera_from_tool
+        tip, back = room_from_tool.translation_mm, -room_from_tool.rotation[:, 2]
         stations = tip + np.linspace(0.0, 168.0, 12)[:, None] * back
         above = (stations[:, 1] - SHADOW_GROUND_MM) / TO_LAMP[1]
         stations = stations[above < SHADOW_REACH_MM]
         above = np.maximum(above[above < SHADOW_REACH_MM], 0.0)
-        ground = truth.camera_from_vertebra.move_points(stations - above[:, None] * TO_LAMP)
+        ground = truth.camera_from_room.move_points(stations - above[:, None] * TO_LAMP)
         ground = ground[ground[:, 2] > 50.0]
         box = self._rays.box_around(self._theatre.camera.px_from_camera(ground), 48) if len(ground) else None
         if box is None:
             return
         x, y, width, height = box
         blocks = np.s_[y // NODE_PX : (y + height) // NODE_PX, x // NODE_PX : (x + width) // NODE_PX]
-        points = self._points_mm[blocks]
+        points = points_mm[blocks]
         taken = rod_shadow(points.reshape(-1, 3), tip, back, SHADOW_PROFILE_MM, SHADOW_RADIUS_MM)
         left = np.rint((1.0 - taken.reshape(points.shape[:2])) * 255.0).astype(np.uint8)
         wide = cv2.resize(left, (width, height), interpolation=cv2.INTER_LINEAR)
         part = image[y : y + height, x : x + width]
         wide = wide[: part.shape[0], : part.shape[1]]
         cv2.multiply(part, cv2.merge([wide] * 3), dst=part, scale=1.0 / 255.0)
+
+
+def _both(one: Box | None, other: Box | None) -> Box | None:
+    """A rectangle around both."""
+    if one is None or other is None:
+        return one or other
+    x, y = min(one[0], other[0]), min(one[1], other[1])
+    right, bottom = max(one[0] + one[2], other[0] + other[2]), max(one[1] + one[3], other[1] + other[3])
+    return x, y, right - x, bottom - y
 
 
 def _board_corners(z_mm: float) -> Array:

@@ -7,22 +7,24 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Rigid, Vertebra
+from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.rehearsal.anatomy import Needle, bone_field, bone_normals
-from tracker.rehearsal.clutter import BAR_RINGS, PLACES, Sheet, instruments, sheets
+from tracker.rehearsal.clutter import PLACES, Sheet, instruments, sheets
 from tracker.rehearsal.field import OperatingField
 from tracker.rehearsal.grain import Grain
-from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow, shine
+from tracker.rehearsal.lamp import TO_LAMP, lit, shine
 from tracker.rehearsal.lens import NODE_PX, RayGrid, resized, spread
+from tracker.rehearsal.placement import Placement, Room
 from tracker.rehearsal.raster import Covered, rasterise
+from tracker.rehearsal.reference_picture import lay_reference, post, reference_rods
+from tracker.rehearsal.rods import Rod, rod_of_bar, rod_of_needle
 from tracker.rehearsal.soft import soft_colours
-from tracker.rehearsal.solids import Solid, ball, joined, tube
+from tracker.rehearsal.solids import Solid, ball, joined, moved, tube
 from tracker.rehearsal.theatre import Theatre
 
 Image32 = npt.NDArray[np.float32]
 FINER = 2
 LAMP_STEPS_MM = (2.5, 5.0, 9.0, 15.0, 24.0, 36.0)
-FARTHEST_SHADOW_MM = 60.0
 # What traces of muscle take from bone's blue, green and red.
 TRACES = np.array([0.62, 0.58, 0.22], dtype=np.float32)
 NEEDLE_COLOUR, NEEDLE_HEADS = (0.74, 0.73, 0.72), ((0.25, 0.75, 0.95), (0.85, 0.60, 0.20), (0.45, 0.75, 0.35))
@@ -35,7 +37,7 @@ class Scenery:
     Attributes:
         picture: (h, w, 3) float32, BGR 0..1, sharp, evenly lit by the camera's gain.
         depth_mm: (h, w) float32 along the optical axis, of the nearest still thing.
-        points_mm: (h/4, w/4, 3) float32, where the middle of each 4x4 block lies, in the vertebra's frame.
+        points_mm: (h/4, w/4, 3) float32, where the middle of each 4x4 block lies, in the room's frame.
     """
 
     picture: Image32
@@ -43,51 +45,45 @@ class Scenery:
     points_mm: Image32
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Rod:
-    """A straight thing that throws a shadow."""
-
-    tip_mm: Array
-    along: Array
-    length_mm: float
-    radius_mm: float
-
-    def shadow(self, points: Image32) -> Image32:
-        profile, radius = np.array([0.0, self.length_mm]), np.full(2, self.radius_mm)
-        out = np.zeros(len(points), dtype=np.float32)
-        middle = (self.tip_mm + 0.5 * self.length_mm * self.along).astype(np.float32)
-        reach = 0.5 * self.length_mm + FARTHEST_SHADOW_MM
-        near = np.flatnonzero(
-            (np.abs(points[:, 0] - middle[0]) < reach) & (np.abs(points[:, 2] - middle[2]) < reach)
-        )
-        out[near] = rod_shadow(points[near], self.tip_mm, self.along, profile, radius)
-        return out
-
-
-def still_scenery(theatre: Theatre, rays: RayGrid) -> Scenery:
-    """Renders the theatre without its drill."""
+def still_scenery(theatre: Theatre, rays: RayGrid, placement: Placement) -> Scenery:
+    """Renders the theatre without its drill, with camera and patient where they are."""
     random = np.random.default_rng([theatre.settings.seed, 0x53434E45])
     field, grain = OperatingField(random), Grain(random)
     width, height = theatre.camera.size_wh_px
-    pose = theatre.camera_from_vertebra
+    pose, patient = placement.camera_from_room, placement.room_from_vertebra
     full = spread(rays.block(0, 0, rays.columns * NODE_PX, rays.rows * NODE_PX), 1)[:height, :width]
     soft_depth, points = _soft_points(field, pose, full)
     clutter = theatre.settings.clutter
-    steel = instruments(clutter, field, _spots(points), random)
-    rods = [_rod_of_needle(needle) for needle in theatre.needles] + [_rod_of_bar(bar) for bar in steel]
-    shade = _soft_shade(points, rods)
+    # Things lie where they were laid, however the camera is moved later.
+    first = theatre.placement_at_rest
+    laid = points if placement.key == first.key else _soft_points(field, first.camera_from_room, full)[1]
+    steel = instruments(clutter, field, _spots(laid), random)
+    rods = [rod_of_needle(needle, patient) for needle in theatre.needles] + [rod_of_bar(bar) for bar in steel]
+    bones = [_bone_solid(theatre), *_needle_solids(theatre.needles)]
+    if theatre.reference is not None:
+        bones.append(post(theatre.reference_from_vertebra))
+        rods += reference_rods(theatre.reference_from_vertebra, patient)
+    shade = _soft_shade(points, rods, patient)
     picture, light = soft_colours(field, grain, points, shade, pose.inverse.translation_mm)
     for sheet in sheets(clutter, random):
-        _lay(picture, light, sheet, field, points, theatre.camera, pose)
-    solid = joined([_bone_solid(theatre), *_needle_solids(theatre.needles), *steel])
-    depth = _draw_solids(picture, soft_depth, solid, theatre, grain, rods)
+        _lay(picture, light, sheet, field, laid, theatre.camera, pose)
+    solid = joined([*(moved(one, patient) for one in bones), *steel])
+    depth = _draw_solids(picture, soft_depth, solid, theatre.camera, pose, grain, rods)
+    if theatre.reference is not None:
+        lay_reference(
+            picture,
+            depth,
+            emblem=theatre.reference.image,
+            camera=theatre.camera,
+            rays=rays,
+            placement=placement,
+            reference_from_vertebra=theatre.reference_from_vertebra,
+        )
     quarter = resized(points, rays.columns, rays.rows)
     return Scenery(picture=picture, depth_mm=depth, points_mm=quarter)
 
 
-def _soft_points(
-    field: OperatingField, pose: Rigid[Camera, Vertebra], rays: Image32
-) -> tuple[Image32, Image32]:
+def _soft_points(field: OperatingField, pose: Rigid[Camera, Room], rays: Image32) -> tuple[Image32, Image32]:
     """Depth (h, w) and place in the vertebra's frame (h, w, 3) of the field under each pixel."""
     height, width = rays.shape[:2]
     turn = pose.rotation.astype(np.float32)
@@ -107,15 +103,18 @@ def _spots(points: Image32) -> list[tuple[float, float]]:
     return [(float(p[0]), float(p[2])) for p in found]
 
 
-def _soft_shade(points: Image32, rods: list[_Rod]) -> Image32:
+def _soft_shade(points: Image32, rods: list[Rod], patient: Rigid[Room, Vertebra]) -> Image32:
     """What is left of the lamp (h, w) on the soft field, beside bone, needles and instruments."""
     height, width = points.shape[:2]
     half = resized(points, width // 2, height // 2).reshape(-1, 3)
     left = np.ones(len(half), dtype=np.float32)
     near = np.flatnonzero((np.abs(half[:, 0]) < 75) & (np.abs(half[:, 2]) < 80))
-    left[near] -= 0.62 * _bone_shadow(half[near], 0.4)
+    beside_bone = (half[near] - patient.translation_mm.astype(np.float32)) @ patient.rotation.astype(
+        np.float32
+    )
+    left[near] -= 0.62 * _bone_shadow(beside_bone, 0.4)
     # Where soft meets bone little light gets in at all.
-    left[near] *= 0.55 + 0.45 * np.clip(bone_field(half[near]) / 5.0, 0.0, 1.0)
+    left[near] *= 0.55 + 0.45 * np.clip(bone_field(beside_bone) / 5.0, 0.0, 1.0)
     for rod in rods:
         left *= 1.0 - rod.shadow(half)
     return resized(left.reshape(height // 2, width // 2), width, height)
@@ -160,21 +159,6 @@ def _needle_solids(needles: tuple[Needle, ...]) -> list[Solid]:
     return out
 
 
-def _rod_of_needle(needle: Needle) -> _Rod:
-    line = needle.head_in_vertebra_mm - needle.tip_in_vertebra_mm
-    length = float(np.linalg.norm(line))
-    return _Rod(
-        tip_mm=needle.tip_in_vertebra_mm, along=line / length, length_mm=length, radius_mm=needle.radius_mm
-    )
-
-
-def _rod_of_bar(bar: Solid) -> _Rod:
-    centres = bar.vertices_mm.reshape(BAR_RINGS, -1, 3).mean(axis=1)
-    line = centres[-1] - centres[0]
-    length = float(np.linalg.norm(line))
-    return _Rod(tip_mm=centres[0], along=line / length, length_mm=length, radius_mm=1.8)
-
-
 def _lay(
     picture: Image32,
     light: Image32,
@@ -182,7 +166,7 @@ def _lay(
     field: OperatingField,
     points: Image32,
     camera: CameraModel,
-    pose: Rigid[Camera, Vertebra],
+    pose: Rigid[Camera, Room],
 ) -> None:
     """Paints a flat thing into the picture where it lies, in the light that falls there."""
     height, width = picture.shape[:2]
@@ -216,15 +200,15 @@ def _draw_solids(
     picture: Image32,
     soft_depth: Image32,
     solid: Solid,
-    theatre: Theatre,
+    camera: CameraModel,
+    pose: Rigid[Camera, Room],
     grain: Grain,
-    rods: list[_Rod],
+    rods: list[Rod],
 ) -> Image32:
     """Draws the solids into the picture, twice as fine; answers with the depth (h, w) of all still things."""
     height, width = picture.shape[:2]
-    pose = theatre.camera_from_vertebra
     in_camera = pose.move_points(solid.vertices_mm)
-    px = theatre.camera.px_from_camera(in_camera)
+    px = camera.px_from_camera(in_camera)
     covered = rasterise(
         px * FINER + (FINER - 1) / 2.0,
         in_camera[:, 2],
@@ -254,7 +238,7 @@ def _draw_solids(
 
 
 def _solid_colours(
-    covered: Covered, solid: Solid, pose: Rigid[Camera, Vertebra], grain: Grain, rods: list[_Rod]
+    covered: Covered, solid: Solid, pose: Rigid[Camera, Room], grain: Grain, rods: list[Rod]
 ) -> Image32:
     values = np.hstack([solid.vertices_mm, solid.normals, solid.colours, solid.gloss[:, None]])
     at = covered.of_corners(values.astype(np.float32), solid.faces)

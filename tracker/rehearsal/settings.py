@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tracker.errors import InvalidInput
+from tracker.rehearsal.events import Event, refused
 
 HARDEST = 10.0
 SIDE_PX = (160, 4096)
@@ -17,6 +17,17 @@ class Scene(StrEnum):
     PIVOT = "pivot"  # the drill's tip rests on the bone while it is tilted to all sides
     SPIN = "spin"  # the drill turns about its own axis
     BOARD = "board"  # a calibration board is shown to the camera in many places and tilts
+    LANDMARKS = "landmarks"  # the tip rests on one named landmark of the bone after the other
+    SWEEP = "sweep"  # the tip sweeps over the bone's surface
+    CHECK = "check"  # the tip rests on a landmark that is not touched in the scene before
+
+
+class Skill(StrEnum):
+    """How the hand drills in the operation."""
+
+    WANDERING = "wandering"  # as a hand does, then off by millimetres and degrees, then out of the picture
+    GOOD = "good"  # all the time along the channel's axis, within half a millimetre
+    BREACHING = "breaching"  # through the pedicle's wall to the canal
 
 
 class BoardKind(StrEnum):
@@ -40,6 +51,9 @@ class TheatreSettings:
         light: how uneven, dim and unsteady the light is.
         scene: what is rehearsed.
         board: which calibration board is shown in its scene.
+        skill: how the hand drills in the operation.
+        reference: whether a second marker is fixed to the patient.
+        events: what goes wrong, and when.
 
     Raises:
         InvalidInput: REHEARSAL_SETTING_INVALID, with the key, its value and what is allowed.
@@ -53,22 +67,16 @@ class TheatreSettings:
     light: float = 1.0
     scene: Scene = Scene.OPERATION
     board: BoardKind = BoardKind.DOTS
+    skill: Skill = Skill.WANDERING
+    reference: bool = False
+    events: tuple[Event, ...] = ()
 
     def __post_init__(self) -> None:
         if not 0 <= self.seed < 2**32:
-            raise _refused("seed", self.seed, f"a whole number from 0 to {2**32 - 1}")
+            raise refused("seed", self.seed, f"a whole number from 0 to {2**32 - 1}")
         if not all(SIDE_PX[0] <= side <= SIDE_PX[1] for side in self.size_wh_px):
-            raise _refused("size_wh_px", self.size_wh_px, f"sides from {SIDE_PX[0]} to {SIDE_PX[1]} px")
+            raise refused("size_wh_px", self.size_wh_px, f"sides from {SIDE_PX[0]} to {SIDE_PX[1]} px")
         for name in ("noise", "blur", "clutter", "light"):
             value = float(getattr(self, name))
             if not (math.isfinite(value) and 0.0 <= value <= HARDEST):
-                raise _refused(name, value, f"a number from 0 (none) to {HARDEST:g} (very hard)")
-
-
-def _refused(key: str, value: object, allowed: str) -> InvalidInput:
-    return InvalidInput(
-        "REHEARSAL_SETTING_INVALID",
-        f"the rehearsal's {key} is {value}, allowed is {allowed}",
-        f"Set {key} to {allowed}.",
-        {"key": key, "value": value},
-    )
+                raise refused(name, value, f"a number from 0 (none) to {HARDEST:g} (very hard)")

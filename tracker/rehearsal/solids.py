@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry import Array
+from tracker.geometry import Array, Rigid, Vertebra
+from tracker.rehearsal.placement import Room
 
 SIDES = 14
 Colour = tuple[float, float, float]
@@ -75,6 +76,17 @@ def joined(solids: Sequence[Solid]) -> Solid:
         faces=np.concatenate([solid.faces + start for solid, start in zip(solids, starts, strict=True)]),
         colours=np.concatenate([solid.colours for solid in solids]),
         gloss=np.concatenate([solid.gloss for solid in solids]),
+    )
+
+
+def moved(solid: Solid, room_from_vertebra: Rigid[Room, Vertebra]) -> Solid:
+    """The same where it is in the room."""
+    return Solid(
+        vertices_mm=room_from_vertebra.move_points(solid.vertices_mm),
+        normals=room_from_vertebra.turn_directions(solid.normals),
+        faces=solid.faces,
+        colours=solid.colours,
+        gloss=solid.gloss,
     )
 
 

@@ -1,20 +1,32 @@
 """The theatre: camera, marker, drill, vertebra and needles, and where they all are at any time."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 
 from tracker.camera import CameraModel
-from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra
+from tracker.geometry import Array, Camera, Marker, Reference, Rigid, Tool, Vertebra
 from tracker.marker import MarkerModel
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 from tracker.rehearsal.anatomy import Needle, landmark_needles, pedicle_channels, vertebra_surface
+from tracker.rehearsal.drilling import drilling_hand
 from tracker.rehearsal.emblem import drill_emblem
+from tracker.rehearsal.events import EventKind
 from tracker.rehearsal.hands import PivotingHand, SpinningHand
-from tracker.rehearsal.motion import CYCLE_S, Hand, Phase, Pose6, phase_at
+from tracker.rehearsal.journeys import CHECK_REST_S, REST_S, sweeping_hand, touching_hand
+from tracker.rehearsal.landmarks import Landmark, check_landmark, registration_landmarks
+from tracker.rehearsal.motion import Phase, Pose6
+from tracker.rehearsal.placement import Moves, Placement, Room
+from tracker.rehearsal.reference import (
+    reference_board_mm,
+    reference_from_vertebra,
+    reference_marker,
+)
 from tracker.rehearsal.settings import Scene, TheatreSettings
+
+Square = TypeVar("Square")
 
 if TYPE_CHECKING:
     from tracker.rehearsal.board_renderer import BoardRenderer
@@ -30,15 +42,28 @@ DRILL_RADIUS_MM, DRILL_LENGTH_MM = 2.0, 118.0
 # A 1280 px wide sensor sees 49 degrees; other widths see the same.
 FOCAL_OF_WIDTH = 1400.0 / 1280.0
 SQUARE_IN_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * MARKER_SIDE_MM
+QUIET_SQUARE_MM = SQUARE_IN_MM * (1.0 + 2.0 * QUIET_ZONE_MM / MARKER_SIDE_MM)
 VIEW_MARGIN_PX = 6.0
 STEEPEST_VIEW_COSINE = 0.26  # 75 degrees off: nobody can read a marker from there
 
 
 class _Holding(Protocol):
-    """Whatever moves the drill."""
+    """Whatever moves the drill.
+
+    Attributes:
+        cycle_s: the motion repeats after this.
+    """
+
+    cycle_s: float
 
     def at(self, at_s: float) -> Pose6:
         """Where the drill is held at this time."""
+
+    def phase_at(self, at_s: float) -> Phase:
+        """What the hand is doing at this time."""
+
+    def touched_at(self, at_s: float) -> str:
+        """The landmark that the tip rests on, by name; empty if it rests on none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,11 +75,15 @@ class Truth:
         phase: what the hand is doing.
         camera_from_marker: the marker.
         camera_from_tool: the drill: tip and drilling direction.
-        camera_from_vertebra: the patient, who lies still.
-        marker_in_view: the whole black square with its quiet zone is in the image, with a margin, and faces
-            the camera.
+        camera_from_vertebra: the patient, who lies still until something moves.
+        camera_from_room: what stands still; the vertebra's frame before anything has moved.
+        camera_from_reference: the marker on the patient; None where there is none.
+        marker_in_view: the whole black square with its quiet zone is in the image, with a margin, faces
+            the camera, and nothing lies over it.
+        reference_in_view: the same of the marker on the patient.
         corners_px: (4, 2) of the black square, top-left, top-right, bottom-right, bottom-left of the printed
             face; they may lie outside the image.
+        touched: the landmark that the tip rests on, by name; empty if it rests on none.
     """
 
     at_s: float
@@ -62,8 +91,12 @@ class Truth:
     camera_from_marker: Rigid[Camera, Marker]
     camera_from_tool: Rigid[Camera, Tool]
     camera_from_vertebra: Rigid[Camera, Vertebra]
+    camera_from_room: Rigid[Camera, Room]
+    camera_from_reference: Rigid[Camera, Reference] | None
     marker_in_view: bool
+    reference_in_view: bool
     corners_px: Array
+    touched: str
 
 
 class Theatre:
@@ -75,16 +108,19 @@ class Theatre:
         marker: the square on the drill ("drill", 25 mm).
         tool: the drill behind that marker.
         channels: the left and the right pedicle's; the drill follows the first.
-        camera_from_vertebra: the registration, exactly.
+        camera_from_vertebra: the registration to the camera, exactly, as long as nothing has moved.
+        reference: the square on the patient ("reference", 30 mm); None where there is none.
+        reference_from_vertebra: the registration to that square, exactly, whatever moves.
         surface: the vertebra.
         needles: the three landmark needles.
+        landmarks: that the tip is put on, one after the other.
+        check_landmark: the one that is left for the check.
         cycle_s: the motion repeats after this.
     """
 
     def __init__(self, settings: TheatreSettings) -> None:
         random = np.random.default_rng([settings.seed, 0x524F4F4D])
         self.settings = settings
-        self.cycle_s = CYCLE_S
         self.camera = _camera(settings, random)
         self.marker = MarkerModel.from_image(drill_emblem(), side_mm=MARKER_SIDE_MM, name="drill")
         self.tool = ToolModel.from_tip_and_axis(
@@ -99,8 +135,14 @@ class Theatre:
         self.surface: Surface = vertebra_surface()
         self.needles: tuple[Needle, ...] = landmark_needles()
         self.camera_from_vertebra = _camera_from_vertebra(self.channels[0], random)
-        self._hand = _hand_of(settings)
+        self.reference: MarkerModel | None = reference_marker() if settings.reference else None
+        self.reference_from_vertebra = reference_from_vertebra(self.camera_from_vertebra, settings.seed)
+        self.landmarks: tuple[Landmark, ...] = registration_landmarks()
+        self.check_landmark: Landmark = check_landmark()
+        self._moves = Moves(settings, self.camera_from_vertebra)
         self._vertebra_from_rest = _vertebra_from_rest(self.channels[0], self.camera_from_vertebra)
+        self._hand = _hand_of(settings, self._vertebra_from_rest)
+        self.cycle_s = self._hand.cycle_s
 
     def truth_at(self, at_s: float) -> Truth:
         """What is true at this time (any number of seconds); costs well under a millisecond."""
@@ -109,35 +151,71 @@ class Theatre:
         # The tool is made from the marker once more, so that the two agree to the last bit.
         camera_from_tool = camera_from_marker @ self.tool.marker_from_tool
         corners = camera_from_marker.move_points(SQUARE_IN_MM)
+        placement = self.placement_at(at_s)
+        camera_from_reference = self._camera_from_reference(placement)
         return Truth(
             at_s=at_s,
-            phase=phase_at(at_s) if self.settings.scene is Scene.OPERATION else Phase.CALIBRATE,
+            phase=self._hand.phase_at(at_s),
             camera_from_marker=camera_from_marker,
             camera_from_tool=camera_from_tool,
-            camera_from_vertebra=self.camera_from_vertebra,
-            marker_in_view=self._in_view(camera_from_marker),
+            camera_from_vertebra=placement.camera_from_vertebra,
+            camera_from_room=placement.camera_from_room,
+            camera_from_reference=camera_from_reference,
+            marker_in_view=self.settings.scene is not Scene.BOARD
+            and not self.is_on(EventKind.DRILL_HIDDEN, at_s)
+            and self._in_view(camera_from_marker, QUIET_SQUARE_MM),
+            reference_in_view=camera_from_reference is not None
+            and not self.is_on(EventKind.REFERENCE_HIDDEN, at_s)
+            and self._in_view(camera_from_reference, reference_board_mm()),
             corners_px=self.camera.px_from_camera(corners),
+            touched=self._hand.touched_at(at_s),
         )
 
-    def renderer(self) -> "Renderer | BoardRenderer":
-        """What makes the images of its scene; rendering what stands still takes about a second."""
+    @property
+    def placement_at_rest(self) -> Placement:
+        """Where camera and patient are before anything has moved."""
+        return self._moves.at_rest
+
+    def placement_at(self, at_s: float) -> Placement:
+        """Where camera and patient are at this time."""
+        return self._moves.placement_at(at_s)
+
+    def placements(self) -> list[Placement]:
+        """All places of camera and patient that come, the first one first."""
+        return self._moves.placements()
+
+    def is_on(self, kind: EventKind, at_s: float) -> bool:
+        """Whether such an event is there at this time."""
+        return any(event.kind is kind and event.is_on(at_s) for event in self.settings.events)
+
+    def renderer(self, after: "Renderer | BoardRenderer | None" = None) -> "Renderer | BoardRenderer":
+        """What makes the images of its scene; rendering what stands still takes about a second.
+
+        `after` is what rendered another scene of the same theatre before: what stands still is taken from it.
+        """
         from tracker.rehearsal.board_renderer import BoardRenderer  # noqa: PLC0415  they need the theatre first
         from tracker.rehearsal.renderer import Renderer  # noqa: PLC0415
 
-        return BoardRenderer(self) if self.settings.scene is Scene.BOARD else Renderer(self)
+        kept = None if after is None else after.backdrops
+        return BoardRenderer(self, kept) if self.settings.scene is Scene.BOARD else Renderer(self, kept)
 
     def camera_from_tool_at(self, at_s: float) -> Rigid[Camera, Tool]:
-        """The drill's tip and drilling direction at this time."""
+        """The drill's tip and drilling direction at this time; the hand follows the patient."""
         hand = self._hand.at(at_s)
-        tip_mm = np.append(hand.across_mm, hand.depth_mm)
+        tip_mm = np.append(hand.across_mm, hand.depth_mm) + self._moves.jump_mm_at(at_s)
         held: Rigid[Tool, Tool] = Rigid.from_vector(np.radians(hand.turn_deg), tip_mm)
-        return self.camera_from_vertebra @ (self._vertebra_from_rest @ held)
+        placement = self.placement_at(at_s)
+        return placement.camera_from_vertebra @ (self._vertebra_from_rest @ held)
 
-    def _in_view(self, camera_from_marker: Rigid[Camera, Marker]) -> bool:
-        quiet = SQUARE_IN_MM * (1.0 + 2.0 * QUIET_ZONE_MM / MARKER_SIDE_MM)
-        outline = camera_from_marker.move_points(quiet)
-        centre = camera_from_marker.translation_mm
-        facing = -float(camera_from_marker.rotation[:, 2] @ centre) / float(np.linalg.norm(centre))
+    def _camera_from_reference(self, placement: Placement) -> Rigid[Camera, Reference] | None:
+        if self.reference is None:
+            return None
+        return placement.camera_from_vertebra @ self.reference_from_vertebra.inverse
+
+    def _in_view(self, camera_from_square: Rigid[Camera, Square], outline_mm: Array) -> bool:
+        outline = camera_from_square.move_points(outline_mm)
+        centre = camera_from_square.translation_mm
+        facing = -float(camera_from_square.rotation[:, 2] @ centre) / float(np.linalg.norm(centre))
         if outline[:, 2].min() < 50.0 or facing < STEEPEST_VIEW_COSINE:
             return False
         px = self.camera.px_from_camera(outline)
@@ -145,14 +223,21 @@ class Theatre:
         return bool((px >= VIEW_MARGIN_PX).all() and (px <= last).all())
 
 
-def _hand_of(settings: TheatreSettings) -> _Holding:
+def _hand_of(settings: TheatreSettings, rest: Rigid[Vertebra, Tool]) -> _Holding:
+    seed = settings.seed
     match settings.scene:
         case Scene.PIVOT:
-            return PivotingHand(settings.seed)
-        case Scene.SPIN:
-            return SpinningHand(settings.seed)
-        case _:
-            return Hand(settings.seed)
+            return PivotingHand(seed)
+        case Scene.SPIN | Scene.BOARD:
+            return SpinningHand(seed)
+        case Scene.LANDMARKS:
+            return touching_hand(registration_landmarks(), rest_s=REST_S, rest=rest, seed=seed)
+        case Scene.CHECK:
+            return touching_hand((check_landmark(),), rest_s=CHECK_REST_S, rest=rest, seed=seed)
+        case Scene.SWEEP:
+            return sweeping_hand(rest=rest, seed=seed)
+        case Scene.OPERATION:
+            return drilling_hand(settings.skill, seed=seed, rest=rest)
 
 
 def _camera(settings: TheatreSettings, random: np.random.Generator) -> CameraModel:

@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { AlarmBand } from "./alarms/AlarmBand";
 import { AlertBand } from "./panes/AlertBand";
 import { Announcer } from "./panes/Announcer";
 import { DetailsPane } from "./panes/DetailsPane";
@@ -18,6 +19,7 @@ export function Page(): ReactNode {
         {words.skip}
       </a>
       <Header />
+      <AlarmBand />
       <AlertBand />
       <main className="panes">
         <div className="column">

@@ -5,35 +5,18 @@ from typing import Annotated
 
 import typer
 
-from server.cli.board_names import BoardOptions, Layout, Pattern
+from server.cli.board_names import BoardOptions
+from server.cli.board_typed import (
+    DictionaryOption,
+    FiducialsOption,
+    LayoutOption,
+    MarkerOption,
+    PatternArgument,
+    PitchOption,
+    SizeArgument,
+    SquareOption,
+)
 
-PatternOption = Annotated[Pattern, typer.Option(help="What is printed on the board.")]
-SizeOption = Annotated[
-    str,
-    typer.Option(
-        help="Columns x rows: dots, inner corners of a checkerboard, squares of a ChArUco board.",
-        metavar="14x16",
-    ),
-]
-PitchOption = Annotated[
-    float | None,
-    typer.Option("--pitch-mm", help="From dot to dot; asymmetric: half of it in a row.", metavar="MM"),
-]
-SquareOption = Annotated[float | None, typer.Option("--square-mm", help="Side of a square.", metavar="MM")]
-MarkerOption = Annotated[
-    float | None, typer.Option("--marker-mm", help="Side of a marker in a square.", metavar="MM")
-]
-DictionaryOption = Annotated[
-    str | None, typer.Option(help="Of the markers, as DICT_6X6_250.", metavar="NAME")
-]
-FiducialsOption = Annotated[
-    str | None,
-    typer.Option(help="Indexes of the larger dots, as 69,74,149,154; found if left out.", metavar="LIST"),
-]
-LayoutOption = Annotated[
-    Layout | None,
-    typer.Option(help="Dots: symmetric or asymmetric. ChArUco: newer or older; found if left out."),
-]
 InsetOption = Annotated[
     str | None,
     typer.Option(help="Inner corners of a checkerboard that is set into the board.", metavar="13x8"),
@@ -78,8 +61,8 @@ def add_calibration(app: typer.Typer) -> None:
 
 def calibrate(
     images: Annotated[list[str], typer.Argument(help="Images, folders or patterns.", metavar="IMAGES...")],
-    pattern: PatternOption,
-    size: SizeOption,
+    pattern: PatternArgument,
+    size: SizeArgument,
     pitch_mm: PitchOption = None,
     square_mm: SquareOption = None,
     marker_mm: MarkerOption = None,
@@ -136,8 +119,8 @@ def calibrate_rig(
             metavar="NAME=IMAGES",
         ),
     ],
-    pattern: PatternOption,
-    size: SizeOption,
+    pattern: PatternArgument,
+    size: SizeArgument,
     pitch_mm: PitchOption = None,
     square_mm: SquareOption = None,
     marker_mm: MarkerOption = None,

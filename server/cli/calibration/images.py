@@ -1,7 +1,8 @@
 """Images for calibration: files, folders or patterns, read one after the other."""
 
 import glob
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from server.picture_file import decoded
 from tracker.errors import CalibrationError, InvalidInput
 
 ENDINGS = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm"}
+LEAST_SIDE_PX = 16
 REMEDY = "Give images of the board: files, a folder, or a pattern as 'images/*.png'."
 
 
@@ -26,6 +28,14 @@ class Picture:
 
     name: str
     image: npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unusable:
+    """An image file in which no board can be looked for, and why, in a sentence."""
+
+    name: str
+    sentence: str
 
 
 def files_of(given: Sequence[str]) -> list[Path]:
@@ -58,37 +68,45 @@ def names_of(files: Sequence[Path]) -> list[str]:
     return short if len(set(short)) == len(short) else [str(file) for file in files]
 
 
-def pictures(files: Sequence[Path]) -> Iterator[Picture]:
-    """The images, all of one size.
-
-    Raises:
-        InvalidInput: IMAGE_UNREADABLE.
-        CalibrationError: IMAGE_SIZES_DIFFER.
-    """
-    first: Picture | None = None
-    for file, name in zip(files, names_of(files), strict=True):
-        picture = Picture(name=name, image=_read(file))
-        first = first or picture
-        sizes = [f"{one.image.shape[1]}x{one.image.shape[0]}" for one in (first, picture)]
-        if sizes[0] != sizes[1]:
-            raise CalibrationError(
-                "IMAGE_SIZES_DIFFER",
-                f"{picture.name} has {sizes[1]} px, and {first.name} {sizes[0]} px: one camera, one size",
-                "Give images of one camera at one setting, not cropped or scaled.",
-                {"image": picture.name, "size": sizes[1], "first": first.name, "first_size": sizes[0]},
-            )
-        yield picture
-
-
-def _read(file: Path) -> npt.NDArray[np.uint8]:
+def read_picture(file: Path, name: str) -> Picture | Unusable:
+    """The image in a file, or why there is none."""
     try:
         content = file.read_bytes()
     except OSError as error:
-        why = (error.strerror or str(error)).lower()
+        return Unusable(name=name, sentence=f"it cannot be read: {(error.strerror or str(error)).lower()}")
+    image = decoded(content)
+    if image is None:
+        return Unusable(name=name, sentence=f"its {len(content)} bytes are no image")
+    if min(image.shape[:2]) < LEAST_SIDE_PX:
+        size = f"{image.shape[1]}x{image.shape[0]}"
+        return Unusable(name=name, sentence=f"it has {size} px, needed are {LEAST_SIDE_PX}x{LEAST_SIDE_PX}")
+    return Picture(name=name, image=image)
+
+
+def usual_size(sizes_wh_px: Mapping[str, tuple[int, int]], unusable: Sequence[Unusable]) -> tuple[int, int]:
+    """The size of more than half of the images, by their names: one camera has one size.
+
+    Raises:
+        InvalidInput: IMAGE_UNREADABLE, there is no image at all.
+        CalibrationError: IMAGE_SIZES_DIFFER, no size is that of more than half.
+    """
+    if not sizes_wh_px:
+        first = unusable[0]
+        more = f", nor are {len(unusable) - 1} more" if unusable[1:] else ""
         raise InvalidInput(
-            "IMAGE_UNREADABLE", f"{file} cannot be read: {why}", REMEDY, {"file": str(file)}
-        ) from error
-    read = decoded(content)
-    if read is None:
-        raise InvalidInput("IMAGE_UNREADABLE", f"{file} is no image", REMEDY, {"file": str(file)})
-    return read
+            "IMAGE_UNREADABLE",
+            f"{first.name} is no image that can be used: {first.sentence}{more}",
+            REMEDY,
+            {"image": first.name, "unusable": len(unusable)},
+        )
+    (usual, count), *others = Counter(sizes_wh_px.values()).most_common()
+    if 2 * count > len(sizes_wh_px):
+        return usual
+    named = {size: name for name, size in reversed(tuple(sizes_wh_px.items()))}
+    told = [f"{named[size]} has {size[0]}x{size[1]} px" for size in (usual, others[0][0])]
+    raise CalibrationError(
+        "IMAGE_SIZES_DIFFER",
+        f"{', and '.join(told)}: one camera, one size",
+        "Give images of one camera at one setting, not cropped or scaled.",
+        {"sizes": {f"{size[0]}x{size[1]}": n for size, n in Counter(sizes_wh_px.values()).items()}},
+    )

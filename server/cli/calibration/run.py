@@ -11,13 +11,13 @@ from server.calibration import coverage_svg, residuals_svg
 from server.camera_file import CameraFile, camera_file_text
 from server.cli.board_names import BoardOptions
 from server.cli.board_options import boards_of, described
-from server.cli.calibration.images import Picture, files_of, pictures
-from server.cli.calibration.told import ImageEntry, entries_of, json_of, tell
+from server.cli.calibration.images import Picture, Unusable, files_of, names_of, read_picture, usual_size
+from server.cli.calibration.told import ImageEntry, Sight, entries_of, json_of, tell
 from server.cli.output import write_whole
 from server.cli.progress import Steps, shown_steps
 from server.config_file import load_config
 from tracker.camera import Board
-from tracker.camera.calibration import CalibrationReport, CalibrationSettings, calibrate
+from tracker.camera.calibration import CalibrationReport, CalibrationSettings, calibrate, with_board_judged
 from tracker.camera.detection import BoardNotFound, BoardView, board_as_seen, find_board
 from tracker.errors import CalibrationError, InvalidInput
 
@@ -48,13 +48,13 @@ class Looked:
     Attributes:
         boards: as the images show them.
         names: of the images.
-        seen: for each image and board a view, or why not.
+        seen: for each image and board a view, or why not; one reason where the image cannot be used.
         size_wh_px: of all images.
     """
 
     boards: tuple[Board, ...]
     names: tuple[str, ...]
-    seen: tuple[tuple[BoardView | BoardNotFound, ...], ...]
+    seen: tuple[Sight, ...]
     size_wh_px: tuple[int, int]
 
 
@@ -78,6 +78,9 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
         names=[looked.names[owner] for owner in owners],
         settings=CalibrationSettings(coefficients=order.coefficients),
     )
+    for at, board in enumerate(looked.boards):
+        shown = [sight[at] for sight in looked.seen if at < len(sight)]
+        report = with_board_judged(report, [one for one in shown if isinstance(one, BoardView)], board)
     entries = entries_of(looked.names, looked.seen, report)
     passed = report.rms_px <= most_rms_px
     written = _write(order, report, entries, looked.boards) if passed else ()
@@ -106,28 +109,51 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
 
 
 def looked_at(files: Sequence[Path], boards: Sequence[Board], steps: Steps) -> Looked:
-    """Every board looked for in every image; an image that is there twice counts once."""
-    some = list(files[:: max(1, len(files) // LOOKED_AT_FIRST)])[:LOOKED_AT_FIRST]
-    first = [picture.image for picture in pictures(some)]
+    """Every board looked for in every image; what is no image, or another camera's, is told and left out.
+
+    Raises:
+        InvalidInput: IMAGE_UNREADABLE, there is no image at all.
+        CalibrationError: IMAGE_SIZES_DIFFER, no size is that of more than half of the images.
+    """
+    names = names_of(files)
+    every = max(1, len(files) // LOOKED_AT_FIRST)
+    some = {n: read_picture(files[n], names[n]) for n in range(0, len(files), every)[:LOOKED_AT_FIRST]}
+    first = [one.image for one in some.values() if isinstance(one, Picture)]
     seen_boards = tuple(board_as_seen(first, board) for board in boards)
-    names: list[str] = []
-    found: list[tuple[BoardView | BoardNotFound, ...]] = []
-    size = (0, 0)
+    seen: list[Sight] = []
+    size_of: dict[str, tuple[int, int]] = {}
     name_of: dict[bytes, str] = {}
-    for picture in pictures(files):
+    for n, (file, name) in enumerate(zip(files, names, strict=True)):
         steps.advance("looking for the board", len(files))
-        twin = name_of.setdefault(blake2b(picture.image.tobytes()).digest(), picture.name)
-        if twin != picture.name:
-            raise InvalidInput(
-                "IMAGE_TWICE",
-                f"{picture.name} is the same picture as {twin}: twice it would count as two",
-                "Leave one of them out.",
-                {"image": picture.name, "same_as": twin},
-            )
-        names.append(picture.name)
-        found.append(tuple(_found(picture, board) for board in seen_boards))
-        size = (picture.image.shape[1], picture.image.shape[0])
-    return Looked(boards=seen_boards, names=tuple(names), seen=tuple(found), size_wh_px=size)
+        # Each is decoded once, and those that were looked at first are let go one by one.
+        one = some.pop(n) if n in some else read_picture(file, name)
+        if isinstance(one, Picture):
+            twin = name_of.setdefault(blake2b(one.image.tobytes()).digest(), name)
+            if twin != name:
+                one = Unusable(name=name, sentence=f"the same picture as {twin}: twice it would count as two")
+        if isinstance(one, Unusable):
+            seen.append((one,))
+            continue
+        size_of[name] = (one.image.shape[1], one.image.shape[0])
+        seen.append(tuple(_found(one, board) for board in seen_boards))
+    size = usual_size(size_of, [one for sight in seen for one in sight if isinstance(one, Unusable)])
+    return Looked(
+        boards=seen_boards,
+        names=tuple(names),
+        seen=tuple(
+            sight if size_of.get(name, size) == size else (_other_size(name, size_of[name], size),)
+            for name, sight in zip(names, seen, strict=True)
+        ),
+        size_wh_px=size,
+    )
+
+
+def _other_size(name: str, size: tuple[int, int], usual: tuple[int, int]) -> Unusable:
+    return Unusable(
+        name=name,
+        sentence=f"it has {size[0]}x{size[1]} px, and most images {usual[0]}x{usual[1]} px: one camera, one "
+        "size",
+    )
 
 
 def flattened(looked: Looked) -> tuple[list[BoardView], list[int]]:
@@ -143,10 +169,15 @@ def flattened(looked: Looked) -> tuple[list[BoardView], list[int]]:
                 views.append(one)
                 owners.append(index)
     if not views:
-        why = next(one for found in looked.seen for one in found if isinstance(one, BoardNotFound))
+        at, why = next(
+            (at, one)
+            for at, found in enumerate(looked.seen)
+            for one in found
+            if isinstance(one, BoardNotFound)
+        )
         raise CalibrationError(
             "BOARD_NOT_FOUND",
-            f"the board is in none of {len(looked.names)} images ({looked.names[0]}: {why.sentence})",
+            f"the board is in none of {len(looked.names)} images ({looked.names[at]}: {why.sentence})",
             "Check --pattern and --size (dots, inner corners of a checkerboard, squares of a ChArUco board), "
             "and that the board is sharp and evenly lit.",
             {"images": len(looked.names), "reason": why.reason.value},

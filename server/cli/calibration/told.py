@@ -5,15 +5,19 @@ import math
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 from server.calibration import report_values
+from server.cli.calibration.images import Unusable
 from tracker.camera.calibration import CalibrationReport, ViewReport
 from tracker.camera.detection import BoardNotFound, BoardView
 
+# What one image shows of each board.
+Sight: TypeAlias = tuple[BoardView | BoardNotFound | Unusable, ...]
 WIDTH_WITHOUT_TERMINAL = 110
 
 
@@ -38,7 +42,7 @@ class ImageEntry:
 
 def entries_of(
     names: Sequence[str],
-    seen: Sequence[Sequence[BoardView | BoardNotFound]],
+    seen: Sequence[Sight],
     report: CalibrationReport,
 ) -> list[ImageEntry]:
     """The report's views gathered by image."""
@@ -48,7 +52,7 @@ def entries_of(
         views = tuple(next(reports) for one in found if isinstance(one, BoardView))
         reasons = [one.reason for one in views if one.reason]
         if not views:
-            reasons = [one.sentence for one in found if isinstance(one, BoardNotFound)]
+            reasons = [one.sentence for one in found if not isinstance(one, BoardView)]
         counted = [one for one in views if one.used] or list(views)
         entries.append(
             ImageEntry(

@@ -80,7 +80,7 @@ def test_a_case_from_its_making_to_its_end(door: TestClient) -> None:
     assert (gone.status_code, gone.json()["code"]) == (404, "CASE_UNKNOWN")
 
 
-@pytest.mark.parametrize("name", ["", "  ", "a\nb", "x" * 201, 5, None])
+@pytest.mark.parametrize("name", ["", "  ", "a\nb", "x" * 201, 5, None, "\u202egnp", "\u200b", "a\u2028b"])
 def test_a_name_that_cannot_be_is_refused(door: TestClient, name: object) -> None:
     answer = door.post("/api/cases", json={"name": name})
     assert answer.status_code == 422

@@ -14,6 +14,7 @@ from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot
 from server.errors import CaptureError
 from server.live import SourceState
+from tracker.rehearsal import Event, EventKind
 
 
 def shot(number: int) -> Shot:
@@ -157,7 +158,7 @@ def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.
 
 class Numbered:
     def image_at(self, at_s: float) -> np.ndarray:
-        return np.full((4, 6, 3), round(at_s * 100), dtype=np.uint8)
+        return np.full((4, 6, 3), round(at_s * 100) % 256, dtype=np.uint8)
 
 
 def test_the_theatre_shows_number_by_rate_seconds_of_its_own_clock() -> None:
@@ -170,3 +171,63 @@ def test_the_theatre_shows_number_by_rate_seconds_of_its_own_clock() -> None:
     assert [shot.source_time_s for shot in given] == pytest.approx([0.28, 0.32, 0.36])
     assert [int(shot.image[0, 0, 0]) for shot in given] == [28, 32, 36]
     assert shots[3] is None
+
+
+def silence(kind: EventKind, at_s: float, lasts_s: float) -> Event:
+    return Event(kind=kind, at_s=at_s, lasts_s=lasts_s)
+
+
+def fast_source(*silences: Event, last_number: int | None = None) -> RehearsalSource:
+    return RehearsalSource(
+        Numbered(),
+        rate_hz=25.0,
+        stop=threading.Event(),
+        fast=True,
+        silences=silences,
+        last_number=last_number,
+    )
+
+
+def test_a_silent_theatre_leaves_out_the_images_of_that_time() -> None:
+    source = fast_source(silence(EventKind.CAMERA_STALLS, 0.08, 0.2), last_number=9)
+    source.open()
+    given = [shot.number for shot in iter(source.read, None) if shot is not None]
+    assert given == [0, 1, 7, 8, 9]
+    for_good = fast_source(silence(EventKind.CAMERA_STOPS, 0.08, float("inf")))
+    for_good.open()
+    assert [for_good.read() is None for _ in range(4)] == [False, False, True, True]
+
+
+def test_a_theatre_whose_camera_stops_says_so_and_its_clock_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_s = 100.0
+    monkeypatch.setattr("server.capture.rehearsal.time.monotonic", lambda: now_s)
+    source = RehearsalSource(
+        Numbered(),
+        rate_hz=10.0,
+        stop=threading.Event(),
+        silences=(silence(EventKind.CAMERA_STOPS, 2.0, 3.0),),
+    )
+    source.open()
+    assert source.read() is not None
+    now_s += 2.5
+    for _ in range(3):
+        with pytest.raises(CaptureError, match="gives no images"):
+            source.read()
+        source.open()
+    now_s += 3.0
+    back = source.read()
+    assert back is not None
+    assert back.source_time_s == pytest.approx(5.5)
+
+
+def test_another_scene_begins_at_zero_with_the_next_number() -> None:
+    source = fast_source()
+    source.open()
+    for _ in range(3):
+        source.read()
+    source.play(Numbered(), scene_number=4, silences=(silence(EventKind.CAMERA_STALLS, 9.0, 1.0),))
+    assert (source.begun.scene_number, source.begun.first_number) == (4, 4)
+    assert source.stalls
+    shot = source.read()
+    assert shot is not None
+    assert (shot.number, shot.source_time_s) == (4, 0.0)

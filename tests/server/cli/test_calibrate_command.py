@@ -1,6 +1,7 @@
 """`coaxial calibrate` as a person types it."""
 
 import json
+import shutil
 from pathlib import Path
 
 import cv2
@@ -104,7 +105,8 @@ def test_bad_input_is_told_and_nothing_is_written(images: Path, tmp_path: Path) 
         ("IMAGES_MISSING", (*BOARD, "nowhere/*.png")),
         ("IMAGE_UNREADABLE", (*BOARD, text_file)),
         ("IMAGE_SIZES_DIFFER", (*BOARD, images / "view0.png", small)),
-        ("IMAGE_TWICE", (*BOARD, images / "view0.png", twin)),
+        ("TOO_FEW_VIEWS", (*BOARD, images / "view0.png", images / "view1.png", twin)),
+        ("TOO_FEW_VIEWS", (*BOARD, images / "view0.png", images / "view1.png", text_file)),
         ("BOARD_NOT_FOUND", (*BOARD, images / "view9.png")),
         ("TOO_FEW_VIEWS", (*BOARD, images / "view0.png")),
         ("BOARD_OPTION_INVALID", ("--pattern", "dots", "--size", "14", "--pitch-mm", "4", images)),
@@ -121,6 +123,27 @@ def test_bad_input_is_told_and_nothing_is_written(images: Path, tmp_path: Path) 
             else typed(*words)[1] == code
         )
     assert not output.exists()
+
+
+def test_a_bad_file_is_told_and_costs_nobody_else(images: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "images"
+    shutil.copytree(images, folder)
+    (folder / "a-text.png").write_text("no image")
+    (folder / "an-empty.jpg").touch()
+    cv2.imwrite(str(folder / "small.png"), np.zeros((100, 100), np.uint8))
+    cv2.imwrite(str(folder / "tiny.png"), np.zeros((3, 3), np.uint8))
+    shutil.copy(folder / "view0.png", folder / "view0-again.png")
+    whole, spoilt = (json.loads(typed(*BOARD, "--json", one)[1]) for one in (images, folder))
+    assert spoilt["matrix"] == whole["matrix"]
+    assert spoilt["passed"]
+    reason_of = {view["image"]: view["reason"] for view in spoilt["views"] if not view["used"]}
+    assert set(reason_of) == {"a-text.png", "an-empty.jpg", "small.png", "tiny.png", "view0.png", "view9.png"}
+    assert reason_of["a-text.png"] == "its 8 bytes are no image"
+    assert reason_of["an-empty.jpg"] == "its 0 bytes are no image"
+    assert "100x100 px, and most images 640x480 px" in reason_of["small.png"]
+    assert "3x3 px" in reason_of["tiny.png"]
+    assert "the same picture as view0-again.png" in reason_of["view0.png"]
+    assert "view0-again.png" in typed(*BOARD, folder)[1]
 
 
 def test_a_rig_is_written_with_its_baseline(images: Path, tmp_path: Path) -> None:

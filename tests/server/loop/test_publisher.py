@@ -2,13 +2,15 @@
 
 import pytest
 
+from server.alarms import no_alarms
 from server.live import ProcessState, ProcessStatus, SourceState, Trouble
 from server.loop.board import Board
-from server.loop.publisher import Image, Picture, Publisher
+from server.loop.publisher import Image, Look, Picture, Publisher
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
 from tests.server.loop.made import Seen, made_image, made_snapshot, made_source
 from tracker.navigation import NavigationSnapshot
+from tracker.navigation.alarms import AlarmPicture
 
 RUNNING = ProcessStatus(state=ProcessState.STARTING)
 DEAD = ProcessStatus(
@@ -19,7 +21,7 @@ DEAD = ProcessStatus(
 class Stage:
     """A publisher on a board with a ring, and what it has published."""
 
-    def __init__(self, picture: Picture | None = None) -> None:
+    def __init__(self, picture: Picture | None = None, look: Look = no_alarms) -> None:
         self.hub = Seen()
         self.board = Board("made")
         self.ring = ImageRing(image_bytes=100_000)
@@ -29,7 +31,10 @@ class Stage:
             board=self.board,
             hub=self.hub,
             picture=picture
-            or Picture(draw=lambda image, _: image + 1, encode=lambda image: image.tobytes()[:2]),
+            or Picture(
+                draw=lambda image, _snapshot, _alarms: image + 1, encode=lambda image: image.tobytes()[:2]
+            ),
+            look=look,
         )
         self.board.post(RUNNING, self.ring)
 
@@ -88,7 +93,7 @@ def test_a_dead_process_takes_its_picture_with_it_at_once() -> None:
 
 
 def test_a_process_that_dies_while_its_picture_is_drawn_is_not_shown_any_more() -> None:
-    def draw(image: Image, snapshot: NavigationSnapshot) -> Image:
+    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmPicture) -> Image:
         del snapshot
         stage.board.post(DEAD, None)
         return image
@@ -129,7 +134,7 @@ def test_sequences_grow_by_one_over_images_deaths_and_signs_of_life() -> None:
 
 
 def test_a_failing_overlay_is_told_and_shows_nothing() -> None:
-    def draw(image: Image, snapshot: NavigationSnapshot) -> Image:
+    def draw(image: Image, snapshot: NavigationSnapshot, _alarms: AlarmPicture) -> Image:
         raise ZeroDivisionError(f"a bug in image {snapshot.image_number} of {image.shape}")
 
     stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg"))

@@ -29,7 +29,7 @@ class Stage:
         self.supervisor = Supervisor(
             order=order, board=board, watch=watch, target=target, clock=lambda: self.now_s
         )
-        picture = Picture(draw=lambda image, _: image, encode=lambda _: b"jpeg")
+        picture = Picture(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg")
         self.publisher = Publisher(board=board, hub=self.hub, picture=picture)
         self.supervisor.start()
         self.publisher.start()

@@ -55,7 +55,7 @@ class Running:
         self.hub = Seen()
         self.tracked.hub = self.hub
         self.tracked.start()
-        self.tracked.publish(Picture(draw=lambda image, _: image, encode=lambda _: b"jpeg"))
+        self.tracked.publish(Picture(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg"))
 
 
 @pytest.fixture
@@ -147,7 +147,7 @@ if __name__ == "__main__":
     configure_logging(log)
     tracked = Tracked(Config(camera=camera), log=log)
     tracked.start()
-    tracked.publish(Picture(draw=lambda image, _: image, encode=lambda _: b"jpeg"))
+    tracked.publish(Picture(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg"))
     import asyncio
     sequence = -1
     while True:

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from server.live import Instant, LiveHub
+from server.live import Instant, LiveHub, SourceState, SourceStatus, Trouble
 from server.procedure.board_collection import BoardCollection
 from tracker.camera import Board
 from tracker.errors import InvalidInput
@@ -41,15 +41,18 @@ class Camera:
         self._number = 0
         self.collection = BoardCollection(self.hub, BOARD)
 
-    def show(self, image: np.ndarray | None) -> None:
+    def show(self, image: np.ndarray | None, source: SourceStatus | None = None) -> None:
         self._number += 1
         at_s = self._number * 0.3
         snapshot = self._snapshot_of(image_number=self._number, captured_at_s=at_s)
-        instant = self._instant_of(self._number, snapshot=None if image is None else snapshot)
+        instant = self._instant_of(self._number, snapshot=None if image is None else snapshot, source=source)
+        before = self.collection.status.said
         self.hub.publish(replace(instant, image=image))
         wanted = -1 if image is None else self._number
         deadline_s = time.monotonic() + DEADLINE_S
-        while self.collection.status.image_number != wanted and self.collection.status.trouble is None:
+        while self.collection.status.trouble is None and not (
+            self.collection.status.said != before if source else self.collection.status.image_number == wanted
+        ):
             assert time.monotonic() < deadline_s, "the image was not looked at"
             time.sleep(0.001)
 
@@ -84,6 +87,11 @@ def test_without_a_board_or_a_picture_it_says_so_and_waits(camera: Camera) -> No
     assert "hold it still" not in empty.said
     camera.show(None)
     assert camera.collection.status.said == "there is no picture"
+    gone = Trouble(code="CAMERA_GONE", message="the camera 0 gives no image", remedy="Plug it in.")
+    camera.show(None, SourceStatus(name="0", state=SourceState.RECONNECTING, trouble=gone))
+    assert camera.collection.status.said == "there is no picture: the camera 0 gives no image"
+    camera.show(None, SourceStatus(name="0", state=SourceState.ENDED))
+    assert camera.collection.status.said == "there is no picture: the camera's images have ended"
     for image in images()[:2]:
         camera.show(image)
     assert len(camera.collection.taken) == 1

@@ -187,7 +187,10 @@ def test_a_channel_is_called_after_the_longest_name_of_a_vertebra() -> None:
     name = "L" * 40
     channel = dataclasses.replace(shifted(0.0), name=channel_name(name, "right"))
     planned = PlannedChannel(side="right", channel=channel)
-    refuse_odd(PlanDocument(vertebrae=(VertebraPlan(name=name, channels=(planned,)),)))
+    plan = PlanDocument(vertebrae=(VertebraPlan(name=name, channels=(planned,)),))
+    refuse_odd(plan)
+    back = plan_from_mapping(json.loads(json.dumps(plan_to_mapping(plan))))
+    assert back.vertebrae[0].channels[0].channel.name == f"{'L' * 40} right"
 
 
 @pytest.mark.parametrize("middle", [(9000.0, 0.0, 0.0), (-14.0, 60.0, 0.0)])

@@ -107,11 +107,11 @@ def test_a_tip_that_is_unsure_is_refused() -> None:
 
 def test_the_collector_ends_when_it_has_enough_or_waits_in_vain() -> None:
     collector = LandmarkCollector(CaptureSettings(least_images=10, least_s=0.29))
-    assert not collector.is_over
+    over = []
     for sample in held(count=10):
-        assert not collector.is_over
+        over.append(collector.is_over)
         collector.take(sample)
-    assert collector.is_over
+    assert [*over, collector.is_over] == [False] * 10 + [True]
     assert isinstance(collector.result(), CapturedLandmark)
     lost = LandmarkCollector()
     lost.take(UnseenSample(at_s=0.0, reason="REFERENCE_UNSEEN"))

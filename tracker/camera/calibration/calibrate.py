@@ -9,6 +9,7 @@ from tracker.camera.calibration.blocks import blocks_of
 from tracker.camera.calibration.choice import choose_model
 from tracker.camera.calibration.coverage import coverage_of, warnings_of, widest_tilt_deg
 from tracker.camera.calibration.fit import MODELS, NAMES, Fit, board_pose, projected
+from tracker.camera.calibration.one_camera import two_cameras_told
 from tracker.camera.calibration.order import PARALLEL_DEG, fault_of, refuse_one_pose
 from tracker.camera.calibration.report import (
     CalibrationReport,
@@ -87,20 +88,25 @@ def calibrate(
     reports = _view_reports(views, names, kept, sound, out)
     _refuse_undetermined(reports, parameters)
     coverage = coverage_of(np.concatenate([view.image_points_px for view in kept.views]), size_wh_px)
-    covariance = sure.covariance.copy()
-    covariance.setflags(write=False)
     return CalibrationReport(
         camera=camera,
         rms_px=rms(np.concatenate(kept.fit.residuals_px)),
         noise_px=sure.noise_px,
         is_noise_alike=alike,
         parameters=parameters,
-        covariance=covariance,
+        covariance=_read_only(sure.covariance),
         views=reports,
         coverage=coverage,
         choice=choice,
-        warnings=warnings_of(reports, parameters, coverage, choice, size_wh_px),
+        warnings=two_cameras_told(kept.fit, blocks, [view.name for view in reports if view.used])
+        + warnings_of(reports, parameters, coverage, choice, size_wh_px),
     )
+
+
+def _read_only(array: Array) -> Array:
+    copied = array.copy()
+    copied.setflags(write=False)
+    return copied
 
 
 def _choice(

@@ -9,6 +9,7 @@ from tracker.geometry import Array
 from tracker.plan.pedicle import refusals, tube
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
 from tracker.plan.pedicle.fit import FittedBar, fit_bar
+from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.record import (
     PedicleMeasure,
@@ -23,7 +24,6 @@ from tracker.plan.pedicle.search import Bar, bar_along, find_bar
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.sides import body_side, canal_side
 from tracker.plan.pedicle.solid import Solid, solid_around
-from tracker.plan.pedicle.walls import WallAhead, back_wall, front_wall
 from tracker.plan.volume import Volume
 
 WALL_SD_VOXELS = 0.3
@@ -33,6 +33,7 @@ LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
 BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
+TOUCHED_MM, PROCESS_MM = 4.0, 4.0
 MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
 LEAST_ASIDE_MM = 1.0
 MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
@@ -237,6 +238,7 @@ def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_m
     for wall in (front, back):
         aslant = np.sqrt(max(1.0 - wall.faced_ratio**2, 0.0)) / max(wall.faced_ratio, LEAST_FACED)
         parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
+        parts.append(wall.sd_mm)
     return float(np.linalg.norm(parts))
 
 
@@ -255,6 +257,16 @@ def _front_warnings(front: WallAhead) -> list[str]:
 
 def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:
     out = []
+    if front.found and front.beyond_mm > TOUCHED_MM:
+        out.append(
+            "something as dense as bone touches the front wall, perhaps a vessel with contrast; "
+            "the length ends at the outline of the body, check it"
+        )
+    if back.found and back.beyond_mm > PROCESS_MM:
+        out.append(
+            f"behind the entry the axis runs on through a process for {back.beyond_mm:.0f} mm; "
+            "the length begins where the arch around it ends"
+        )
     if not front.found:
         out.append("no front wall was met surely; the length ends where bone may end, check it")
     if not back.found:

@@ -41,6 +41,16 @@ class Neighbourhood:
         """By how much a wall must fall to its outside to be taken for one."""
         return float(max(80.0, 2.5 * self.noise_hu, 0.2 * (self.cortex_hu - self.tissue_hu)))
 
+    @property
+    def soft_below_hu(self) -> float:
+        """Below this number lies what is soft."""
+        return self.tissue_hu + max(60.0, 0.12 * (self.cortex_hu - self.tissue_hu))
+
+    @property
+    def bone_above_hu(self) -> float:
+        """Above this number lies what is surely bone, where metal and contrast are left aside."""
+        return self.tissue_hu + max(120.0, 0.4 * (self.cortex_hu - self.tissue_hu))
+
     def voxel_width_mm(self, directions: Array) -> Array:
         """Widths (..., 3) of a voxel's three sides along unit directions (..., 3)."""
         return np.abs(directions @ self.lps_from_index[:3, :3])

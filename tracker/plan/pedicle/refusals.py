@@ -11,7 +11,6 @@ from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import angles
 from tracker.plan.pedicle.search import Bar
 from tracker.plan.pedicle.section import Isthmus
-from tracker.plan.pedicle.walls import outside_limit_hu
 from tracker.plan.volume import Volume
 
 AIR_HU = -300.0
@@ -65,7 +64,7 @@ def refuse_air(near: Neighbourhood, seed: Array) -> None:
 
 def not_found(near: Neighbourhood, seed: Array) -> PlanError:
     """No section around the click is closed: in soft tissue, or in bone that opens everywhere."""
-    hu, limit = _hu_around(near, seed), outside_limit_hu(near)
+    hu, limit = _hu_around(near, seed), near.soft_below_hu
     if hu < limit:
         return PlanError(
             "SEED_NOT_IN_BONE",

@@ -4,7 +4,6 @@ import numpy as np
 
 from tracker.geometry import Array
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
-from tracker.plan.pedicle.walls import bone_limit_hu
 
 STEP_MM = 0.5
 CANAL_MM = (8.0, 34.0)
@@ -46,7 +45,7 @@ def _is_canal(near: Neighbourhood, isthmus: Array, way: Array, half_width_mm: fl
     votes = 0
     for lift in (-2.0, 0.0, 2.0):
         profile = _profile(near, isthmus + lift * up + (half_width_mm + 1.0) * way, way)
-        bone = np.flatnonzero(profile > bone_limit_hu(near))
+        bone = np.flatnonzero(profile > near.bone_above_hu)
         # The wall itself may still be bright for a millimetre or two.
         beyond = bone[bone > 2.0 / STEP_MM]
         if not len(beyond):
@@ -59,5 +58,5 @@ def _is_canal(near: Neighbourhood, isthmus: Array, way: Array, half_width_mm: fl
 
 def _bone_reach_mm(near: Neighbourhood, point: Array, way: Array) -> float:
     """How far the body reaches: to the last bone before a gap wider than the marrow of a body."""
-    bone = np.flatnonzero(_profile(near, point, way) > bone_limit_hu(near))
+    bone = np.flatnonzero(_profile(near, point, way) > near.bone_above_hu)
     return float(bone[-1]) * STEP_MM if len(bone) else 0.0

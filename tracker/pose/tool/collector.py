@@ -38,6 +38,7 @@ class Taking(StrEnum):
     """What became of an image."""
 
     TAKEN = "taken"
+    NO_PICTURE = "no_picture"  # there is no image at all: the camera or the tracking has stopped
     NOT_SEEN = "not_seen"  # the marker is not seen in it
     TOO_UNCERTAIN = "too_uncertain"  # its pose is too unsure
     ALONE = "alone"  # no image shortly before shows whether the pose is one that a hand can reach

@@ -65,5 +65,13 @@ function keyOf({ link, video, numbers, scene, newest }: View): string {
     ? "live"
     : `${numbers.cause} ${unread?.reason ?? ""} ${unread?.unseen ?? ""}`;
   const troubles = `${newest?.source.trouble?.code ?? ""} ${newest?.process.trouble?.code ?? ""}`;
-  return [link, videoKey, numbersKey, scene.state, troubles, newest?.source.state].join("|");
+  return [
+    link,
+    videoKey,
+    numbersKey,
+    scene.state,
+    troubles,
+    newest?.source.state,
+    newest?.alarms.revision,
+  ].join("|");
 }

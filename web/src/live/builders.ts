@@ -1,6 +1,6 @@
 // Truth for tests: messages as the server sends them.
 import type { Situation, Taken } from "./assess";
-import type { LiveMessage, SnapshotMessage } from "./messages";
+import type { AlarmsMessage, LiveMessage, SnapshotMessage } from "./messages";
 
 export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessage {
   return {
@@ -36,6 +36,10 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
   };
 }
 
+export function alarms(changes: Partial<AlarmsMessage> = {}): AlarmsMessage {
+  return { revision: 0, sound: "silent", sound_number: 0, pause_left_s: 0, alarms: [], ...changes };
+}
+
 export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
   return {
     sequence: 7,
@@ -43,6 +47,7 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
     source: { name: "rehearsal", state: "running", trouble: null, images: 8, skipped_images: 0, rate_hz: 30 },
     process: { state: "running", restarts: 0, trouble: null },
     snapshot: snapshot(),
+    alarms: alarms(),
     ...changes,
   };
 }

@@ -1,4 +1,5 @@
 // Deutsch.
+import { alarmsDe } from "./alarmsDe";
 import type { Words } from "./en";
 
 export const de: Words = {
@@ -87,6 +88,7 @@ export const de: Words = {
     plainVideo: "Einfaches Video für andere Bildschirme",
   },
   alerts: { title: "Meldungen", remedy: "Was zu tun ist:" },
+  alarms: alarmsDe,
   cause: {
     hidden: {
       state: "SEITE WAR VERDECKT",
@@ -157,6 +159,23 @@ export const de: Words = {
       state: "NICHT GEPRÜFT",
       sentence: "Registriert, aber noch nicht an einer Landmarke geprüft. Zum Prüfen eine berühren.",
     },
+    REFERENCE_UNSEEN: {
+      state: "PATIENT NICHT GESEHEN",
+      sentence: "Die Sicht der Kamera auf den Marker am Patienten freimachen.",
+    },
+    CAMERA_MOVED: {
+      state: "KAMERA BEWEGT",
+      sentence: "Sie hat sich seit der Registrierung bewegt. Neu registrieren.",
+    },
+    REFERENCE_MOVED: {
+      state: "PATIENTENMARKER BEWEGT",
+      sentence: "Er hat sich seit der Registrierung bewegt. Befestigen und neu registrieren.",
+    },
+    POSE_JUMPED: {
+      state: "LAGE NICHT EINDEUTIG",
+      sentence: "Den Bohrer still halten und seinen Marker zur Kamera neigen.",
+    },
+    NOT_CHECKED: { state: "NICHT GEPRÜFT", sentence: "Das hat noch niemand geprüft." },
   },
   unseen: {
     NO_CANDIDATE: "nichts im Bild sieht ihm ähnlich",

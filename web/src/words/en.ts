@@ -1,68 +1,8 @@
 // Every word of the page, in one place. Another language is one more file of the same shape.
-import type { Cause } from "../live/assess";
-import type { AbsentReason, UnseenReason } from "../live/messages";
+import { alarmsEn } from "./alarmsEn";
+import type { Words } from "./shape";
 
-/** A short state in big words, and a sentence that says what it means or what to do. */
-export interface Saying {
-  state: string;
-  sentence: string;
-}
-
-export interface Words {
-  language: string;
-  product: string;
-  notice: string;
-  skip: string;
-  video: { title: string; none: string; late: string; image: string; age: string; alt: string };
-  numbers: {
-    title: string;
-    none: string;
-    noNumbers: string;
-    tracking: string;
-    tip: string;
-    tipUnknown: string;
-    steadied: string;
-    numbersOf: string;
-    pictureOf: string;
-  };
-  reading: Record<"entry" | "angle" | "depth" | "toGo", { name: string; hint: string; unit: string }>;
-  depthWords: { before: string; inside: string; past: string; across: string };
-  scene: {
-    title: string;
-    loading: string;
-    loadingHint: string;
-    stale: string;
-    staleHint: string;
-  };
-  markers: Record<
-    "title" | "none" | "name" | "state" | "seen" | "unseen" | "score" | "target" | "unknown",
-    string
-  >;
-  foundBy: Record<"search" | "track", string>;
-  header: Record<
-    "case" | "source" | "camera" | "server" | "searchTime" | "rate" | "noRegistration" | "registeredBy",
-    string
-  >;
-  cameraState: Record<"opening" | "running" | "reconnecting" | "ended" | "unknown", string>;
-  linkState: Record<"connecting" | "open" | "lost", string>;
-  details: Record<
-    | "title"
-    | "stages"
-    | "stage"
-    | "time"
-    | "skipped"
-    | "restarts"
-    | "images"
-    | "size"
-    | "version"
-    | "plainVideo",
-    string
-  >;
-  alerts: { title: string; remedy: string };
-  cause: Record<Cause, Saying>;
-  absent: Record<AbsentReason, Saying>;
-  unseen: Record<UnseenReason, string>;
-}
+export type { AlarmSaying, Saying, Words } from "./shape";
 
 export const en: Words = {
   language: "en",
@@ -150,6 +90,7 @@ export const en: Words = {
     plainVideo: "Plain video for other screens",
   },
   alerts: { title: "Alerts", remedy: "What to do:" },
+  alarms: alarmsEn,
   cause: {
     hidden: { state: "PAGE WAS HIDDEN", sentence: "It shows again what is live as soon as it is in view." },
     connecting: { state: "CONNECTING", sentence: "Waiting for the first word from the server." },
@@ -208,6 +149,20 @@ export const en: Words = {
       state: "NOT CHECKED",
       sentence: "Registered, but not yet held against a landmark. Touch one to check.",
     },
+    REFERENCE_UNSEEN: {
+      state: "PATIENT NOT SEEN",
+      sentence: "Clear the camera's view of the patient's marker.",
+    },
+    CAMERA_MOVED: { state: "CAMERA MOVED", sentence: "It moved since the registration. Register again." },
+    REFERENCE_MOVED: {
+      state: "PATIENT MARKER MOVED",
+      sentence: "It moved since the registration. Fix it and register again.",
+    },
+    POSE_JUMPED: {
+      state: "POSE UNRESOLVED",
+      sentence: "Hold the drill still, and tilt its marker towards the camera.",
+    },
+    NOT_CHECKED: { state: "NOT CHECKED", sentence: "Nobody has looked yet." },
   },
   unseen: {
     NO_CANDIDATE: "nothing in the image looks like it",

@@ -1,0 +1,115 @@
+"""The rehearsal through the door: another scene while it runs, its truth, and its CT."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fastapi.testclient import TestClient
+
+from server.app import AppParts, create_app
+from server.capture.rehearsal import Begun
+from server.config import CameraConfig, Config, RehearsalConfig
+from server.imaging import read_ct
+from server.live import LiveHub
+from server.loop.rehearsed import Rehearsed
+from server.loop.staging import SceneOrder
+from tracker.rehearsal.ct import rehearsal_ct
+
+URL = "http://127.0.0.1:8000"
+CONFIG = Config(rehearsal=RehearsalConfig(seed=3, reference=True))
+
+
+class Played:
+    """A tracking process that begins what it is ordered at once."""
+
+    def __init__(self) -> None:
+        self.orders: list[SceneOrder] = []
+        self.begun = Begun()
+
+    def play(self, order: SceneOrder) -> None:
+        self.orders.append(order)
+        self.begun = Begun(scene_number=order.number, first_number=100 * order.number)
+
+
+@pytest.fixture
+def played() -> Played:
+    return Played()
+
+
+@pytest.fixture
+def door(played: Played) -> TestClient:
+    rehearsed = Rehearsed(CONFIG.rehearsal, play=played.play, begun=lambda: played.begun)
+    app = create_app(AppParts(hub=LiveHub(), config=CONFIG, rehearsed=rehearsed))
+    return TestClient(app, base_url=URL)
+
+
+def test_it_says_what_is_played_and_keeps_the_truth_to_itself(door: TestClient) -> None:
+    told = door.get("/api/rehearsal").json()
+    assert (told["scene"], told["seed"], told["reference"], told["begun"]) == ("operation", 3, True, True)
+    assert told["truth"] is None
+
+
+def test_another_scene_is_played_in_the_same_theatre(door: TestClient, played: Played) -> None:
+    truth = door.get("/api/rehearsal?truth=1").json()["truth"]
+    asked = {"scene": "landmarks", "events": [{"kind": "camera_moves", "at_s": 5, "lasts_s": 2.5}]}
+    told = door.put("/api/rehearsal", json=asked)
+    assert told.status_code == 200
+    assert (told.json()["scene"], told.json()["first_number"]) == ("landmarks", 100)
+    order = played.orders[-1]
+    assert (order.rehearsal.seed, order.rehearsal.reference) == (3, True)
+    assert [event.kind for event in order.rehearsal.events] == ["camera_moves"]
+    after = door.get("/api/rehearsal?truth=1").json()["truth"]
+    for key in ("camera_matrix", "landmarks", "tip_in_marker_mm", "reference_from_vertebra"):
+        assert after[key] == truth[key]
+    assert len(after["landmarks"]) >= 6
+    assert after["moment"] is None
+    # What is left out stays, but for the events.
+    door.put("/api/rehearsal", json={"scene": "operation", "skill": "breaching"})
+    door.put("/api/rehearsal", json={"scene": "operation"})
+    assert played.orders[-1].rehearsal.skill == "breaching"
+    assert played.orders[-1].rehearsal.events == []
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"scene": "dance"},
+        {"scene": "operation", "events": [{"kind": "camera_moves", "at_s": -1}]},
+        {"scene": "operation", "events": [{"kind": "earthquake", "at_s": 1}]},
+        {},
+    ],
+)
+def test_what_cannot_be_played_is_refused(door: TestClient, played: Played, asked: dict[str, object]) -> None:
+    answer = door.put("/api/rehearsal", json=asked)
+    assert answer.status_code == 422
+    assert answer.json()["code"] == "REQUEST_INVALID"
+    assert played.orders == []
+
+
+def test_other_sources_have_no_scene() -> None:
+    config = Config(camera=CameraConfig(source="video.mp4"))
+    door = TestClient(create_app(AppParts(hub=LiveHub(), config=config)), base_url=URL)
+    for answer in (
+        door.get("/api/rehearsal"),
+        door.put("/api/rehearsal", json={"scene": "board"}),
+        door.get("/api/rehearsal/ct"),
+    ):
+        assert answer.status_code == 409
+        assert answer.json()["code"] == "NOT_A_REHEARSAL"
+        assert "video.mp4" in answer.json()["message"]
+
+
+def test_its_ct_is_read_back_in_the_frame_of_its_vertebra(door: TestClient, tmp_path: Path) -> None:
+    file = tmp_path / "rehearsal.nii.gz"
+    file.write_bytes(door.get("/api/rehearsal/ct").content)
+    volume, made = read_ct(file).volume, rehearsal_ct()
+    points = np.array(
+        [[16.0, 0.0, 4.5], [-16.0, 4.0, 4.5], [0.0, -25.0, 3.0], [0.0, 1.0, 0.0], [41.0, 13.0, 6.0]]
+    )
+    hu = [_at(one.lps_from_ijk, one.hu, points) for one in (volume, made)]
+    np.testing.assert_allclose(hu[0], hu[1], atol=1.0)
+
+
+def _at(lps_from_ijk: np.ndarray, hu: np.ndarray, points: np.ndarray) -> np.ndarray:
+    ijk = np.rint((points - lps_from_ijk[:3, 3]) @ np.linalg.inv(lps_from_ijk[:3, :3]).T).astype(int)
+    return np.asarray(hu[ijk[:, 2], ijk[:, 1], ijk[:, 0]])

@@ -1,0 +1,78 @@
+"""`coaxial register surface` as a person types it."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from server.imaging.meshes import ply_from_surface
+from tests.server.cli.register_words import typed, written
+from tests.tracker.registration.constellations import VERTEBRA
+from tests.tracker.registration.sweeps import SweepTruth, corners_from_behind, sweep_over, vertebra
+
+
+@pytest.fixture
+def mesh(tmp_path: Path) -> Path:
+    path = tmp_path / "bone.ply"
+    path.write_bytes(ply_from_surface(vertebra()))
+    return path
+
+
+@pytest.fixture
+def truth() -> SweepTruth:
+    return sweep_over(corners_from_behind(), np.random.default_rng(1), sd_mm=0.15, count=50)
+
+
+def test_a_sweep_from_a_start_and_from_landmarks(tmp_path: Path, mesh: Path, truth: SweepTruth) -> None:
+    points = written(tmp_path / "p.csv", truth.moving_mm, "x,y,z")
+    start = tmp_path / "start.json"
+    start.write_text(json.dumps({"fixed_from_moving": truth.start.matrix.tolist()}))
+    words = ("surface", "--surface", mesh, "--points", points, "--target-mm", "15,10,5")
+    status, text = typed(*words, "--start", start, "--json")
+    document = json.loads(text)
+    assert status == 0
+    assert np.allclose(document["fixed_from_moving"], truth.fixed_from_moving.matrix, atol=1.5)
+    assert document["rms_mm"] < 0.3
+    assert document["tre_expected_mm"] < 0.6
+    assert document["moved_mm"] == pytest.approx(2.0, abs=0.4)
+    fixed = written(tmp_path / "f.csv", VERTEBRA)
+    moving = written(tmp_path / "m.csv", truth.fixed_from_moving.inverse.move_points(VERTEBRA))
+    status, text = typed(*words, "--fixed", fixed, "--moving", moving)
+    assert status == 0
+    assert "At the target 15, 10, 5 mm" in text
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        pytest.param("", "REGISTRATION_START_INVALID", id="empty"),
+        pytest.param("[[1, 2], [3, 4]]", "REGISTRATION_START_INVALID", id="small"),
+        pytest.param('{"a": 1}', "REGISTRATION_START_INVALID", id="something-else"),
+        pytest.param(json.dumps((2.0 * np.eye(4)).tolist()), "REGISTRATION_START_INVALID", id="no-last-row"),
+        pytest.param(json.dumps(np.diag([2.0, 2.0, 2.0, 1.0]).tolist()), "ROTATION_INVALID", id="scaled"),
+        pytest.param(json.dumps(np.diag([1.0, 1.0, -1.0, 1.0]).tolist()), "ROTATION_INVALID", id="mirrored"),
+    ],
+)
+def test_a_start_that_is_none_is_told(tmp_path: Path, mesh: Path, content: str, code: str) -> None:
+    start = tmp_path / "start.json"
+    start.write_text(content)
+    points = written(tmp_path / "p.csv", VERTEBRA)
+    status, text = typed("surface", "--surface", mesh, "--points", points, "--start", start)
+    assert (status, text.split(":")[0]) == (2, code)
+
+
+def test_without_a_start_it_says_what_to_give(tmp_path: Path, mesh: Path) -> None:
+    points = written(tmp_path / "p.csv", VERTEBRA)
+    status, text = typed("surface", "--surface", mesh, "--points", points)
+    assert (status, text.split(":")[0]) == (2, "REGISTRATION_START_MISSING")
+
+
+def test_a_sweep_that_says_too_little_ends_with_status_2(
+    tmp_path: Path, mesh: Path, truth: SweepTruth
+) -> None:
+    start = tmp_path / "start.json"
+    start.write_text(json.dumps(truth.start.matrix.tolist()))
+    points = written(tmp_path / "p.csv", truth.moving_mm[:6])
+    status, text = typed("surface", "--surface", mesh, "--points", points, "--start", start, "--json")
+    assert (status, text.split(":")[0]) == (2, "SURFACE_SWEEP_SMALL")

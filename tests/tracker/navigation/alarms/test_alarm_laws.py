@@ -1,0 +1,135 @@
+"""Laws of the alarms: the same in the same out, no chatter, silence while all is well."""
+
+import math
+import random
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.tracker.navigation.alarms.theatre_of_alarms import RATE_HZ, Stream, good
+from tracker.navigation.alarms import (
+    TRAITS,
+    AlarmEngine,
+    AlarmEvent,
+    AlarmPicture,
+    AlarmState,
+    Change,
+    Condition,
+    Sound,
+)
+
+MINUTE_IMAGES = int(60 * RATE_HZ)
+
+
+def played(seed: int) -> list[AlarmPicture]:
+    """A minute in which everything happens, by this seed."""
+    chance, engine, at_s, pictures = random.Random(seed), AlarmEngine(), 0.0, []
+    for number in range(MINUTE_IMAGES):
+        at_s += chance.choice((0.033, 0.033, 0.2))
+        seen = good(
+            number,
+            at_s,
+            clearance_mm=0.7 + 1.2 * math.sin(at_s) + chance.gauss(0.0, 0.1),
+            breach_ratio=chance.random() * 0.1,
+            past_depth_mm=chance.gauss(-0.5, 0.5),
+            drill_unseen_s=chance.choice((0.0, 0.0, 1.5)),
+            camera_works=chance.random() > 0.01,
+            hold_asked_by=chance.choice(("", "", "Dr Sato")),
+        )
+        pictures.append(engine.step(seen, at_s))
+        if chance.random() < 0.01:
+            numbers = [alarm.number for alarm in engine.picture.alarms[:1]]
+            pictures.append(engine.acknowledge(numbers, by="surgeon", at_s=at_s))
+        if chance.random() < 0.01:
+            pictures.append(engine.pause(chance.uniform(1.0, 120.0), by="nurse", at_s=at_s))
+    return pictures
+
+
+def test_a_recording_played_again_gives_the_same_alarms() -> None:
+    first, second = played(3), played(3)
+    assert first == second
+    assert {event.change for picture in first for event in picture.events} >= {
+        *(Change.RAISED, Change.ACKNOWLEDGED, Change.PAUSED, Change.PAUSE_BROKEN, Change.LATCHED),
+    }
+    assert played(4) != first
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_picture_says_one_thing(seed: int) -> None:
+    for before, picture in pairwise(played(seed)):
+        assert len({alarm.condition for alarm in picture.alarms}) == len(picture.alarms)
+        ranks = [alarm.priority.rank for alarm in picture.alarms]
+        assert ranks == sorted(ranks, reverse=True)
+        active = [alarm for alarm in picture.alarms if alarm.state is AlarmState.ACTIVE]
+        paused = picture.paused_until_s > picture.at_s
+        assert (picture.sound is Sound.SILENT) == (paused or not active)
+        if active and not paused:
+            assert picture.sound.value == active[0].priority.value
+            assert picture.sound_number == active[0].number
+        assert picture.pause_left_s <= 120.0
+        # Whatever is seen has a line in the log.
+        if picture.revision == before.revision:
+            assert [(a.number, a.state) for a in picture.alarms] == [
+                (a.number, a.state) for a in before.alarms
+            ]
+
+
+def onsets(events: list[AlarmEvent], condition: Condition) -> list[float]:
+    return [event.at_s for event in events if event.condition is condition and event.change is Change.RAISED]
+
+
+AT_ITS_THRESHOLD = [
+    (Condition.BREACH, "clearance_mm", 0.0, 0.2),
+    (Condition.CLEARANCE_LOW, "clearance_mm", 1.0, 0.2),
+    (Condition.BREACH_LIKELY, "breach_ratio", 0.05, 0.02),
+    (Condition.PAST_DEPTH, "past_depth_mm", 0.0, 0.2),
+    (Condition.POSE_UNCERTAIN, "tip_sd_mm", 1.0, 0.1),
+]
+
+
+@pytest.mark.parametrize(("condition", "name", "limit", "noise"), AT_ITS_THRESHOLD)
+@pytest.mark.parametrize("off", [-0.7, 0.0, 0.7], ids=lambda off: f"{off:+g} sd")
+def test_jitter_at_the_threshold_is_one_alarm_at_most(
+    condition: Condition, name: str, limit: float, noise: float, off: float
+) -> None:
+    stream, chance = Stream(), np.random.default_rng(7)
+    for value in limit + noise * (off + chance.standard_normal(2 * MINUTE_IMAGES)):
+        stream.image(**{name: max(float(value), 0.0) if name == "breach_ratio" else float(value)})
+    assert len(onsets(stream.events, condition)) <= 1
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    clearances_mm=st.lists(st.floats(-3.0, 3.0), min_size=20, max_size=200),
+    acknowledges=st.lists(st.booleans(), min_size=1, max_size=10),
+    rate_hz=st.sampled_from([5.0, 15.0, 30.0, 60.0]),
+)
+def test_whatever_the_value_does_alarms_of_a_condition_keep_their_distance(
+    clearances_mm: list[float], acknowledges: list[bool], rate_hz: float
+) -> None:
+    stream = Stream(rate_hz=rate_hz)
+    for number, clearance_mm in enumerate(clearances_mm):
+        stream.image(clearance_mm=clearance_mm)
+        if acknowledges[number % len(acknowledges)] and number % 7 == 0:
+            stream.acknowledge()
+    for condition in (Condition.BREACH, Condition.CLEARANCE_LOW):
+        for one, next_one in pairwise(onsets(stream.events, condition)):
+            assert next_one - one >= TRAITS[condition].clear_s - 1e-9
+
+
+def test_no_alarm_in_a_thousand_seconds_of_good_drilling() -> None:
+    stream, chance = Stream(), np.random.default_rng(11)
+    images = int(1000 * RATE_HZ)
+    seconds = np.arange(images) / RATE_HZ
+    # Down to 0.15 mm above the warning distance, by a hand that wanders, with the noise of a far marker.
+    true_mm = 1.15 + 0.5 * (1.0 + np.sin(seconds / 7.0))
+    clearance_mm = true_mm + 0.2 * chance.standard_normal(images)
+    unseen_s = 0.0
+    for number in range(images):
+        # One image in twenty without the marker, now and then a hand before it for up to half a second.
+        unseen_s = unseen_s + 1 / RATE_HZ if chance.random() < (0.9 if 0 < unseen_s < 0.5 else 0.05) else 0.0
+        stream.image(clearance_mm=float(clearance_mm[number]), drill_unseen_s=unseen_s)
+    assert stream.raised() == []

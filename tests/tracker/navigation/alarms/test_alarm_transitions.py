@@ -1,0 +1,113 @@
+"""Every transition of one condition, and of the whole engine as a person sees it."""
+
+import itertools
+from math import inf
+
+import pytest
+
+from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority, Trait
+from tracker.navigation.alarms.evidence import GONE, UNKNOWN, Evidence, Showing
+from tracker.navigation.alarms.occurrence import AlarmState, Moment, Occurrence, acknowledged, advanced
+
+N, A, K, L = AlarmState.NORMAL, AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED, AlarmState.LATCHED
+SHOWS = Evidence(showing=Showing.YES)
+
+
+def made(state: AlarmState, *, showing_s: float = inf, gone_s: float = inf) -> Occurrence:
+    return Occurrence(
+        state=state,
+        showing_since_s=100.0 - showing_s if showing_s < inf else inf,
+        gone_since_s=100.0 - gone_s if gone_s < inf else inf,
+    )
+
+
+def trait(*, latches: bool, holds: bool) -> Trait:
+    return Trait(
+        priority=Priority.HIGH,
+        kind=Kind.PHYSIOLOGICAL,
+        latches=latches,
+        holds=holds,
+        confirm_s=1.0,
+        clear_s=1.0,
+    )
+
+
+# What becomes of a state by what is seen, when its time is over; where it matters, by (latches, holds).
+OVER: dict[tuple[AlarmState, Evidence], AlarmState | dict[tuple[bool, bool], AlarmState]] = {
+    (N, SHOWS): A,
+    (N, GONE): N,
+    (N, UNKNOWN): {(False, True): A, (True, True): A, (False, False): N, (True, False): N},
+    (A, SHOWS): A,
+    (A, GONE): {(False, False): N, (False, True): N, (True, False): L, (True, True): L},
+    (A, UNKNOWN): {(False, False): N, (False, True): A, (True, False): L, (True, True): A},
+    (K, SHOWS): K,
+    (K, GONE): N,
+    (K, UNKNOWN): {(False, False): N, (False, True): K, (True, False): N, (True, True): K},
+    (L, SHOWS): A,
+    (L, GONE): L,
+    (L, UNKNOWN): {(False, False): L, (False, True): A, (True, False): L, (True, True): A},
+}
+
+
+@pytest.mark.parametrize("state", AlarmState)
+@pytest.mark.parametrize("evidence", [SHOWS, GONE, UNKNOWN], ids=["shows", "gone", "unknown"])
+@pytest.mark.parametrize("latches", [False, True], ids=["", "latches"])
+@pytest.mark.parametrize("holds", [False, True], ids=["", "holds"])
+def test_each_state_with_each_evidence(
+    state: AlarmState, evidence: Evidence, latches: bool, holds: bool
+) -> None:
+    traits = trait(latches=latches, holds=holds)
+    ends = OVER[state, evidence]
+    ended = ends if isinstance(ends, AlarmState) else ends[latches, holds]
+    just = advanced(made(state, showing_s=0.9, gone_s=0.9), evidence, traits, Moment(at_s=100.0))
+    assert just.state is state, "a moment before its time is over nothing changes"
+    over = advanced(made(state, showing_s=1.0, gone_s=1.0), evidence, traits, Moment(at_s=100.0))
+    assert over.state is ended
+
+
+@pytest.mark.parametrize(("state", "becomes"), [(N, N), (A, K), (K, K), (L, N)], ids=str)
+def test_each_state_when_it_is_acknowledged(state: AlarmState, becomes: AlarmState) -> None:
+    assert acknowledged(made(state), by="surgeon").state is becomes
+
+
+def test_only_what_is_acknowledged_and_clearly_worse_sounds_again() -> None:
+    traits = trait(latches=True, holds=True)
+    known = Occurrence(state=K, worst_depth_mm=0.5, acknowledged_depth_mm=0.5)
+    for depth_mm, becomes in ((0.4, K), (1.49, K), (1.5, A)):
+        evidence = Evidence(showing=Showing.YES, depth_mm=depth_mm)
+        moment = Moment(at_s=1.0, again_after_mm=1.0)
+        assert advanced(known, evidence, traits, moment).state is becomes, depth_mm
+
+
+def test_every_condition_has_its_priority_of_the_table() -> None:
+    assert set(TRAITS) == set(Condition)
+    by_priority = {
+        priority: {condition for condition in Condition if TRAITS[condition].priority is priority}
+        for priority in Priority
+    }
+    assert by_priority[Priority.HIGH] == {
+        *(Condition.BREACH, Condition.PAST_DEPTH, Condition.CAMERA_MOVED, Condition.REFERENCE_MOVED),
+        *(Condition.REGISTRATION_OUT_OF_DATE, Condition.CALIBRATION_OUT_OF_DATE),
+    }
+    assert by_priority[Priority.LOW] == {
+        *(Condition.CHECK_DUE, Condition.NO_ARMED_SCREEN, Condition.DISK_NEARLY_FULL),
+        *(Condition.VIEWER_LOST, Condition.RECORDING_STOPPED),
+    }
+    assert {condition for condition in Condition if TRAITS[condition].latches} == {
+        Condition.BREACH,
+        Condition.PAST_DEPTH,
+    }
+    assert {condition for condition in Condition if TRAITS[condition].kind is Kind.ADVISORY} == {
+        Condition.HOLD_ASKED
+    }
+
+
+@pytest.mark.parametrize(
+    ("was", "evidence", "image"),
+    list(itertools.product(AlarmState, [SHOWS, GONE, UNKNOWN], [False, True])),
+)
+def test_no_moment_acknowledges_by_itself(was: AlarmState, evidence: Evidence, image: bool) -> None:
+    for traits in TRAITS.values():
+        moment = Moment(at_s=1e9, new_image=image, image_gap_s=1.0)
+        now = advanced(made(was, showing_s=0.0, gone_s=0.0), evidence, traits, moment)
+        assert now.state is not K or was is K

@@ -1,0 +1,55 @@
+"""Whether the board has the columns and rows that were said, told by what no view ever shows."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from tracker.camera.boards import Board, CharucoBoard, CheckerBoard
+from tracker.camera.calibration.report import CalibrationReport, CalibrationWarning
+from tracker.camera.detection.view import BoardView
+
+LEAST_ALIKE, LEAST_ALIKE_RATIO = 3, 0.5
+
+
+def with_board_judged(
+    report: CalibrationReport, views: Sequence[BoardView], board: Board
+) -> CalibrationReport:
+    """The report, with a warning where the views of a board all end at the same smaller size.
+
+    Someone who counts squares in place of inner corners says one column and one row too many; what is seen
+    then passes as a part of the board, wherever it is put.
+    """
+    likely = likely_size(views, board)
+    if likely is None:
+        return report
+    what = "inner corners" if isinstance(board, CheckerBoard) else "dots"
+    hint = ", one fewer each way than squares" if isinstance(board, CheckerBoard) else ""
+    warning = CalibrationWarning(
+        code="BOARD_SIZE_UNLIKELY",
+        message=f"no view shows more than {likely[0]} x {likely[1]} of the {board.columns} x {board.rows} "
+        f"{what}, and most show just these",
+        remedy=f"Count {what} again{hint}: the board seems to have {likely[0]} x {likely[1]}.",
+    )
+    return replace(report, warnings=(warning, *report.warnings))
+
+
+def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | None:
+    """Columns and rows that the board seems to have, None where the views fit to what was said of it.
+
+    Told where half of the views or more, and at least three, show one and the same whole rectangle, and none
+    shows more of the board. A ChArUco board's corners are named by their markers, so nothing is told of it.
+    """
+    if isinstance(board, CharucoBoard) or not views:
+        return None
+    spans = []
+    for view in views:
+        row, column = np.divmod(view.ids, board.columns)
+        spans.append((int(np.ptp(column)) + 1, int(np.ptp(row)) + 1))
+    most = max(wide for wide, _ in spans), max(high for _, high in spans)
+    alike = sum(
+        span == most and view.ids.size == most[0] * most[1] for span, view in zip(spans, views, strict=True)
+    )
+    if most == (board.columns, board.rows) or alike < max(LEAST_ALIKE, LEAST_ALIKE_RATIO * len(views)):
+        return None
+    return most

@@ -1,0 +1,173 @@
+"""Whether all views were taken by one camera, or two cameras explain them clearly better.
+
+Two cameras of one make, or one whose zoom was touched, agree to within tenths of a pixel: each view alone
+fits, and the camera that comes out is none of both.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.camera.calibration.blocks import Block, total_information
+from tracker.camera.calibration.fit import Fit
+from tracker.camera.calibration.report import CalibrationWarning, rms
+from tracker.geometry import Array
+
+# Focal lengths and middle; the lens stays common, or the groups would explain anything.
+OWN = 4
+LEAST_VIEWS, LEAST_MEMBERS = 8, 2
+# Of the squared residuals, what two cameras may leave. Of real single cameras they leave 0.88 and more, of
+# pairs of one make 0.80 and less.
+CLEAR_RATIO = 0.85
+# Or else: how much more the first split explains than any further one, above what noise does. Of single
+# cameras up to 5, of pairs in white noise 10 to 300.
+CLEAR_FACTOR, LEAST_CHI2 = 8.0, 60.0
+STARTS, ROUNDS = 24, 30
+# More views are counted and not named.
+NAMED = 4
+
+Members = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TwoGroups:
+    """Views that fall into two groups.
+
+    Attributes:
+        smaller: indexes of the views of the smaller group.
+        difference_px: (4,) by how much its fx, fy, cx and cy differ from those of the others.
+        left_ratio: what two cameras leave of the RMS of one.
+    """
+
+    smaller: tuple[int, ...]
+    difference_px: Array
+    left_ratio: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Split:
+    """One way to part views: who is in the second group, what it explains, both cameras' steps."""
+
+    second: Members
+    gain_px2: float
+    first_step: Array
+    second_step: Array
+
+
+def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
+    """The two groups into which the views of a fitted camera fall, None where they are of one camera.
+
+    To first order about the common camera: each view's own pull (`Block`) says which of two it prefers. A
+    bent board, too, pulls views apart, in the same ways; so this warns and never refuses.
+    """
+    if len(blocks) < LEAST_VIEWS:
+        return None
+    split = _best_split(blocks)
+    if split is None:
+        return None
+    squares_px2 = sum(block.squares_px2 for block in blocks)
+    left_px2 = squares_px2 - split.gain_px2
+    noise_px2 = left_px2 / sum(block.coordinates - block.own for block in blocks)
+    further_px2 = _further_gain_px2(blocks, split)
+    by_rms = left_px2 <= CLEAR_RATIO * squares_px2
+    by_factor = split.gain_px2 >= max(CLEAR_FACTOR * further_px2, LEAST_CHI2 * noise_px2)
+    if not (by_rms or by_factor):
+        return None
+    difference = (split.second_step - split.first_step)[:OWN]
+    is_second_smaller = 2 * int(split.second.sum()) <= len(blocks)
+    members = split.second if is_second_smaller else ~split.second
+    return TwoGroups(
+        smaller=tuple(int(i) for i in np.flatnonzero(members)),
+        difference_px=difference if is_second_smaller else -difference,
+        left_ratio=float(np.sqrt(max(left_px2, 0.0) / squares_px2)),
+    )
+
+
+def two_cameras_told(
+    fit: Fit, blocks: Sequence[Block], names: Sequence[str]
+) -> tuple[CalibrationWarning, ...]:
+    """A warning with numbers where two cameras explain clearly better the views (of these names) of a fit."""
+    groups = two_groups(blocks)
+    if groups is None:
+        return ()
+    apart = [names[at] for at in groups.smaller]
+    shown = ", ".join(apart[:NAMED]) + (f" and {len(apart) - NAMED} more" if apart[NAMED:] else "")
+    rms_px = rms(np.concatenate(fit.residuals_px))
+    by = groups.difference_px
+    return (
+        CalibrationWarning(
+            code="TWO_CAMERAS",
+            message=f"{len(apart)} of {len(blocks)} views ({shown}) are clearly better explained by a camera "
+            f"of their own: RMS {rms_px * groups.left_ratio:.3f} px in place of {rms_px:.3f} px, with focal "
+            f"lengths that differ by {by[0]:+.1f} and {by[1]:+.1f} px and a middle by {by[2]:+.1f} and "
+            f"{by[3]:+.1f} px",
+            remedy="Give images of one camera at one zoom and focus, and of a board that is flat and stiff.",
+        ),
+    )
+
+
+def _best_split(blocks: Sequence[Block]) -> _Split | None:
+    """The split that explains most, from many beginnings: each view goes where it fits, until none moves."""
+    count = len(blocks)
+    rng = np.random.default_rng(0)
+    order = np.arange(count)
+    # Files of two cameras mostly follow each other.
+    starts = [order >= cut for cut in {count // 4, count // 2, 3 * count // 4}]
+    starts += [rng.integers(0, 2, count).astype(bool) for _ in range(STARTS)]
+    informations = np.array([block.information for block in blocks])
+    gradients = np.array([block.gradient for block in blocks])
+    scale = 1.0 / np.sqrt(np.maximum(np.diag(total_information(blocks)), 1e-300))
+    settled = (_settled(start, informations * scale * scale[:, None], gradients * scale) for start in starts)
+    found = [split for split in settled if split is not None]
+    if not found:
+        return None
+    best = max(found, key=lambda split: split.gain_px2)
+    return replace(best, first_step=best.first_step * scale, second_step=best.second_step * scale)
+
+
+def _settled(second: Members, informations: Array, gradients: Array) -> _Split | None:
+    split: _Split | None = None
+    for _ in range(ROUNDS):
+        if min(int(second.sum()), int((~second).sum())) < LEAST_MEMBERS:
+            return split
+        split = _fitted(second, informations, gradients)
+        moved = _costs(split.second_step, informations, gradients) < _costs(
+            split.first_step, informations, gradients
+        )
+        if (moved == second).all():
+            return split
+        second = moved
+    return split
+
+
+def _fitted(second: Members, informations: Array, gradients: Array) -> _Split:
+    """The steps of both groups' cameras from the common one, which share the lens."""
+    whole, part = informations.sum(axis=0), informations[second].sum(axis=0)
+    size = len(whole)
+    normal = np.block([[whole, part[:, :OWN]], [part[:OWN], part[:OWN, :OWN]]])
+    pull = np.concatenate([gradients.sum(axis=0), gradients[second].sum(axis=0)[:OWN]])
+    step = np.linalg.pinv(normal, rcond=1e-12, hermitian=True) @ pull
+    other = step[:size].copy()
+    other[:OWN] += step[size:]
+    return _Split(second=second, gain_px2=float(pull @ step), first_step=step[:size], second_step=other)
+
+
+def _costs(step: Array, informations: Array, gradients: Array) -> Array:
+    """What each view's squared residuals change by, if the camera takes this step."""
+    return np.asarray(np.einsum("i,nij,j->n", step, informations, step) - 2.0 * gradients @ step)
+
+
+def _further_gain_px2(blocks: Sequence[Block], split: _Split) -> float:
+    """The most that one more split, of either group, explains: as much as noise and a bent board do."""
+    most = 0.0
+    for members, step in ((split.second, split.second_step), (~split.second, split.first_step)):
+        group = [
+            replace(block, gradient=block.gradient - block.information @ step)
+            for block, is_member in zip(blocks, members, strict=True)
+            if is_member
+        ]
+        further = _best_split(group) if len(group) >= 2 * LEAST_MEMBERS else None
+        most = max(most, 0.0 if further is None else further.gain_px2)
+    return most

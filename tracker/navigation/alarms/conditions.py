@@ -1,0 +1,135 @@
+"""Which conditions raise an alarm, how urgent each is, and how it comes and goes: one table."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
+
+
+class Priority(StrEnum):
+    """How urgent an alarm is."""
+
+    HIGH = "high"
+    MEDIUM = "medium"
+    LOW = "low"
+
+    @property
+    def rank(self) -> int:
+        """3 for high, 2 for medium, 1 for low."""
+        return _RANKS[self]
+
+
+_RANKS = {Priority.HIGH: 3, Priority.MEDIUM: 2, Priority.LOW: 1}
+
+
+class Kind(StrEnum):
+    """What an alarm is about."""
+
+    PHYSIOLOGICAL = "physiological"  # the drill in the bone
+    TECHNICAL = "technical"  # the system itself
+    ADVISORY = "advisory"  # a person asks for something; nothing is stopped or changed by it
+
+
+class Condition(StrEnum):
+    """Everything that raises an alarm."""
+
+    BREACH = "BREACH"  # some point of the drill's cylinder is through the pedicle wall
+    PAST_DEPTH = "PAST_DEPTH"  # the tip is past the planned end
+    BREACH_LIKELY = "BREACH_LIKELY"  # the probability of being through the wall is over its limit
+    CLEARANCE_LOW = "CLEARANCE_LOW"  # less bone is left beside the drill than the warning distance
+    DRILL_UNSEEN = "DRILL_UNSEEN"  # the drill's marker is not seen for longer than its limit
+    REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the patient's marker is not seen for longer than its limit
+    CAMERA_STALLED = "CAMERA_STALLED"  # no image came for longer than its limit
+    CAMERA_GONE = "CAMERA_GONE"  # camera or tracking are known not to work
+    POSE_UNCERTAIN = "POSE_UNCERTAIN"  # the tip is less sure than this pedicle allows
+    POSE_JUMPED = "POSE_JUMPED"  # two poses explain the image, or it moved faster than a hand
+    CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
+    REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
+    REGISTRATION_OUT_OF_DATE = "REGISTRATION_OUT_OF_DATE"
+    CALIBRATION_OUT_OF_DATE = "CALIBRATION_OUT_OF_DATE"
+    CHECK_DUE = "CHECK_DUE"  # the check on anatomy is older than its limit
+    NO_ARMED_SCREEN = "NO_ARMED_SCREEN"  # no screen would be heard
+    DISK_NEARLY_FULL = "DISK_NEARLY_FULL"
+    VIEWER_LOST = "VIEWER_LOST"  # a screen with armed sound went without saying so
+    RECORDING_STOPPED = "RECORDING_STOPPED"  # a recording, or the alarm log itself, is not written
+    HOLD_ASKED = "HOLD_ASKED"  # a supervising clinician asks to hold
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trait:
+    """How a condition alarms.
+
+    Attributes:
+        priority: how urgent it is.
+        kind: what it is about.
+        latches: once raised it stays in sight until somebody acknowledges it, cleared or not.
+        confirm_s: how long it must show without a break before it is raised; 0 raises it at once.
+        confirm_images: so many images in a row that show it raise it too, before that time is over; 0: time
+            alone decides.
+        clear_s: how long it must be gone without a break before it is cleared. Two alarms of one condition
+            are never closer than this.
+        holds: what is not known is not good news: it goes on until it is seen to be gone. Otherwise what is
+            not known counts as gone, because another alarm says so then.
+        always: it matters outside navigation too.
+    """
+
+    priority: Priority
+    kind: Kind
+    latches: bool = False
+    confirm_s: float = 0.0
+    confirm_images: int = 0
+    clear_s: float = 1.0
+    holds: bool = False
+    always: bool = False
+
+
+def _in_the_bone() -> Trait:
+    # Within 250 ms of the image, and not for one image that a reflection spoilt: the second image, 33 ms
+    # later at 30 Hz, or this time when no second one comes.
+    return Trait(
+        priority=Priority.HIGH,
+        kind=Kind.PHYSIOLOGICAL,
+        latches=True,
+        confirm_s=0.08,
+        confirm_images=2,
+        holds=True,
+    )
+
+
+def _nearly() -> Trait:
+    # Half a second in a row is what noise of a good pose just over the limit does not do.
+    return Trait(priority=Priority.MEDIUM, kind=Kind.PHYSIOLOGICAL, confirm_s=0.5, clear_s=2.0)
+
+
+def _technical(
+    priority: Priority, *, confirm_s: float = 0.0, clear_s: float = 1.0, always: bool = False
+) -> Trait:
+    return Trait(priority=priority, kind=Kind.TECHNICAL, confirm_s=confirm_s, clear_s=clear_s, always=always)
+
+
+TRAITS: Mapping[Condition, Trait] = MappingProxyType(
+    {
+        Condition.BREACH: _in_the_bone(),
+        Condition.PAST_DEPTH: _in_the_bone(),
+        Condition.BREACH_LIKELY: _nearly(),
+        Condition.CLEARANCE_LOW: _nearly(),
+        # Their confirmation is the time unseen, or silent, that is their limit.
+        Condition.DRILL_UNSEEN: _technical(Priority.MEDIUM),
+        Condition.REFERENCE_UNSEEN: _technical(Priority.MEDIUM),
+        Condition.CAMERA_STALLED: _technical(Priority.MEDIUM),
+        Condition.CAMERA_GONE: _technical(Priority.MEDIUM),
+        Condition.POSE_UNCERTAIN: _technical(Priority.MEDIUM, confirm_s=0.5, clear_s=2.0),
+        Condition.POSE_JUMPED: _technical(Priority.MEDIUM, clear_s=2.0),
+        Condition.CAMERA_MOVED: _technical(Priority.HIGH),
+        Condition.REFERENCE_MOVED: _technical(Priority.HIGH),
+        Condition.REGISTRATION_OUT_OF_DATE: _technical(Priority.HIGH),
+        Condition.CALIBRATION_OUT_OF_DATE: _technical(Priority.HIGH),
+        Condition.CHECK_DUE: _technical(Priority.LOW),
+        # Pages that are loaded again are back within this time.
+        Condition.NO_ARMED_SCREEN: _technical(Priority.LOW, confirm_s=5.0),
+        Condition.DISK_NEARLY_FULL: _technical(Priority.LOW, clear_s=10.0, always=True),
+        Condition.VIEWER_LOST: _technical(Priority.LOW),
+        Condition.RECORDING_STOPPED: _technical(Priority.LOW, always=True),
+        Condition.HOLD_ASKED: Trait(priority=Priority.MEDIUM, kind=Kind.ADVISORY, clear_s=0.0, always=True),
+    }
+)

@@ -1,0 +1,219 @@
+"""Which conditions one moment shows, with the number and the limit that say so."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isnan
+from types import MappingProxyType
+from typing import TypeAlias
+
+from tracker.navigation.alarms.conditions import TRAITS, Condition
+from tracker.navigation.alarms.limits import AlarmLimits
+from tracker.navigation.alarms.observed import Observed
+from tracker.navigation.snapshot import Absent
+
+
+class Showing(StrEnum):
+    """Whether a condition is there."""
+
+    YES = "yes"
+    NO = "no"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measure:
+    """A number and its limit, in the words of a person.
+
+    Attributes:
+        value: what was found.
+        limit: what was allowed.
+        unit: of both; "%" for a probability, empty for a count.
+    """
+
+    value: float
+    limit: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evidence:
+    """What one moment says of one condition.
+
+    Attributes:
+        showing: whether it is there.
+        measure: the number that says so; None where it is no matter of a number, or it is not known.
+        depth_mm: how bad it is, for what sounds again when it gets worse; else 0.
+        by: who asks, where somebody does.
+    """
+
+    showing: Showing
+    measure: Measure | None = None
+    depth_mm: float = 0.0
+    by: str = ""
+
+
+BACK_IN_SIGHT_S = 0.25
+
+UNKNOWN = Evidence(showing=Showing.UNKNOWN)
+GONE = Evidence(showing=Showing.NO)
+Judge: TypeAlias = Callable[[Observed, AlarmLimits, bool], Evidence]
+
+
+def evidence_of(condition: Condition, observed: Observed, limits: AlarmLimits, *, standing: bool) -> Evidence:
+    """What this moment says of a condition; one that is standing clears only past its hysteresis."""
+    if not (observed.navigating or TRAITS[condition].always):
+        return GONE
+    return _JUDGES[condition](observed, limits, standing)
+
+
+def _flag(shows: bool) -> Evidence:
+    return Evidence(showing=Showing.YES if shows else Showing.NO)
+
+
+def _breach(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    clearance_mm = observed.clearance_mm
+    if isinstance(clearance_mm, Absent) or isnan(clearance_mm):
+        return UNKNOWN
+    shows = clearance_mm < (limits.hysteresis_mm if standing else 0.0)
+    measure = Measure(value=clearance_mm, limit=0.0, unit="mm")
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure, depth_mm=-clearance_mm)
+
+
+def _past_depth(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    past_mm = observed.past_depth_mm
+    if isinstance(past_mm, Absent) or isnan(past_mm):
+        return UNKNOWN
+    shows = past_mm > (-limits.hysteresis_mm if standing else 0.0)
+    measure = Measure(value=past_mm, limit=0.0, unit="mm")
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure, depth_mm=past_mm)
+
+
+def _breach_likely(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    ratio, clearance_mm = observed.breach_ratio, observed.clearance_mm
+    if isinstance(ratio, Absent):
+        return UNKNOWN
+    if not isinstance(clearance_mm, Absent) and clearance_mm < 0.0:
+        return GONE
+    limit = limits.breach_ratio
+    measure = Measure(value=ratio * 100.0, limit=limit * 100.0, unit="%")
+    # Also what is no number.
+    if not ratio <= limit:
+        return Evidence(showing=Showing.YES, measure=measure)
+    stays = standing and ratio > limit - limits.breach_hysteresis_ratio
+    return Evidence(showing=Showing.YES if stays else Showing.NO, measure=measure)
+
+
+def _clearance_low(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    clearance_mm = observed.clearance_mm
+    if isinstance(clearance_mm, Absent) or isnan(clearance_mm):
+        return UNKNOWN
+    if clearance_mm < 0.0:
+        # Through the wall is another alarm, and the louder one.
+        return GONE
+    limit = limits.warning_distance_mm
+    measure = Measure(value=clearance_mm, limit=limit, unit="mm")
+    shows = clearance_mm < limit + (limits.hysteresis_mm if standing else 0.0)
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+
+
+def _unseen(unseen_s: float, limit_s: float, standing: bool) -> Evidence:
+    measure = Measure(value=unseen_s, limit=limit_s, unit="s")
+    # A marker that is back is missed in single images; those do not hold the alarm.
+    shows = unseen_s > (min(BACK_IN_SIGHT_S, limit_s) if standing else limit_s)
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+
+
+def _drill_unseen(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    if observed.drill_put_away:
+        return GONE
+    return _unseen(observed.drill_unseen_s, limits.drill_unseen_after_s, standing)
+
+
+def _reference_unseen(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    return _unseen(observed.reference_unseen_s, limits.reference_unseen_after_s, standing)
+
+
+def _camera_stalled(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    del standing
+    limit_s = limits.camera_silent_after_s
+    measure = Measure(value=observed.camera_silent_s, limit=limit_s, unit="s")
+    shows = observed.camera_works and observed.camera_silent_s > limit_s
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+
+
+def _pose_uncertain(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    sd_mm, most_mm = observed.tip_sd_mm, observed.most_tip_sd_mm
+    if not observed.pose_certain:
+        return Evidence(showing=Showing.YES)
+    if isinstance(sd_mm, Absent) or isinstance(most_mm, Absent):
+        return UNKNOWN
+    measure = Measure(value=sd_mm, limit=most_mm, unit="mm")
+    # A hysteresis larger than the limit could never be cleared.
+    clears_at_mm = max(most_mm - limits.hysteresis_mm, 0.8 * most_mm)
+    shows = not sd_mm <= (clears_at_mm if standing else most_mm)
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+
+
+def _check_due(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    del standing
+    age_s = observed.check_age_s
+    if isinstance(age_s, Absent):
+        return UNKNOWN
+    measure = Measure(value=age_s / 60.0, limit=limits.check_due_after_s / 60.0, unit="min")
+    shows = age_s > limits.check_due_after_s
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+
+
+def _no_armed_screen(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    del limits, standing
+    measure = Measure(value=float(observed.armed_screens), limit=1.0, unit="")
+    return Evidence(showing=Showing.NO if observed.armed_screens > 0 else Showing.YES, measure=measure)
+
+
+def _disk_nearly_full(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    free_mb = observed.free_disk_mb
+    if isinstance(free_mb, Absent):
+        return UNKNOWN
+    least_mb = limits.least_free_disk_mb
+    measure = Measure(value=free_mb, limit=least_mb, unit="MB")
+    shows = free_mb < least_mb * (1.1 if standing else 1.0)
+    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+
+
+def _hold_asked(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    del limits, standing
+    by = observed.hold_asked_by
+    return Evidence(showing=Showing.YES if by else Showing.NO, by=by)
+
+
+_JUDGES: Mapping[Condition, Judge] = MappingProxyType(
+    {
+        Condition.BREACH: _breach,
+        Condition.PAST_DEPTH: _past_depth,
+        Condition.BREACH_LIKELY: _breach_likely,
+        Condition.CLEARANCE_LOW: _clearance_low,
+        Condition.DRILL_UNSEEN: _drill_unseen,
+        Condition.REFERENCE_UNSEEN: _reference_unseen,
+        Condition.CAMERA_STALLED: _camera_stalled,
+        Condition.CAMERA_GONE: lambda observed, _limits, _standing: _flag(not observed.camera_works),
+        Condition.POSE_UNCERTAIN: _pose_uncertain,
+        Condition.POSE_JUMPED: lambda observed, _limits, _standing: _flag(not observed.pose_steady),
+        Condition.CAMERA_MOVED: lambda observed, _limits, _standing: _flag(not observed.camera_in_place),
+        Condition.REFERENCE_MOVED: lambda observed, _limits, _standing: _flag(
+            not observed.reference_in_place
+        ),
+        Condition.REGISTRATION_OUT_OF_DATE: lambda observed, _limits, _standing: _flag(
+            not observed.registration_current
+        ),
+        Condition.CALIBRATION_OUT_OF_DATE: lambda observed, _limits, _standing: _flag(
+            not observed.calibration_current
+        ),
+        Condition.CHECK_DUE: _check_due,
+        Condition.NO_ARMED_SCREEN: _no_armed_screen,
+        Condition.DISK_NEARLY_FULL: _disk_nearly_full,
+        Condition.VIEWER_LOST: lambda observed, _limits, _standing: _flag(observed.lost_screens > 0),
+        Condition.RECORDING_STOPPED: lambda observed, _limits, _standing: _flag(not observed.recording_runs),
+        Condition.HOLD_ASKED: _hold_asked,
+    }
+)

@@ -1,0 +1,166 @@
+"""One condition on its way: normal, active, acknowledged, cleared but latched, and back.
+
+    normal --shows for its time--> active --gone for its time--> normal, or latched where it latches
+    active --acknowledged--> acknowledged --gone--> normal;   acknowledged --worse--> active
+    latched --acknowledged--> normal;   latched --shows again--> active
+
+Every change is made by one of two pure functions here.
+"""
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from math import inf
+
+from tracker.navigation.alarms.conditions import Trait
+from tracker.navigation.alarms.evidence import Evidence, Measure, Showing
+
+
+class AlarmState(StrEnum):
+    """Where a condition stands."""
+
+    NORMAL = "normal"  # nothing is said
+    ACTIVE = "active"  # it is there, and sounds
+    ACKNOWLEDGED = "acknowledged"  # it is there, somebody knows: in sight, without sound
+    LATCHED = "latched"  # it was there, nobody has acknowledged it: in sight, without sound
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Occurrence:
+    """One condition at one moment.
+
+    Attributes:
+        state: where it stands.
+        raised_at_s: when it became active the last time.
+        showing_since_s: from when on it shows without a break, while it is not yet raised; else infinite.
+        showing_images: how many images in a row show it since then.
+        gone_since_s: from when on it is gone without a break, while it is not yet cleared; else infinite.
+        measure: the last number that was known.
+        worst: the number when it was worst, since it was raised.
+        depth_mm, worst_depth_mm: how bad it is, and was at worst since it was raised.
+        acknowledged_depth_mm: how bad it was at worst when it was acknowledged.
+        acknowledged_by: who did; empty when nobody did.
+        by: who asks, where somebody does.
+    """
+
+    state: AlarmState = AlarmState.NORMAL
+    raised_at_s: float = 0.0
+    showing_since_s: float = inf
+    showing_images: int = 0
+    gone_since_s: float = inf
+    measure: Measure | None = None
+    worst: Measure | None = None
+    depth_mm: float = -inf
+    worst_depth_mm: float = -inf
+    acknowledged_depth_mm: float = inf
+    acknowledged_by: str = ""
+    by: str = ""
+
+    @property
+    def is_standing(self) -> bool:
+        """Whether the condition was raised and is not cleared."""
+        return self.state in (AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Moment:
+    """What a step knows beside the evidence.
+
+    Attributes:
+        at_s: its time.
+        new_image: whether it brings one.
+        image_gap_s: from the image before to this one.
+        again_after_mm: how much worse an acknowledged alarm must get to sound again.
+    """
+
+    at_s: float
+    new_image: bool = False
+    image_gap_s: float = 0.0
+    again_after_mm: float = inf
+
+
+def advanced(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment) -> Occurrence:
+    """The condition after one more moment."""
+    if was.is_standing:
+        return _standing(was, evidence, trait, moment)
+    shows = evidence.showing is Showing.YES
+    waits = was.showing_since_s < inf and evidence.showing is Showing.UNKNOWN and trait.holds
+    if not (shows or waits):
+        return replace(was, showing_since_s=inf, showing_images=0)
+    since_s = min(was.showing_since_s, moment.at_s)
+    images = was.showing_images + (1 if shows and moment.new_image else 0)
+    now = replace(was, showing_since_s=since_s, showing_images=images)
+    now = _with_measure(now, evidence, anew=was.state is AlarmState.NORMAL and was.showing_since_s == inf)
+    return _raised(now, moment) if _is_confirmed(now, trait, moment) else now
+
+
+def acknowledged(was: Occurrence, *, by: str) -> Occurrence:
+    """The condition after somebody has said that they know of it."""
+    if was.state is AlarmState.ACTIVE:
+        return replace(
+            was,
+            state=AlarmState.ACKNOWLEDGED,
+            acknowledged_by=by,
+            acknowledged_depth_mm=was.worst_depth_mm,
+        )
+    if was.state is AlarmState.LATCHED:
+        # What shows again, and is not yet raised, goes on being confirmed.
+        return replace(was, state=AlarmState.NORMAL, acknowledged_by="")
+    return was
+
+
+def _is_confirmed(now: Occurrence, trait: Trait, moment: Moment) -> bool:
+    if moment.at_s - now.showing_since_s >= trait.confirm_s:
+        return True
+    if trait.confirm_images == 0:
+        return False
+    # Of a slow camera, or after images that did not come, there is no time to wait for the next one.
+    return now.showing_images >= trait.confirm_images or (
+        moment.new_image and now.showing_images > 0 and moment.image_gap_s >= trait.confirm_s
+    )
+
+
+def _standing(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment) -> Occurrence:
+    gone = evidence.showing is Showing.NO or (evidence.showing is Showing.UNKNOWN and not trait.holds)
+    if gone:
+        gone_since_s = min(was.gone_since_s, moment.at_s)
+        now = replace(_with_measure(was, evidence, anew=False), gone_since_s=gone_since_s)
+        return _cleared(now, trait) if moment.at_s - gone_since_s >= trait.clear_s else now
+    now = replace(_with_measure(was, evidence, anew=False), gone_since_s=inf)
+    worse_by_mm = now.worst_depth_mm - was.acknowledged_depth_mm
+    if was.state is AlarmState.ACKNOWLEDGED and worse_by_mm >= moment.again_after_mm:
+        return _raised(now, moment)
+    return now
+
+
+def _raised(was: Occurrence, moment: Moment) -> Occurrence:
+    return replace(
+        was,
+        state=AlarmState.ACTIVE,
+        raised_at_s=moment.at_s,
+        showing_since_s=inf,
+        showing_images=0,
+        gone_since_s=inf,
+        acknowledged_by="",
+        acknowledged_depth_mm=inf,
+    )
+
+
+def _cleared(was: Occurrence, trait: Trait) -> Occurrence:
+    latched = trait.latches and was.state is AlarmState.ACTIVE
+    if not latched:
+        return Occurrence(measure=was.measure, worst=was.worst, raised_at_s=was.raised_at_s)
+    return replace(was, state=AlarmState.LATCHED, gone_since_s=inf)
+
+
+def _with_measure(was: Occurrence, evidence: Evidence, *, anew: bool) -> Occurrence:
+    if evidence.showing is Showing.UNKNOWN:
+        return was
+    first = anew or was.worst is None or evidence.depth_mm > was.worst_depth_mm
+    return replace(
+        was,
+        measure=evidence.measure,
+        worst=evidence.measure if first else was.worst,
+        depth_mm=evidence.depth_mm,
+        worst_depth_mm=evidence.depth_mm if anew else max(was.worst_depth_mm, evidence.depth_mm),
+        by=evidence.by or was.by,
+    )

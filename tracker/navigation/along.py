@@ -1,0 +1,59 @@
+"""The drill as it is seen along the channel, from behind the patient: what the bull's-eye shows."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.geometry import Array, Rigid, Tool, Vertebra
+from tracker.navigation.directions import directions_of
+from tracker.plan import Channel
+
+# A drill across the channel (89.4 degrees) crosses its planes metres away.
+LEAST_ALONG = 0.01
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlongChannel:
+    """Places in the view along the channel: (right, up) in mm from its axis.
+
+    Who stands behind a prone patient and looks along the channel has the patient's left on the left, and the
+    head on top.
+
+    Attributes:
+        tip_mm: (2,), the drill's tip.
+        at_entry_mm: (2,), where its line crosses the plane of the entry; not finite when it never does.
+        at_target_mm: (2,), where it crosses that of the planned end.
+        medial_is_right: whether the patient's middle is on the right.
+        view_from_vertebra: (2, 3), unit directions of right and up, to carry other things into the view.
+    """
+
+    tip_mm: Array
+    at_entry_mm: Array
+    at_target_mm: Array
+    medial_is_right: bool
+    view_from_vertebra: Array
+
+
+def seen_along(vertebra_from_tool: Rigid[Vertebra, Tool], channel: Channel) -> AlongChannel:
+    """The drill in the view along the channel."""
+    across = directions_of(channel)
+    right = np.cross(across.axis, across.cranial)
+    view = np.stack([right, across.cranial])
+    tip = vertebra_from_tool.translation_mm - channel.entry_in_vertebra_mm
+    direction = vertebra_from_tool.turn_directions([0.0, 0.0, 1.0])
+    along = float(direction @ across.axis)
+    depth = float(tip @ across.axis)
+    at_entry = at_target = np.full(2, np.inf)
+    if along > LEAST_ALONG:
+        at_entry = view @ (tip - direction * (depth / along))
+        at_target = view @ (tip + direction * ((channel.length_mm - depth) / along))
+    places = (view @ tip, at_entry, at_target, view)
+    for array in places:
+        array.setflags(write=False)
+    return AlongChannel(
+        tip_mm=places[0],
+        at_entry_mm=places[1],
+        at_target_mm=places[2],
+        medial_is_right=bool(right @ across.medial > 0.0),
+        view_from_vertebra=view,
+    )

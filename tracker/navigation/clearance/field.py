@@ -1,0 +1,211 @@
+"""The signed distance to the bone's wall around a channel: made once, looked up in each image."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+import numpy.typing as npt
+from scipy import ndimage
+
+from tracker.errors import PlanError
+from tracker.geometry import Array
+from tracker.navigation.clearance.back import Back, back_of
+from tracker.navigation.clearance.inside import CROSS, Flags, Grid, filled, solid_of
+from tracker.navigation.clearance.kernels import agree, carry_outwards, look_up, stamp
+from tracker.navigation.clearance.triangles import near_box, split_to
+from tracker.navigation.directions import directions_of
+from tracker.plan.channel import Channel
+from tracker.plan.surface import Surface
+
+STEP_MM = 0.5
+MARGIN_MM = 25.0
+# Holes and pores narrower than twice this do not join marrow and outside.
+CLOSES_MM = 1.0
+# What 16 bits hold: 256 mm, in steps that are a hundredth of a voxel.
+UNIT_MM = 1.0 / 128.0
+LARGEST_TRIANGLE_MM = 4.0
+STAMPED_STEPS = 2.0
+# A channel of which less than this lies in bone was planned on another surface, or in another unit.
+LEAST_IN_BONE_RATIO = 0.5
+MOST_NODES = 40_000_000
+
+
+class MeasuredAgainst(StrEnum):
+    """Which wall a clearance was measured against."""
+
+    BONE = "bone"  # the bone's surface
+    PEDICLE = "pedicle"  # the outline of the pedicle's isthmus, where no surface is known
+    CHANNEL = "channel"  # the planned cylinder, where neither is
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WallField:
+    """Distances to the wall on a grid, and where the bone's back lies, which is no wall for a drill.
+
+    Attributes:
+        against: what the wall is.
+        grid: of the nodes.
+        values: (n0, n1, n2) int16, in `UNIT_MM`; below 0 inside the bone, above 0 outside.
+        back: how deep the bone's back lies around the entry.
+    """
+
+    against: MeasuredAgainst
+    grid: Grid
+    values: npt.NDArray[np.int16]
+    back: Back
+
+    def __post_init__(self) -> None:
+        for array in (self.values, self.grid.origin_mm, self.back.floor_mm):
+            array.setflags(write=False)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # Made anew on the other side of a pipe, so that its arrays are read-only there too: for others, the
+        # compiled loops would be compiled again.
+        return _field_from, (self.against, self.grid, self.values, self.back)
+
+    def distances_mm(self, points_mm: Array) -> tuple[Array, Array]:
+        """Distances (n,) in mm of points (n, 3), above 0 outside, and their gradients (n, 3)."""
+        points = np.array(points_mm, dtype=np.float64).reshape(-1, 3)
+        distance, gradient = np.empty(len(points)), np.empty((len(points), 3))
+        look_up(self.values, UNIT_MM, self.grid.step_mm, self.grid.origin_mm, points, distance, gradient)
+        return distance, gradient
+
+
+def _field_from(against: MeasuredAgainst, grid: Grid, values: npt.NDArray[np.int16], back: Back) -> WallField:
+    return WallField(against=against, grid=grid, values=values, back=back)
+
+
+def grid_around(channel: Channel, *, step_mm: float = STEP_MM, margin_mm: float = MARGIN_MM) -> Grid:
+    """The nodes within a margin of a channel, along the patient's axes."""
+    ends = np.stack([channel.entry_in_vertebra_mm, channel.target_in_vertebra_mm])
+    low, high = ends.min(axis=0) - margin_mm, ends.max(axis=0) + margin_mm
+    count = np.ceil((high - low) / step_mm).astype(int) + 1
+    # Off round numbers, on which the corners of voxels lie: a line along an edge meets both or neither side.
+    origin = low + step_mm * np.array([0.137, 0.241, 0.319])
+    origin.setflags(write=False)
+    return Grid(origin_mm=origin, step_mm=step_mm, shape=(int(count[0]), int(count[1]), int(count[2])))
+
+
+def field_of_bone(
+    surface: Surface,
+    channel: Channel,
+    *,
+    step_mm: float = STEP_MM,
+    margin_mm: float = MARGIN_MM,
+    closes_mm: float = CLOSES_MM,
+) -> WallField:
+    """The distances to the bone's outer wall: true to a tenth of a millimetre near it.
+
+    Marrow and pores count as bone; the canal and all that is reached from outside do not. The bone's back,
+    through which a drill comes in, is no wall: distances are those to all other parts of the surface.
+
+    Raises:
+        PlanError: BONE_NOT_AT_CHANNEL, most of the channel lies outside of the surface;
+            BONE_INSIDE_OUT; FIELD_TOO_LARGE.
+    """
+    grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
+    _refuse_large(grid)
+    _refuse_inside_out(surface)
+    corners = split_to(near_box(surface, grid), LARGEST_TRIANGLE_MM, grid)
+    steps = grid.steps_of(corners)
+    bone = filled(solid_of(grid, steps), step_mm=step_mm, closes_mm=closes_mm)
+    _refuse_elsewhere(bone, grid, channel)
+    across = directions_of(channel)
+    back, is_back = back_of(bone, grid, channel.entry_in_vertebra_mm, across, corners)
+    outer = _faces_outside(bone, grid, corners)
+    walls = np.ascontiguousarray(steps[outer & ~is_back])
+    squared = _squared_steps(bone, walls, np.ascontiguousarray(steps[outer & is_back]))
+    return WallField(
+        against=MeasuredAgainst.BONE, grid=grid, values=packed(np.sqrt(squared) * step_mm, bone), back=back
+    )
+
+
+def packed(distance_mm: npt.NDArray[np.floating], inside: Flags) -> npt.NDArray[np.int16]:
+    """Distances with their sign, below 0 inside, as 16 bits hold them."""
+    signed = np.where(inside, -distance_mm, distance_mm) / UNIT_MM
+    values = np.rint(np.clip(signed, -32767, 32767)).astype(np.int16)
+    values.setflags(write=False)
+    return values
+
+
+def _squared_steps(bone: Flags, walls: Array, backs: Array) -> npt.NDArray[np.float32]:
+    """Squared distance of each node from the walls, and from where closed pores have their mouths."""
+    squared = np.full(bone.shape, np.inf, np.float32)
+    nearest = np.full(bone.shape, -1, np.int32)
+    known = squared.copy()
+    stamp(backs, 0, STAMPED_STEPS, known, nearest.copy())
+    stamp(walls, 0, STAMPED_STEPS, squared, nearest)
+    mouths = _mouths(bone, np.minimum(known, squared))
+    points = np.repeat(mouths[:, None, :], 3, axis=1)
+    stamp(points, len(walls), STAMPED_STEPS, squared, nearest)
+    everything = np.concatenate([walls, points])
+    if len(everything) == 0:
+        return np.full(bone.shape, np.float32(1e4), np.float32)
+    seeds = ndimage.distance_transform_edt(squared > 1.0, return_distances=False, return_indices=True)
+    carry_outwards(everything, seeds, nearest, squared)
+    for way in (1, -1):
+        agree(everything, nearest, squared, way)
+    return squared
+
+
+def _mouths(bone: Flags, squared: npt.NDArray[np.float32]) -> Array:
+    """Points (n, 3), in steps, between nodes inside and outside where no triangle is near."""
+    found = []
+    for axis in range(3):
+        low = tuple(slice(None, -1) if n == axis else slice(None) for n in range(3))
+        high = tuple(slice(1, None) if n == axis else slice(None) for n in range(3))
+        apart = (bone[low] != bone[high]) & (squared[low] > 1.0) & (squared[high] > 1.0)
+        points = np.argwhere(apart).astype(np.float64)
+        points[:, axis] += 0.5
+        found.append(points)
+    return np.concatenate(found)
+
+
+def _faces_outside(bone: Flags, grid: Grid, corners: Array) -> Flags:
+    """Which triangles (m, 3, 3) have the outside before them: those of marrow and pores have not."""
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
+    middle = corners.mean(axis=1)
+    # One step out may still be a node on the inner side of a curved wall, two may be across a cleft.
+    return np.asarray(
+        ~bone[grid.nearest(middle + grid.step_mm * normal)]
+        | ~bone[grid.nearest(middle + 0.5 * grid.step_mm * normal)]
+    )
+
+
+def _refuse_inside_out(surface: Surface) -> None:
+    centred = Surface(vertices_mm=surface.vertices_mm - surface.vertices_mm.mean(axis=0), faces=surface.faces)
+    if centred.volume_ml < 0.0:
+        raise PlanError(
+            "BONE_INSIDE_OUT",
+            f"the bone's surface encloses {centred.volume_ml:.1f} ml: it is wound inside out",
+            "Import the surface again: its triangles must be counter-clockwise seen from outside.",
+            {"volume_ml": centred.volume_ml},
+        )
+
+
+def _refuse_large(grid: Grid) -> None:
+    nodes = int(np.prod(grid.shape))
+    if nodes > MOST_NODES:
+        raise PlanError(
+            "FIELD_TOO_LARGE",
+            f"the distances around the channel would take {nodes} nodes, allowed {MOST_NODES}",
+            "Check entry and target of the channel: a channel through a pedicle is 25 to 75 mm long.",
+            {"nodes": nodes},
+        )
+
+
+def _refuse_elsewhere(bone: Flags, grid: Grid, channel: Channel) -> None:
+    along = np.linspace(0.1, 0.9, 41)[:, None]
+    line = channel.entry_in_vertebra_mm + along * (
+        channel.target_in_vertebra_mm - channel.entry_in_vertebra_mm
+    )
+    ratio = float(ndimage.binary_dilation(bone, CROSS)[grid.nearest(line)].mean())
+    if ratio < LEAST_IN_BONE_RATIO or bone.all():
+        raise PlanError(
+            "BONE_NOT_AT_CHANNEL",
+            f"{100.0 * ratio:.0f} % of channel '{channel.name}' lies inside of the bone's surface, needed "
+            f"{100.0 * LEAST_IN_BONE_RATIO:.0f} % or more",
+            "Check the unit and the coordinates of the surface: mm, LPS, of the same CT as the channel.",
+            {"in_bone_ratio": ratio},
+        )

@@ -1,0 +1,98 @@
+"""The outline of the vertebral body around the axis, so that a vessel that touches it is told from bone."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import planes_across
+
+# So far ahead of the isthmus the axis is inside the body, in small ones too.
+CENTRE_MM = 20.0
+REACH_DEG, TURN_DEG = 72.0, 4.0
+STEP_MM, LEAST_MM, MOST_MM = 0.5, 3.0, 46.0
+EDGE_MM, LIFTS_MM = 1.5, (-1.5, 0.0, 1.5)
+# What an edge counts for, by the fall of a usual wall; more where what lies outside it is soft.
+FAINT_EDGE, LEAST_EDGE, MOST_EDGE, SOFT_BONUS = 0.3, 0.5, 1.5, 0.3
+MOST_STEPS, STEP_COST = 4, 0.15
+
+
+SLOPE_ANGLES = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OutlineFront:
+    """Where the body's outline crosses the axis.
+
+    Attributes:
+        distance_mm: from the isthmus.
+        outwards: unit (3,), the outline's normal there, in its plane.
+    """
+
+    distance_mm: float
+    outwards: Array
+
+
+def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> OutlineFront | None:
+    """The front wall by the outline of the body; None where no wall is seen on the axis.
+
+    From a point in the body rays run forwards and aside, in the plane of the axis that is nearest to axial.
+    The outline is the path over them that follows the outer edges of bone best and turns least: where a
+    vessel touches the body it still leads from wall to wall, while the vessel's far side lies off by its
+    width.
+    """
+    (across,), (up,) = planes_across(axis[None])
+    edge, usable = _edges(near, isthmus_mm + CENTRE_MM * axis, axis, across, up)
+    middle = len(edge) // 2
+    if not usable[middle].any():
+        return None
+    path = _path(edge)
+    row = int(path[middle])
+    if edge[middle, row] < LEAST_EDGE:
+        return None
+    radius = LEAST_MM + STEP_MM * path[middle - SLOPE_ANGLES : middle + SLOPE_ANGLES + 1]
+    turn = np.radians(TURN_DEG) * np.arange(-SLOPE_ANGLES, SLOPE_ANGLES + 1)
+    slope = float((turn * radius).sum() / (turn**2).sum())
+    outwards = radius[SLOPE_ANGLES] * axis - slope * across
+    return OutlineFront(
+        distance_mm=CENTRE_MM + LEAST_MM + row * STEP_MM, outwards=outwards / np.linalg.norm(outwards)
+    )
+
+
+def _edges(
+    near: Neighbourhood, centre: Array, axis: Array, across: Array, up: Array
+) -> tuple[Array, npt.NDArray[np.bool_]]:
+    """How like an outer wall each place is (angles, distances), and whether it lies in the CT."""
+    angle = np.radians(np.arange(-REACH_DEG, REACH_DEG + 0.1, TURN_DEG))
+    ways = np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * across
+    voxel = float(np.linalg.norm(near.voxel_width_mm(axis)))
+    wide = round(max(EDGE_MM, 0.8 * voxel) / STEP_MM)
+    distance = LEAST_MM + STEP_MM * np.arange(-wide, int((MOST_MM - LEAST_MM) / STEP_MM) + wide)
+    points = centre + distance[:, None] * ways[:, None, :]
+    hu = np.mean([near.smooth_hu(points + lift * up) for lift in LIFTS_MM], axis=0)
+    total = np.cumsum(np.concatenate([np.zeros((len(hu), 1)), hu], axis=1), axis=1)
+    mean = (total[:, wide:] - total[:, :-wide]) / wide
+    inside, outside = mean[:, : -wide - 1], mean[:, wide + 1 :]
+    usable = near.holds(points)[:, wide : wide + inside.shape[1]]
+    edge = np.clip((inside - outside) / near.least_fall_hu, 0.0, MOST_EDGE)
+    edge = np.where(edge > FAINT_EDGE, edge + np.where(outside < near.soft_below_hu, SOFT_BONUS, 0.0), edge)
+    return np.where(usable & (inside > near.soft_below_hu), edge, 0.0), usable
+
+
+def _path(edge: Array) -> Array:
+    """The row (angles,) of the path that gathers most edge and moves least from one angle to the next."""
+    best, came = edge[0], []
+    shifts = np.arange(-MOST_STEPS, MOST_STEPS + 1)
+    for column in edge[1:]:
+        padded = np.pad(best, MOST_STEPS, constant_values=-np.inf)
+        choices = np.stack([padded[MOST_STEPS + s : MOST_STEPS + s + len(best)] for s in shifts])
+        choices -= STEP_COST * np.abs(shifts)[:, None]
+        way = np.argmax(choices, axis=0)
+        came.append(shifts[way])
+        best = choices[way, np.arange(len(best))] + column
+    path = [int(np.argmax(best))]
+    for moved in reversed(came):
+        path.append(path[-1] + int(moved[path[-1]]))
+    return np.array(path[::-1])

@@ -1,0 +1,49 @@
+"""Where a screw enters: the back of the arch around the axis, and not the tip of a process beyond it."""
+
+import numpy as np
+from scipy import ndimage
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.outlines import planes_across
+from tracker.plan.pedicle.solid import Solid
+
+# What is looked at around the axis: wider than a process, narrower than the arch.
+DISC_MM, GRID_MM, STEP_MM, FARTHEST_MM = 10.0, 0.5, 0.5, 34.0
+# The level of a face is half the disc of bone before it, however the face is tilted.
+FACE_SHARE = 0.5
+
+
+def arch_back_mm(solid: Solid, isthmus_mm: Array, axis: Array) -> float | None:
+    """How far behind the isthmus the bone around the axis ends, in mm; None where it does not.
+
+    Sections across the axis, within 10 mm of it, grow from the isthmus into the arch, and are half of that
+    again where the arch's back lies. A process that the axis runs into is more slender, and is left out.
+    """
+    area = _areas_mm2(solid, isthmus_mm, axis)
+    widest = int(np.argmax(area))
+    limit = FACE_SHARE * area[widest]
+    below = np.flatnonzero(area[widest:] < limit)
+    if not len(below) or area[widest] <= 0.0:
+        return None
+    row = widest + int(below[0])
+    share = (area[row - 1] - limit) / max(area[row - 1] - area[row], 1e-9)
+    return (row - 1 + float(share)) * STEP_MM
+
+
+def _areas_mm2(solid: Solid, isthmus_mm: Array, axis: Array) -> Array:
+    """Area (n,) of the bone that holds the axis, in each section; 0 from where the axis has left it."""
+    (across,), (up,) = planes_across(axis[None])
+    grid = np.arange(-DISC_MM, DISC_MM + 0.1, GRID_MM)
+    x, y = np.meshgrid(grid, grid)
+    disc = np.hypot(x, y) <= DISC_MM
+    middle = len(grid) // 2
+    plane = isthmus_mm + x[..., None] * across + y[..., None] * up
+    along = np.arange(0.0, FARTHEST_MM, STEP_MM)
+    bone = solid.depth_at(plane - along[:, None, None, None] * axis) > 0.0
+    area = np.zeros(len(along))
+    for row, section in enumerate(bone):
+        if not section[middle, middle]:
+            break
+        label, _ = ndimage.label(section)
+        area[row] = float(((label == label[middle, middle]) & disc).sum()) * GRID_MM**2
+    return area

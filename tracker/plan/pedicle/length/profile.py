@@ -1,0 +1,55 @@
+"""What is met along a line through bone, and where its numbers fall as they do at a wall."""
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import planes_across
+
+STEP_MM = 0.2
+FARTHEST_MM = 64.0
+BEHIND_MM = 2.6
+DISC_MM = 0.9
+
+
+def profile_along(near: Neighbourhood, start_mm: Array, direction: Array) -> Array:
+    """Mean HU over a small disc along the line, every `STEP_MM`, as far as the CT reaches."""
+    steps = np.arange(0.0, FARTHEST_MM, STEP_MM)
+    line = start_mm + steps[:, None] * direction
+    inside = near.holds(line)
+    count = len(steps) if inside.all() else int(np.argmin(inside))
+    (across,), (up,) = planes_across(direction[None])
+    offsets = DISC_MM * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])
+    shifted = line[None] + (offsets[:, :1] * across + offsets[:, 1:] * up)[:, None, :]
+    return np.asarray(near.smooth_hu(shifted).mean(axis=0)[:count])
+
+
+def behind_steps(near: Neighbourhood, direction: Array) -> int:
+    """How far behind a wall its outside is looked for, in steps: over a voxel at least."""
+    return int(max(BEHIND_MM, float(near.voxel_width_mm(direction).max())) / STEP_MM)
+
+
+def falls(near: Neighbourhood, profile: Array, *, least_hu: float, behind: int) -> list[tuple[float, float]]:
+    """Where the profile falls by so much: distance in mm of half the fall, and the number behind it."""
+    found: list[tuple[float, float]] = []
+    top = 0
+    at = 1
+    while at < len(profile):
+        if profile[at] > profile[top]:
+            top = at
+        elif profile[top] - profile[at] >= least_hu:
+            end = _foot(profile, at + int(np.argmin(profile[at : at + behind + 1])), near.soft_below_hu)
+            half = 0.5 * (profile[top] + profile[end])
+            after = top + int(np.argmax(profile[top : end + 1] < half))
+            share = (profile[after - 1] - half) / max(profile[after - 1] - profile[after], 1e-9)
+            found.append(((after - 1 + float(share)) * STEP_MM, float(profile[end])))
+            top = at = end
+        at += 1
+    return found
+
+
+def _foot(profile: Array, at: int, soft_below_hu: float) -> int:
+    """Where a fall from bone ends: a wall that is met aslant falls slowly, and not only over a voxel."""
+    while at + 1 < len(profile) and profile[at] > soft_below_hu and profile[at + 1] < profile[at]:
+        at += 1
+    return at

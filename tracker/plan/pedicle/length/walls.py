@@ -1,0 +1,171 @@
+"""Along the pedicle's axis: where it enters the bone from behind, and where it leaves the body in front."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.length.body import outline_front
+from tracker.plan.pedicle.length.entry import arch_back_mm
+from tracker.plan.pedicle.length.profile import FARTHEST_MM, STEP_MM, behind_steps, falls, profile_along
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import angles, planes_across
+from tracker.plan.pedicle.solid import Solid
+
+# Nearer to the isthmus no front wall lies.
+FRONT_FROM_MM, ENTRY_FROM_MM = 8.0, 2.0
+# Behind a true outer wall most directions across the axis meet no bone soon.
+GAP_BEYOND_MM = 2.0
+LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
+# Where the solid ends, the wall is the fall of the profile that is so near to it.
+NEAR_EXIT_MM = 4.0
+NO_FRONT_FROM_MM = 24.0
+# Deeper outside than this the line has left the bone, and not only passed a gap in its wall.
+LEFT_MM = 1.0
+# A process is what reaches so far behind the arch around it; where that ends is not known to the voxel.
+PROCESS_MM, ARCH_SD_MM = 2.5, 1.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WallAhead:
+    """The outer wall in one direction.
+
+    Attributes:
+        distance_mm: from the isthmus.
+        found: whether a wall was met; if not, the bone goes on to this distance at least.
+        outwards: unit (3,), the wall's normal; the direction itself where no wall was met.
+        faced_ratio: cosine between direction and normal: 1 where the wall is met squarely, 0 along it.
+        beyond_mm: how far something like bone goes on behind it: a process, or a vessel that touches.
+        sd_mm: of the distance, beyond what voxels and the axis make unsure.
+    """
+
+    distance_mm: float
+    found: bool
+    outwards: Array
+    faced_ratio: float
+    beyond_mm: float = 0.0
+    sd_mm: float = 0.0
+
+
+def front_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
+    """Where the axis leaves the body in front: at its outer surface, by the outline of the whole body.
+
+    Where a vessel with contrast touches the body, the solid goes on into it, and the outline does not.
+    """
+    exit_mm = _exit_mm(solid, isthmus_mm, axis, FRONT_FROM_MM)
+    outline = outline_front(near, isthmus_mm, axis)
+    if outline is None or (exit_mm is not None and exit_mm <= outline.distance_mm):
+        return _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, exit_mm)
+    wall = _wall(near, solid, isthmus_mm, axis, FRONT_FROM_MM, outline.distance_mm)
+    beyond_mm = (FARTHEST_MM if exit_mm is None else exit_mm) - outline.distance_mm
+    if beyond_mm <= NEAR_EXIT_MM:
+        return wall
+    faced = float(outline.outwards @ axis)
+    return replace(wall, outwards=outline.outwards, faced_ratio=faced, beyond_mm=beyond_mm)
+
+
+def back_wall(near: Neighbourhood, solid: Solid, isthmus_mm: Array, axis: Array) -> WallAhead:
+    """Where the axis, followed backwards, leaves the arch: the entry.
+
+    Where it runs on into a process, the entry lies where the arch around it ends, as a surgeon opens it.
+    """
+    exit_mm = _exit_mm(solid, isthmus_mm, -axis, ENTRY_FROM_MM)
+    wall = _wall(near, solid, isthmus_mm, -axis, ENTRY_FROM_MM, exit_mm)
+    arch_mm = arch_back_mm(solid, isthmus_mm, axis)
+    if arch_mm is None or wall.distance_mm <= arch_mm + PROCESS_MM:
+        return wall
+    beyond_mm = wall.distance_mm - arch_mm
+    return WallAhead(
+        distance_mm=arch_mm,
+        found=True,
+        outwards=-axis,
+        faced_ratio=1.0,
+        beyond_mm=beyond_mm,
+        sd_mm=ARCH_SD_MM,
+    )
+
+
+def _wall(
+    near: Neighbourhood,
+    solid: Solid,
+    isthmus_mm: Array,
+    direction: Array,
+    from_mm: float,
+    exit_mm: float | None,
+) -> WallAhead:
+    """Where the bone is known to end, to the fall of the profile there; else by the profile alone.
+
+    What is soft and closed in, as marrow, belongs to the solid, so that no gap within the body ends it.
+    """
+    if exit_mm is not None:
+        found = bool(near.holds(isthmus_mm + (exit_mm + 1.0) * direction))
+        distance = _fall_near(near, isthmus_mm, direction, exit_mm)
+    else:
+        distance, found = _outer_wall(near, isthmus_mm, direction, from_mm)
+    if not found:
+        # Nothing is told surely: the nearer place is the safer one for a screw.
+        profile = profile_along(near, isthmus_mm, direction)
+        some = [one for one, _ in falls(near, profile, least_hu=near.least_fall_hu, behind=1)]
+        distance = min([one for one in some if one >= NO_FRONT_FROM_MM], default=distance)
+    outwards = solid.outwards_at(isthmus_mm + distance * direction) if found else direction
+    return WallAhead(
+        distance_mm=distance, found=found, outwards=outwards, faced_ratio=float(outwards @ direction)
+    )
+
+
+def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float | None:
+    """Where the line leaves the solid for good, or None where it does not within the grid."""
+    along = np.arange(from_mm, FARTHEST_MM, STEP_MM)
+    line = isthmus_mm + along[:, None] * direction
+    depth = solid.depth_at(line)[solid.holds(line)]
+    left = np.flatnonzero(depth < -LEFT_MM)
+    inside = np.flatnonzero(depth[: left[0]] > 0.0) if len(left) else left
+    return float(along[inside[-1]]) if len(inside) else None
+
+
+def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm: float) -> float:
+    """The fall of the profile nearest to where the solid ends; the end itself where there is none."""
+    profile = profile_along(near, isthmus_mm, direction)
+    behind = behind_steps(near, direction)
+    for share in (1.0, 0.5):
+        found = falls(near, profile, least_hu=share * near.least_fall_hu, behind=behind)
+        close = [one for one, _ in found if abs(one - exit_mm) <= NEAR_EXIT_MM]
+        if close:
+            return min(close, key=lambda one: abs(one - exit_mm))
+    return exit_mm
+
+
+def _outer_wall(
+    near: Neighbourhood, isthmus_mm: Array, direction: Array, from_mm: float
+) -> tuple[float, bool]:
+    """The first fall behind which the line is no longer enclosed by bone.
+
+    Dense layers inside the bone fall to marrow, which can be as dark as muscle; but there walls stand around.
+    Where no fall is as deep as a wall's, half of that is taken: bone without a shell.
+    """
+    profile = profile_along(near, isthmus_mm, direction)
+    behind = behind_steps(near, direction)
+    for share in (1.0, 0.5):
+        for distance_mm, trough in falls(near, profile, least_hu=share * near.least_fall_hu, behind=behind):
+            if distance_mm < from_mm or trough > near.soft_below_hu:
+                continue
+            points = [
+                isthmus_mm + (distance_mm + look_mm) * direction
+                for look_mm in (GAP_BEYOND_MM, LOOK_BEYOND_MM)
+            ]
+            if not all(_is_enclosed(near, point, direction) for point in points):
+                return distance_mm, True
+    return max(len(profile) - 1, 0) * STEP_MM, False
+
+
+def _is_enclosed(near: Neighbourhood, point_mm: Array, direction: Array) -> bool:
+    """Whether bone is met in most directions across the line."""
+    (across,), (up,) = planes_across(direction[None])
+    angle = angles(LOOK_RAYS)
+    rays = np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * up
+    steps = np.arange(0.0, LOOK_ACROSS_MM, 0.5)
+    points = point_mm + steps[:, None] * rays[:, None, :]
+    # In thick slices an endplate is faint.
+    faint = near.tissue_hu + max(100.0, 0.25 * (near.cortex_hu - near.tissue_hu))
+    bone = (near.smooth_hu(points) > faint) & near.holds(points)
+    return bool(bone.any(axis=1).mean() >= ENCLOSED_RATIO)

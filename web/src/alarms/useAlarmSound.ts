@@ -1,0 +1,68 @@
+// Joins the player to the live state: plays what is wanted, and says every few seconds whether it would be heard.
+import { useEffect, useEffectEvent, useRef, useState } from "react";
+import { useLive, usePainter } from "../live/LiveContext";
+import { sayArmed, sayClosed } from "./desk";
+import { AlarmPlayer } from "./player";
+import { alarmsVerdict, wantedSound } from "./verdict";
+
+export const OWN_PAUSE_MS = 120_000;
+
+export interface AlarmSound {
+  armed: boolean;
+  failed: boolean;
+  arm: () => void;
+  /** Until when the screen's own alarm is paused, on the page's clock. */
+  ownPauseUntilMs: number;
+  pauseOwn: (nowMs: number) => void;
+}
+
+export function useAlarmSound(): AlarmSound {
+  const { dashboard } = useLive();
+  const [player] = useState(() => new AlarmPlayer());
+  const [armed, setArmed] = useState(false);
+  const [failed, setFailed] = useState(false);
+  const [ownPauseUntilMs, setOwnPauseUntilMs] = useState(0);
+  const heardAtMs = useRef<number | null>(null);
+
+  usePainter((view) => {
+    const verdict = alarmsVerdict(view, heardAtMs.current !== null);
+    if (verdict.known) heardAtMs.current = view.nowMs;
+    const goneMs = heardAtMs.current === null ? 0 : view.nowMs - heardAtMs.current;
+    player.want(wantedSound(verdict, goneMs, ownPauseUntilMs - view.nowMs));
+  });
+
+  const say = useEffectEvent((signal: AbortSignal) => {
+    // A browser may take the sound back, as when another program has the device.
+    setArmed(player.armed);
+    void sayArmed(player.armed, signal);
+  });
+  const everyMs = (dashboard?.armed_every_s ?? 2) * 1000;
+  useEffect(() => {
+    const stop = new AbortController();
+    const timer = setInterval(() => {
+      say(stop.signal);
+    }, everyMs);
+    addEventListener("pagehide", sayClosed, { signal: stop.signal });
+    return () => {
+      stop.abort();
+      clearInterval(timer);
+    };
+  }, [everyMs]);
+
+  const arm = (): void => {
+    player.arm(dashboard?.sounds ?? []).then(
+      (works) => {
+        setArmed(works);
+        setFailed(!works);
+        if (works) void sayArmed(true, new AbortController().signal);
+      },
+      () => {
+        setFailed(true);
+      },
+    );
+  };
+  const pauseOwn = (nowMs: number): void => {
+    setOwnPauseUntilMs(nowMs + OWN_PAUSE_MS);
+  };
+  return { armed, failed, arm, ownPauseUntilMs, pauseOwn };
+}

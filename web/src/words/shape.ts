@@ -1,0 +1,87 @@
+// What there is to say, in every language.
+import type { Cause } from "../live/assess";
+import type { AbsentReason, Condition, Priority, UnseenReason } from "../live/messages";
+
+/** A short state in big words, and a sentence that says what it means or what to do. */
+export interface Saying {
+  state: string;
+  sentence: string;
+}
+
+/** What is wrong in capitals and in a sentence without its numbers, and what to do. */
+export interface AlarmSaying extends Saying {
+  remedy: string;
+}
+
+export interface Words {
+  language: string;
+  product: string;
+  notice: string;
+  skip: string;
+  video: { title: string; none: string; late: string; image: string; age: string; alt: string };
+  numbers: {
+    title: string;
+    none: string;
+    noNumbers: string;
+    tracking: string;
+    tip: string;
+    tipUnknown: string;
+    steadied: string;
+    numbersOf: string;
+    pictureOf: string;
+  };
+  reading: Record<"entry" | "angle" | "depth" | "toGo", { name: string; hint: string; unit: string }>;
+  depthWords: { before: string; inside: string; past: string; across: string };
+  scene: {
+    title: string;
+    loading: string;
+    loadingHint: string;
+    stale: string;
+    staleHint: string;
+  };
+  markers: Record<
+    "title" | "none" | "name" | "state" | "seen" | "unseen" | "score" | "target" | "unknown",
+    string
+  >;
+  foundBy: Record<"search" | "track", string>;
+  header: Record<
+    "case" | "source" | "camera" | "server" | "searchTime" | "rate" | "noRegistration" | "registeredBy",
+    string
+  >;
+  cameraState: Record<"opening" | "running" | "reconnecting" | "ended" | "unknown", string>;
+  linkState: Record<"connecting" | "open" | "lost", string>;
+  details: Record<
+    | "title"
+    | "stages"
+    | "stage"
+    | "time"
+    | "skipped"
+    | "restarts"
+    | "images"
+    | "size"
+    | "version"
+    | "plainVideo",
+    string
+  >;
+  alerts: { title: string; remedy: string };
+  alarms: Record<
+    | "title"
+    | "none"
+    | "unknown"
+    | "acknowledge"
+    | "pause"
+    | "paused"
+    | "resume"
+    | "failed"
+    | "arm"
+    | "armFailed"
+    | "armed"
+    | "over"
+    | "limit"
+    | "acknowledgedBy",
+    string
+  > & { priority: Record<Priority, string>; conditions: Record<Condition, AlarmSaying> };
+  cause: Record<Cause, Saying>;
+  absent: Record<AbsentReason, Saying>;
+  unseen: Record<UnseenReason, string>;
+}
