@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,11 +17,12 @@ from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
-from tracker.navigation import Absent, AbsentReason, Setup
+from tracker.navigation import Absent, AbsentReason, Guide, Setup
+from tracker.navigation.clearance import field_of_bone
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.pose import SteadySettings, ToolModel
-from tracker.registration import Registration
+from tracker.registration import Method, Registration
 
 if TYPE_CHECKING:
     from tracker.plan import Surface
@@ -39,6 +41,9 @@ class CaseSetup:
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
         registration: of that channel's vertebra.
+        registered_from_s: when its first landmark was touched, or it was checked for the last time, by the
+            clock that images are stamped with; None where that was before this server.
+        guide: what is known of that pedicle besides its channel.
         withheld: why no number may be given yet, although all is known.
     """
 
@@ -46,6 +51,8 @@ class CaseSetup:
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
     registration: Registration | None = None
+    registered_from_s: float | None = None
+    guide: Guide | None = None
     withheld: AbsentReason | None = None
 
 
@@ -65,6 +72,8 @@ class Preparation:
         smoothing: how much poses are steadied.
         theatre: the rehearsal's, None for every other source.
         withheld: why no number is given although all is known; None when nothing is in the way.
+        registered_from_s: see `CaseSetup`.
+        guide: what is known of the pedicle besides its channel; None takes the channel alone.
     """
 
     camera: CameraModel | None
@@ -78,6 +87,18 @@ class Preparation:
     smoothing: SteadySettings = field(default_factory=SteadySettings)
     theatre: "Theatre | None" = None
     withheld: AbsentReason | None = None
+    registered_from_s: float | None = None
+    guide: Guide | None = None
+
+    def guide_along(self, channel: Channel) -> Guide:
+        """What a drill in this channel is held against: the case's bone, the rehearsal's, or the channel."""
+        if self.guide is not None:
+            return self.guide
+        registration = self.registration
+        is_known = isinstance(registration, Registration) and registration.method is Method.REHEARSAL
+        if self.theatre is not None and is_known:
+            return _rehearsed_guide(self.theatre)
+        return Guide.of_channel(channel)
 
     @property
     def surface(self) -> "Surface | None":
@@ -128,6 +149,8 @@ class Preparation:
             channel=case.channel,
             registration=case.registration or Absent(reason=AbsentReason.NOT_REGISTERED),
             withheld=case.withheld,
+            registered_from_s=case.registered_from_s,
+            guide=case.guide,
         )
 
     def tracker_for(self, setup: Setup) -> Tracker:
@@ -197,6 +220,12 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
         if theatre.reference is not None and unknowing.reference == theatre.reference.name
         else Registration.known_to_camera(theatre.camera_from_vertebra),
     )
+
+
+@lru_cache(maxsize=1)
+def _rehearsed_guide(theatre: "Theatre") -> Guide:
+    """The bone of a theatre in software: known exactly, and worth a second of work once."""
+    return Guide(wall=field_of_bone(theatre.surface, theatre.channels[0]))
 
 
 def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:

@@ -104,11 +104,12 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, HTTPException):
         raise error
     path = request.url.path[:200]
-    if isinstance(error.__cause__, UnicodeDecodeError | RecursionError):
+    if isinstance(error.__cause__, ValueError | RecursionError):
         # FastAPI's own 400 for a body that is no text; a body that is no JSON is 422 everywhere else.
         told = TroubleMessage(
             code="REQUEST_INVALID",
-            message="the body of the request is no JSON: it is no text in UTF-8, or is nested too deeply",
+            message="the body of the request is no JSON: it is no text in UTF-8, is nested too deeply, or "
+            "has a number that is too long",
             remedy="Send JSON; /api/docs tells what this request takes.",
             context={"path": path},
         )

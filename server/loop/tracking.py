@@ -10,8 +10,10 @@ from server.capture.shot import Shot
 from server.live import Trouble
 from server.setup import CaseSetup, Preparation
 from tracker.errors import CalibrationError
-from tracker.navigation import NavigationSnapshot, Setup, Steadying, navigate
+from tracker.navigation import Absent, Guide, NavigationSnapshot, Setup, Steadying, Watching, navigate
 from tracker.pipeline import Tracker
+from tracker.plan import Channel
+from tracker.registration import Registration
 
 log = structlog.get_logger(__name__)
 
@@ -25,6 +27,9 @@ class Tracking:
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
         self._steadying = Steadying(preparation.smoothing)
+        self._watching = Watching()
+        self._watched_registration: tuple[bytes, float | None] | None = None
+        self._guide: Guide | None = None
         self.trouble: Trouble | None = None
 
     def adopt(self, case: CaseSetup) -> None:
@@ -46,12 +51,14 @@ class Tracking:
         height, width = shot.image.shape[:2]
         started_s = clock()
         if self._setup is None or self._setup.camera.size_wh_px != (width, height):
-            self._prepare((width, height))
+            self._prepare((width, height), shot.captured_at_s)
         setup, tracker = self._setup, self._tracker
         if setup is None or tracker is None:
             raise RuntimeError("no setup was made")
         sightings = tracker.step(shot.image, captured_at_s=shot.captured_at_s)
         tracked_s = clock()
+        watched = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
+        watched_s = clock()
         snapshot = navigate(
             setup=setup,
             sightings=sightings,
@@ -61,15 +68,18 @@ class Tracking:
             stage_ms={},
             skipped_images=skipped_images,
             steadied=self._steadying.steadied(setup, sightings, captured_at_s=shot.captured_at_s),
+            guide=self._guide,
+            watched=watched,
         )
         stage_ms = {
             "waiting": (started_s - shot.captured_at_s) * 1000.0,
             **tracker.stage_ms,
-            "navigation": (clock() - tracked_s) * 1000.0,
+            "watch": (watched_s - tracked_s) * 1000.0,
+            "navigation": (clock() - watched_s) * 1000.0,
         }
         return dataclasses.replace(snapshot, stage_ms=stage_ms)
 
-    def _prepare(self, size_wh_px: tuple[int, int]) -> None:
+    def _prepare(self, size_wh_px: tuple[int, int], at_s: float) -> None:
         self.trouble = None
         try:
             setup = self._preparation.setup_for(size_wh_px)
@@ -80,4 +90,21 @@ class Tracking:
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
         self._tracker = self._preparation.tracker_for(setup)
         self._steadying = Steadying(self._preparation.smoothing)
+        channel = setup.channel
+        self._guide = self._preparation.guide_along(channel) if isinstance(channel, Channel) else None
+        self._watch_registration(setup, at_s)
         self._setup = setup
+
+    def _watch_registration(self, setup: Setup, at_s: float) -> None:
+        """Begin to watch another registration; one that stays, or was checked, is watched on."""
+        now = (_identity(setup.registration), self._preparation.registered_from_s)
+        if now != self._watched_registration:
+            self._watched_registration = now
+            self._watching.begin(from_s=self._preparation.registered_from_s, now_s=at_s)
+
+
+def _identity(registration: Registration | Absent) -> bytes:
+    """Equal for registrations that are the same: each order of the server brings a copy of its own."""
+    if isinstance(registration, Absent):
+        return b""
+    return registration.anchored_to.encode() + registration.anchor_from_vertebra.matrix.tobytes()

@@ -33,8 +33,9 @@ def poses_from_json(text: str, *, name: str, unit: Unit) -> Told:
         value = json.loads(text)
     except json.JSONDecodeError:
         return _from_values(_lines(text, name), unit=unit)
-    except RecursionError:
-        raise unreadable(name, "it is nested too deeply") from None
+    except (RecursionError, ValueError) as error:
+        why = "it is nested too deeply" if isinstance(error, RecursionError) else "a number is too long"
+        raise unreadable(name, why) from None
     if isinstance(value, dict):
         listed = next((value[key] for key in LIST_KEYS if isinstance(value.get(key), list)), None)
         if listed is None or np.shape(_numbers(listed)) in {(4, 4), (3, 4)}:
@@ -70,7 +71,7 @@ def _lines(text: str, name: str) -> list[tuple[str, Any]]:
         if line.strip():
             try:
                 values.append((f"{name}, line {number}", json.loads(line)))
-            except (json.JSONDecodeError, RecursionError):
+            except (ValueError, RecursionError):
                 raise unreadable(f"{name}, line {number}", "it is no JSON") from None
     if not values:
         raise unreadable(name, "there is nothing in it")

@@ -1,7 +1,9 @@
 """From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
 
 from tracker.navigation.along import AlongChannel, seen_along
+from tracker.navigation.concluding import navigate
 from tracker.navigation.deviation import Deviation, deviation_from_channel
+from tracker.navigation.guide import Guide, Verdict, verdict_of
 from tracker.navigation.snapshot import (
     Absent,
     AbsentReason,
@@ -9,21 +11,27 @@ from tracker.navigation.snapshot import (
     PlacedVertebra,
     Setup,
     ToolInView,
-    navigate,
+    Watched,
 )
 from tracker.navigation.steadying import Steadying
+from tracker.navigation.watching import Watching
 
 __all__ = [
     "Absent",
     "AbsentReason",
     "AlongChannel",
     "Deviation",
+    "Guide",
     "NavigationSnapshot",
     "PlacedVertebra",
     "Setup",
     "Steadying",
     "ToolInView",
+    "Verdict",
+    "Watched",
+    "Watching",
     "deviation_from_channel",
     "navigate",
     "seen_along",
+    "verdict_of",
 ]

@@ -5,27 +5,23 @@ is a value with its reason, never None, 0 or the last pose.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
-
-import numpy as np
 
 from tracker.camera import CameraModel
 from tracker.geometry import (
-    Anchor,
     Array,
     Camera,
-    Marker,
     Rigid,
     Tool,
     Vertebra,
-    chained_covariance,
-    point_covariance_mm2,
 )
-from tracker.navigation.deviation import Deviation, deviation_from_channel
+from tracker.navigation.certainty import Judged
+from tracker.navigation.deviation import Deviation
+from tracker.navigation.watch import NeverSeen, SceneState
 from tracker.plan import Channel
-from tracker.pose import Seen, Sighting, SteadyPose, ToolModel
-from tracker.registration import AnchoredTo, Registration
+from tracker.pose import Sighting, ToolModel
+from tracker.registration import Registration
 
 
 class AbsentReason(StrEnum):
@@ -106,6 +102,28 @@ class PlacedVertebra:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Watched:
+    """What no image says alone; see `tracker.navigation.watch`.
+
+    Attributes:
+        jumped: the markers whose pose is farther from the one before than a hand moves.
+        camera_moved: since the registration, and nothing takes it back but another one.
+        reference_moved: likewise of the marker on the patient; a check on anatomy takes it back.
+        scene: what the still scene says of the camera.
+        unseen_s: by marker, how long ago it was seen, 0 for one in this image.
+    """
+
+    jumped: frozenset[str] = frozenset()
+    camera_moved: bool = False
+    reference_moved: bool = False
+    scene: SceneState = SceneState.UNSURE
+    unseen_s: Mapping[str, float | NeverSeen] = field(default_factory=dict)
+
+
+UNWATCHED = Watched()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NavigationSnapshot:
     """One image, and all that was concluded from it.
 
@@ -118,6 +136,8 @@ class NavigationSnapshot:
         vertebra: where the plan is in this image, or why that is not known.
         tools: by tool name.
         deviations: by tool name, of the tool from the channel.
+        judgements: by tool name, clearance, uncertainty and chance of a breach; there with the deviation.
+        watched: what the images before add to it.
         stage_ms: time of each stage by the name it has in the code.
         skipped_images: how many images the source gave that were never looked at, since the start.
     """
@@ -130,8 +150,10 @@ class NavigationSnapshot:
     vertebra: PlacedVertebra | Absent
     tools: Mapping[str, ToolInView | Absent]
     deviations: Mapping[str, Deviation | Absent]
+    judgements: Mapping[str, Judged | Absent]
     stage_ms: Mapping[str, float]
     skipped_images: int
+    watched: Watched = UNWATCHED
 
     def vertebra_from_tool(self, tool: str) -> Rigid[Vertebra, Tool] | Absent:
         """Where a tool is in the plan; Absent where it has no numbers either, for the same reason."""
@@ -143,122 +165,3 @@ class NavigationSnapshot:
         if isinstance(vertebra, Absent):
             return vertebra
         return vertebra.camera_from_vertebra.inverse @ in_view.camera_from_tool
-
-
-def tool_in_view(
-    setup: Setup, tool: ToolModel, sighting: Sighting, steadied: SteadyPose | None = None
-) -> ToolInView | Absent:
-    """Where the tool is in the camera's frame, or why that is not known.
-
-    A steadied pose takes the place of the image's own, unless it is too unsure of where the tip is now.
-    """
-    if not isinstance(sighting, Seen):
-        return Absent(reason=AbsentReason.MARKER_UNSEEN)
-    if not setup.camera_calibrated:
-        return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
-    own = _placed(tool, sighting.camera_from_marker, sighting.pose_covariance)
-    # Also where two poses explain the image: the covariance then spans both.
-    if _tip_sd_mm(own) > setup.most_tip_sd_mm:
-        return Absent(reason=AbsentReason.POSE_UNCERTAIN)
-    if steadied is None:
-        return own
-    steady = _placed(tool, steadied.camera_from_marker, steadied.pose_covariance, lag_ms=steadied.lag_ms)
-    return own if _tip_sd_mm(steady) > setup.most_tip_sd_mm else steady
-
-
-def _placed(
-    tool: ToolModel, pose: Rigid[Camera, Marker], covariance: Array, *, lag_ms: float = 0.0
-) -> ToolInView:
-    tip_in_marker = tool.marker_from_tool.translation_mm
-    return ToolInView(
-        camera_from_tool=pose @ tool.marker_from_tool,
-        tip_covariance_mm2=point_covariance_mm2(pose, covariance, tip_in_marker),
-        lag_ms=lag_ms,
-    )
-
-
-def _tip_sd_mm(tool: ToolInView) -> float:
-    return float(np.sqrt(np.trace(tool.tip_covariance_mm2)))
-
-
-def placed_vertebra(setup: Setup, sightings: Mapping[str, Sighting]) -> PlacedVertebra | Absent:
-    """Where the plan's vertebra is in this image, or why that is not known."""
-    registration = setup.registration
-    if isinstance(registration, Absent):
-        return registration
-    if registration.anchored_to is AnchoredTo.CAMERA:
-        fixed = registration.anchor_from_vertebra
-        return PlacedVertebra(
-            camera_from_vertebra=Rigid(rotation=fixed.rotation, translation_mm=fixed.translation_mm),
-            covariance=registration.covariance,
-        )
-    seen = sightings.get(setup.reference)
-    if not isinstance(seen, Seen):
-        return Absent(reason=AbsentReason.REFERENCE_UNSEEN)
-    if not setup.camera_calibrated:
-        return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
-    marker = seen.camera_from_marker
-    camera_from_anchor: Rigid[Camera, Anchor] = Rigid(
-        rotation=marker.rotation, translation_mm=marker.translation_mm
-    )
-    return PlacedVertebra(
-        camera_from_vertebra=camera_from_anchor @ registration.anchor_from_vertebra,
-        covariance=chained_covariance(
-            camera_from_anchor,
-            seen.pose_covariance,
-            registration.anchor_from_vertebra,
-            registration.covariance,
-        ),
-    )
-
-
-def tool_deviation(
-    setup: Setup, tool: ToolInView | Absent, vertebra: PlacedVertebra | Absent
-) -> Deviation | Absent:
-    """The tool's deviation from the channel, or why it is not known."""
-    if isinstance(tool, Absent):
-        return tool
-    if isinstance(setup.channel, Absent):
-        return setup.channel
-    if isinstance(vertebra, Absent):
-        return vertebra
-    if setup.withheld is not None:
-        return Absent(reason=setup.withheld)
-    return deviation_from_channel(
-        vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel
-    )
-
-
-def navigate(
-    *,
-    setup: Setup,
-    sightings: Mapping[str, Sighting],
-    image_number: int,
-    captured_at_s: float,
-    size_wh_px: tuple[int, int],
-    stage_ms: Mapping[str, float],
-    skipped_images: int,
-    steadied: Mapping[str, SteadyPose] | None = None,
-) -> NavigationSnapshot:
-    """The snapshot of one image from what was seen in it.
-
-    Where a tool's pose was steadied (`Steadying`), everything that is said of the tool comes from that pose.
-    """
-    steady = steadied or {}
-    vertebra = placed_vertebra(setup, sightings)
-    tools = {
-        name: tool_in_view(setup, tool, sightings[tool.marker], steady.get(name))
-        for name, tool in setup.tools.items()
-    }
-    return NavigationSnapshot(
-        image_number=image_number,
-        captured_at_s=captured_at_s,
-        size_wh_px=size_wh_px,
-        setup=setup,
-        sightings=sightings,
-        vertebra=vertebra,
-        tools=tools,
-        deviations={name: tool_deviation(setup, tool, vertebra) for name, tool in tools.items()},
-        stage_ms=stage_ms,
-        skipped_images=skipped_images,
-    )

@@ -3,8 +3,9 @@
 from collections import defaultdict
 from collections.abc import Mapping
 
+from tracker.navigation.concluding import placed_vertebra, tool_deviation, tool_in_view
 from tracker.navigation.deviation import Deviation
-from tracker.navigation.snapshot import Setup, placed_vertebra, tool_deviation, tool_in_view
+from tracker.navigation.snapshot import Setup
 from tracker.plan import Channel
 from tracker.pose import Seen, Sighting, Steady, SteadyPose, SteadySettings
 

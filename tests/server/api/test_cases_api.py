@@ -89,7 +89,7 @@ def test_a_name_that_cannot_be_is_refused(door: TestClient, name: object) -> Non
 
 
 def test_a_body_that_is_no_text_is_refused_like_one_that_is_no_json(door: TestClient) -> None:
-    for content in (b"\xff\xfe{", b"{"):
+    for content in (b"\xff\xfe{", b"{", b'{"name": ' + b"9" * 5000 + b"}"):
         answer = door.post("/api/cases", content=content, headers={"Content-Type": "application/json"})
         assert answer.status_code == 422
         assert answer.json()["code"] == "REQUEST_INVALID"

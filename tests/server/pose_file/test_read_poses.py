@@ -199,6 +199,7 @@ MIRRORED = MATRICES[0] @ np.diag([1.0, 1.0, -1.0, 1.0])
         pytest.param("p.txt", rows(MATRICES[0]) + "and so on\n", "line 5", id="words-after-numbers"),
         pytest.param("p.json", "{", "no JSON", id="broken-json"),
         pytest.param("p.json", "[" * 100_000, "JSON|deep", id="nested-json"),
+        pytest.param("p.json", "[" + "9" * 5000 + "]", "number is too long", id="a-number-without-end"),
         pytest.param(
             "p.json", '{"poses": [{"rotation": 1}]}', "pose 1: it has no rotation", id="no-rotation-in-json"
         ),

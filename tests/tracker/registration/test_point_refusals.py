@@ -78,6 +78,15 @@ def test_two_swapped_pairs_and_a_ring_of_three_are_named() -> None:
     assert refused(fixed, fixed[[4, 0, 2, 3, 1, 5]]).code == "POINTS_SWAPPED"
 
 
+def test_thousands_of_points_are_fitted_too() -> None:
+    rng = np.random.default_rng(6)
+    fixed = np.asarray(np.stack(np.meshgrid(*[np.arange(18.0) * 5.0] * 3), axis=-1).reshape(-1, 3))
+    truth = touched(fixed, rng, 0.2)
+    found = register_points(PairedPoints(fixed_mm=fixed, moving_mm=truth.moving_mm))
+    assert found.fre_rms_mm == pytest.approx(0.2 * np.sqrt(3.0), rel=0.05)
+    assert refused(fixed, np.roll(truth.moving_mm, 1, axis=0)).code == "POINTS_SWAPPED"
+
+
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_mirrored_points_are_told(axis: int) -> None:
     rng = np.random.default_rng(axis)

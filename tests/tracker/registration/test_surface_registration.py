@@ -104,7 +104,7 @@ def test_a_place_that_was_dwelt_upon_counts_once() -> None:
 
 @pytest.mark.parametrize("bumps_mm", [0.0, 0.15])
 def test_a_flat_bone_slides_with_and_without_the_bumps_of_its_mesh(bumps_mm: float) -> None:
-    surface = plate(bumps_mm=bumps_mm)
+    surface = plate(step_mm=1.5, bumps_mm=bumps_mm)
     corners = surface.vertices_mm[surface.faces]
     inner = corners[(np.abs(corners.mean(axis=1)) < 18.0).all(axis=1)]
     truth = sweep_over(inner, np.random.default_rng(6), sd_mm=0.1, off_mm=0.5, off_deg=0.5)

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 
 from tracker.navigation.alarms.observed import NOT_CHECKED, Observed, Reading
+from tracker.navigation.certainty import Judged
+from tracker.navigation.clearance import Nearest
 from tracker.navigation.deviation import Deviation
 from tracker.navigation.snapshot import Absent, AbsentReason, NavigationSnapshot
 from tracker.plan import Channel
@@ -10,6 +12,7 @@ from tracker.pose import Seen
 
 # A tip farther than this from the channel's axis is not in this pedicle, however deep it is.
 BESIDE_MM = 30.0
+NOT_ENTERED_MM = 100.0
 ENDS_NAVIGATION = frozenset({AbsentReason.NO_PLAN, AbsentReason.NOT_REGISTERED})
 
 
@@ -80,7 +83,7 @@ def observed_of(
     reference_s = max(0.0, snapshot.captured_at_s - memory.reference_seen_at_s)
     reasons = _reasons(snapshot)
     silent_s = max(0.0, now_s - snapshot.captured_at_s)
-    return Observed(
+    observed = Observed(
         navigating=navigates,
         image_number=snapshot.image_number,
         captured_at_s=snapshot.captured_at_s,
@@ -94,6 +97,31 @@ def observed_of(
         camera_in_place=AbsentReason.CAMERA_MOVED not in reasons,
         reference_in_place=AbsentReason.REFERENCE_MOVED not in reasons,
     )
+    return _with_judgements(observed, snapshot) if silent_s <= fresh_s else observed
+
+
+def _with_judgements(observed: Observed, snapshot: NavigationSnapshot) -> Observed:
+    """With the worst of what was concluded of each tool: clearance, chance of a breach, how unsure it is."""
+    judged = [one for one in snapshot.judgements.values() if isinstance(one, Judged)]
+    if not judged:
+        return observed
+    # A drill that has not entered the bone is as far from its walls as can be.
+    clearances = [
+        one.clearance.now.clearance_mm if isinstance(one.clearance.now, Nearest) else NOT_ENTERED_MM
+        for one in judged
+    ]
+    unsure = max(judged, key=lambda one: _unsure_mm(one) - one.certain.room_mm)
+    return replace(
+        observed,
+        clearance_mm=min(clearances),
+        breach_ratio=max(max(one.now.through_ratio, one.soon.through_ratio) for one in judged),
+        tip_sd_mm=_unsure_mm(unsure),
+        most_tip_sd_mm=unsure.certain.room_mm,
+    )
+
+
+def _unsure_mm(judged: Judged) -> float:
+    return max(judged.certain.entry_95_mm, judged.certain.isthmus_95_mm)
 
 
 def _reasons(snapshot: NavigationSnapshot) -> frozenset[AbsentReason]:

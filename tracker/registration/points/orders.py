@@ -19,6 +19,8 @@ Orders = npt.NDArray[np.int64]
 # Up to here every order is tried (719 others of six); of more points swapped pairs, shifted lists and the
 # order that their distances tell.
 ALL_ORDERS_UP_TO = 6
+# Of more than this nobody touched each by hand: lists shifted by one, or turned round, are all that is tried.
+PAIRS_UP_TO = 60
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,7 +125,10 @@ def _other_orders(fixed_mm: Array, moving_mm: Array) -> Orders:
     given = tuple(range(count))
     if count <= ALL_ORDERS_UP_TO:
         return _all_other_orders(count)
-    orders = {given[by:] + given[:by] for by in range(1, count)} | {given[::-1]}
+    orders = {given[1:] + given[:1], given[-1:] + given[:-1], given[::-1]}
+    if count > PAIRS_UP_TO:
+        return np.array(sorted(orders))
+    orders |= {given[by:] + given[:by] for by in range(1, count)}
     for first, second in combinations(given, 2):
         order = list(given)
         order[first], order[second] = second, first

@@ -1,6 +1,7 @@
 """Points to which no rigid motion can be fitted."""
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
@@ -62,15 +63,17 @@ def _refuse_units(pairs: PairedPoints) -> None:
 
 
 def _refuse_coincident(points: Array, which: str, labels: tuple[str, ...], least_mm: float) -> None:
-    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
-    apart[np.diag_indices(len(points))] = np.inf
-    first, second = sorted(int(one) for one in np.unravel_index(int(np.argmin(apart)), apart.shape))
-    nearest = float(apart[first, second])
+    apart, others = cKDTree(points).query(points, k=2)
+    first = int(np.argmin(apart[:, 1]))
+    # Of points in one place, either may be called the nearest.
+    second = int(others[first, 1] if others[first, 1] != first else others[first, 0])
+    first, second = min(first, second), max(first, second)
+    nearest = float(np.linalg.norm(points[first] - points[second]))
     if nearest >= least_mm:
         return
     hint = ""
     if _spread_mm(points) < least_mm:
-        hint = f"; all of them lie within {float(apart[np.isfinite(apart)].max()):.3g} mm, as if in metres"
+        hint = f"; all of them lie within {2.0 * _spread_mm(points):.3g} mm, as if in metres"
     raise RegistrationError(
         "POINTS_COINCIDENT",
         f"points {labels[first]} and {labels[second]} are {nearest:.2f} mm apart {which}, "

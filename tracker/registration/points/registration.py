@@ -25,6 +25,8 @@ from tracker.registration.record import AnchoredTo, Method, Registration
 # A scale that differs by less is no news to anybody, whatever the noise.
 LEAST_SCALE_NEWS = 0.02
 SURE_SDS = 4.0
+# Each asks for a fit of its own; of hundreds, a single one decides nothing.
+MOST_LEFT_OUT = 200
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +68,8 @@ class PointRegistration:
     def left_out_mm(self) -> Mapping[int, float]:
         """By index, how far a used point lies from its landmark when all the others alone are fitted.
 
-        Not there for a point without which the others are too few or a line. Fits anew for each point.
+        Not there for a point without which the others are too few or a line, nor of more than 200 points.
+        Fits anew for each point.
         """
         chosen = [int(index) for index in np.flatnonzero(self.used)]
         return _left_out_mm(self.pairs, chosen, self.settings)
@@ -177,7 +180,7 @@ def _fitted(used: PairedPoints, settings: PointSettings) -> tuple[Rigid[Vertebra
 
 def _left_out_mm(pairs: PairedPoints, chosen: Sequence[int], settings: PointSettings) -> dict[int, float]:
     found: dict[int, float] = {}
-    if len(chosen) <= LEAST_POINTS:
+    if not LEAST_POINTS < len(chosen) <= MOST_LEFT_OUT:
         return found
     for index in chosen:
         others = pairs.of([one for one in chosen if one != index])

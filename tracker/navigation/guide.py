@@ -1,0 +1,79 @@
+"""What a drill is held against in one pedicle, and what comes of it: on its way, off it, unsure, through."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from tracker.geometry import Camera, Marker, Tool, Vertebra
+from tracker.navigation.certainty import Drill, Judged, Placed, Room, judge, marker_from_tool
+from tracker.navigation.certainty.placed import ToolCertainty
+from tracker.navigation.clearance import Nearest, WallField
+from tracker.navigation.clearance.outline import field_of_channel
+from tracker.plan import Channel
+from tracker.plan.pedicle import Side
+from tracker.plan.screw import GertzbeinRobbins
+from tracker.pose import ToolModel
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Guide:
+    """All that is known of the pedicle besides its channel; too large to go with each image.
+
+    Attributes:
+        wall: distances to the bone; where it is not known, to the pedicle's outline or to the channel.
+        room: what the pedicle leaves to navigation; None takes what the channel leaves to the drill.
+        screw_radius_mm: of the planned screw; None where none is planned.
+        side: the plan's side of the patient; None where nobody said it.
+        wall_sd_mm: how far the wall may be from where the CT has it: half a voxel, and the threshold.
+    """
+
+    wall: WallField
+    room: Room | None = None
+    screw_radius_mm: float | None = None
+    side: Side | None = None
+    wall_sd_mm: float = 0.0
+
+    @classmethod
+    def of_channel(cls, channel: Channel) -> "Guide":
+        """Where nothing but the channel is known."""
+        return cls(wall=field_of_channel(channel))
+
+    def judged(self, tool: Placed[Vertebra, Tool], model: ToolModel, channel: Channel) -> Judged:
+        """Clearance, uncertainty and chance of a breach of a drill that is placed in the plan."""
+        room = self.room or Room.of_channel(channel, radius_mm=model.radius_mm)
+        drill = Drill(
+            radius_mm=model.radius_mm, length_mm=model.length_mm, screw_radius_mm=self.screw_radius_mm
+        )
+        return judge(tool, channel, self.wall, room, drill, side=self.side, wall_sd_mm=self.wall_sd_mm)
+
+
+class Verdict(StrEnum):
+    """What one image says of the drill, in a word; the worst that is true."""
+
+    THROUGH = "through"  # a part of the drill is through the wall, or past the planned depth
+    UNSURE = "unsure"  # 95 % of the uncertainty does not fit into what the pedicle leaves
+    OFF = "off"  # the direction at hand would break through the wall, or misses the channel
+    ON = "on"  # within the channel, and the direction at hand stays within the bone
+
+
+def verdict_of(judged: Judged) -> Verdict:
+    """The verdict on a drill; never `ON` where the uncertainty is larger than what the pedicle leaves."""
+    clearance = judged.clearance
+    now, channel = clearance.now, clearance.channel
+    if clearance.past_planned_mm > 0.0 or (isinstance(now, Nearest) and now.clearance_mm < 0.0):
+        return Verdict.THROUGH
+    if not judged.certain.enough:
+        return Verdict.UNSURE
+    leaves = isinstance(channel, Nearest) and channel.clearance_mm < 0.0
+    if leaves or clearance.at_end.grade is not GertzbeinRobbins.A:
+        return Verdict.OFF
+    return Verdict.ON
+
+
+def placed_tool(
+    camera_from_vertebra: Placed[Camera, Vertebra],
+    camera_from_marker: Placed[Camera, Marker],
+    tool: ToolModel,
+) -> Placed[Vertebra, Tool]:
+    """A tool in the plan's frame, with all that is unsure on the way: registration, marker, calibration."""
+    certainty = ToolCertainty(tip_covariance_mm2=tool.tip_covariance_mm2, axis_sd_deg=tool.axis_sd_deg)
+    return camera_from_vertebra.inverse @ (camera_from_marker @ marker_from_tool(tool, certainty))
