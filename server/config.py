@@ -162,6 +162,9 @@ class RegistrationConfig(Section):
     """How long they last at least, so that a hand's tremor is in them."""
     most_capture_sd_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 0.4
     """Standard deviation of the tip in them, along its worst axis."""
+    most_nudge_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
+    """How far all nudges by hand together may lead, between the entry points."""
+    most_nudge_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
     check_required: bool = True
     """false: navigate by a registration that was not checked on a landmark."""
     most_check_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0

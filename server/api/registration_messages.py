@@ -7,9 +7,10 @@ from pydantic import Field
 
 from server.api.case_messages import HeadingMessage, MadeBy, heading_message
 from server.config import Name
-from server.procedure.registered import KeptCheck, KeptRegistration, Value
+from server.procedure.registered import KeptCheck, KeptNudge, KeptRegistration, Value
 from server.procedure.registration import (
     CheckStatus,
+    NudgesStatus,
     PointsStatus,
     ShelvedRegistration,
     TouchState,
@@ -20,6 +21,7 @@ from server.procedure.registration import (
 from server.stream.messages import Message, TroubleMessage, trouble_message
 from tracker.plan.remark import Remark
 from tracker.registration import AnchoredTo, Method
+from tracker.registration.nudge import NudgeAxis, NudgeKind
 
 LandmarkName: TypeAlias = Annotated[str, Field(min_length=1, max_length=60)]
 VertebraName: TypeAlias = Annotated[str, Field(min_length=1, max_length=60)]
@@ -55,6 +57,33 @@ class ByRequest(Message):
     """Who does it."""
 
     made_by: MadeBy
+
+
+class NudgeRequest(Message):
+    """One small step by hand."""
+
+    made_by: MadeBy
+    kind: NudgeKind
+    """shift: along the axis, in mm; turn: about it, in degrees, right-handed."""
+    axis: NudgeAxis
+    """Of the patient, named for the way that is positive."""
+    amount: Annotated[float, Field(ge=-1.0, le=1.0)]
+    """0.1, 0.5 or 1, or the same with a minus."""
+
+
+class NudgesMessage(Message):
+    """The nudges that hold."""
+
+    vertebra: str
+    version: int
+    """Of the registration with them."""
+    nudges: list[KeptNudge]
+    """The oldest first."""
+    shift_mm: float
+    """How far all of them lead, between the entry points."""
+    turn_deg: float
+    most_mm: float
+    most_deg: float
 
 
 class TouchMessage(Message):
@@ -218,6 +247,19 @@ def check_message(status: CheckStatus) -> CheckMessage:
         tool=status.tool,
         capture=touch_message(status.capture),
         outcome=status.outcome,
+    )
+
+
+def nudges_message(status: NudgesStatus) -> NudgesMessage:
+    """The nudges, as they are told."""
+    return NudgesMessage(
+        vertebra=status.shelved.kept.vertebra,
+        version=status.shelved.document.version,
+        nudges=list(status.nudges),
+        shift_mm=status.shift_mm,
+        turn_deg=status.turn_deg,
+        most_mm=status.limits.most_mm,
+        most_deg=status.limits.most_deg,
     )
 
 

@@ -8,7 +8,7 @@ from server.live import Instant, LiveHub, Trouble
 from server.procedure.following import Follower
 from tracker.errors import CalibrationError, InvalidInput, RegistrationError
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
-from tracker.navigation.snapshot import tool_in_view
+from tracker.navigation.PLACE import tool_in_view
 from tracker.pose import Seen
 from tracker.registration.capture import (
     CapturedLandmark,
