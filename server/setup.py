@@ -18,7 +18,7 @@ from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
 from tracker.navigation import Absent, AbsentReason, Guide, Setup
-from tracker.navigation.clearance import field_of_bone
+from tracker.navigation.clearance import choose_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.pose import SteadySettings, ToolModel
@@ -225,7 +225,8 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
 @lru_cache(maxsize=1)
 def _rehearsed_guide(theatre: "Theatre") -> Guide:
     """The bone of a theatre in software: known exactly, and worth a second of work once."""
-    return Guide(wall=field_of_bone(theatre.surface, theatre.channels[0]))
+    chosen = choose_wall(theatre.channels[0], theatre.surface, None, radius_mm=theatre.tool.radius_mm)
+    return Guide(wall=chosen.wall)
 
 
 def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:

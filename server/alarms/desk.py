@@ -11,8 +11,9 @@ from server.alarms.log import AlarmLog, NoLog
 from server.alarms.screens import Screens
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
-from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
+from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import (
+    NOT_KNOWN,
     QUIET,
     AlarmEngine,
     AlarmEvent,
@@ -24,8 +25,6 @@ from tracker.navigation.alarms import (
     observed_of,
     remembered,
 )
-
-UNKNOWN = Absent(reason=AbsentReason.NOT_CHECKED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -120,11 +119,13 @@ class AlarmDesk:
         """One more moment of the live images: a new image, or None when none came."""
         running = process.state is ProcessState.RUNNING and source.state is SourceState.RUNNING
         with self._lock:
+            at_s = self._clock()
             if snapshot is not None:
                 self._snapshot = snapshot
-                self._memory = remembered(self._memory, snapshot)
+                fresh_s = self._limits.camera_silent_after_s
+                self._memory = remembered(self._memory, snapshot, now_s=at_s, fresh_s=fresh_s)
             self._camera_works = running
-            return self._stepped(self._clock())
+            return self._stepped(at_s)
 
     def know(self, facts: ProcedureFacts) -> None:
         """What the procedure knows from now on."""
@@ -212,10 +213,10 @@ class AlarmDesk:
             camera_works=self._camera_works,
             registration_current=facts.registration_current,
             calibration_current=facts.calibration_current,
-            check_age_s=UNKNOWN if facts.checked_at_s is None else at_s - facts.checked_at_s,
+            check_age_s=NOT_KNOWN if facts.checked_at_s is None else at_s - facts.checked_at_s,
             armed_screens=self._screens.armed(at_s),
             lost_screens=self._screens.lost(at_s),
-            free_disk_mb=UNKNOWN if free_mb is None else free_mb,
+            free_disk_mb=NOT_KNOWN if free_mb is None else free_mb,
             recording_runs=facts.recording_runs and self._log.is_well,
             hold_asked_by=self._hold_asked_by,
         )

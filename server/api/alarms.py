@@ -106,7 +106,7 @@ def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
         """All alarms that are in sight, the highest first. The same comes with every live message."""
         return _message(desk.picture)
 
-    @router.get("/log", responses=refusals(503))
+    @router.get("/log", responses=refusals(422, 503))
     def log(last: Annotated[int, Query(ge=1, le=10_000)] = 200) -> LogMessage:
         """The last lines of the alarm log: what was raised, cleared, acknowledged, paused, when, by whom."""
         return LogMessage(lines=[dict(line) for line in desk.log.newest(last)])
@@ -137,7 +137,7 @@ def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
         """End the pause now."""
         return _logged(desk, desk.resume(by=asked.by))
 
-    @router.post("/screens")
+    @router.post("/screens", responses=refusals(422))
     def screen(asked: ScreenRequest) -> AlarmsMessage:
         """A screen says whether its sound is armed, every two seconds."""
         if asked.state == "closed":

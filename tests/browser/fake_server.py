@@ -4,6 +4,7 @@
     unseen    instants whose marker is not seen
     lost      the camera is gone: no snapshot, and a trouble with its remedy
     bare      images of a camera that is not calibrated
+    deep      the drill's tip is past the planned end, which is an alarm
     stop      nothing is published any more, the server stays up
 
 Standard output gets one line, the port. The process ends with its standard input.
@@ -20,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 import uvicorn
 
+from server.alarms import AlarmDesk
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
@@ -71,13 +73,15 @@ def setup(*, calibrated: bool = True) -> Setup:
     )
 
 
-def snapshot_at(number: int, now_s: float, *, seen: bool, calibrated: bool) -> NavigationSnapshot:
+def snapshot_at(
+    number: int, now_s: float, *, seen: bool, calibrated: bool, deep: bool = False
+) -> NavigationSnapshot:
     """The drill on its slow way along the channel."""
     phase = number / RATE_HZ
     stands = setup(calibrated=calibrated)
     drill = Rigid[Vertebra, Tool].from_vector(
         [0.08 * np.sin(phase), 0.05, 0.0],
-        [1.5 * np.sin(0.9 * phase), -1.0, 12.0 + 20.0 * np.sin(0.5 * phase)],
+        [1.5 * np.sin(0.9 * phase), -1.0, 43.0 if deep else 12.0 + 20.0 * np.sin(0.5 * phase)],
     )
     marker = CAMERA_FROM_VERTEBRA @ drill @ stands.tools["drill"].marker_from_tool.inverse
     sighting = Seen(
@@ -103,20 +107,28 @@ def snapshot_at(number: int, now_s: float, *, seen: bool, calibrated: bool) -> N
     )
 
 
-def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8]) -> Instant:
+def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: AlarmDesk) -> Instant:
     """The instant that this mode asks for."""
     process = ProcessStatus(state=ProcessState.RUNNING)
     if mode == "lost":
         away = SourceStatus(
             name="/dev/video0", state=SourceState.RECONNECTING, trouble=UNPLUGGED, images=sequence
         )
-        return Instant(sequence=sequence, source=away, process=process)
+        picture = alarms.look(None, away, process)
+        return Instant(sequence=sequence, source=away, process=process, alarms=picture)
     snapshot = snapshot_at(
-        sequence, time.monotonic(), seen=mode in ("live", "bare"), calibrated=mode != "bare"
+        sequence,
+        time.monotonic(),
+        seen=mode in ("live", "bare", "deep"),
+        calibrated=mode != "bare",
+        deep=mode == "deep",
     )
     source = SourceStatus(name="/dev/video0", state=SourceState.RUNNING, images=sequence, rate_hz=RATE_HZ)
-    jpeg = encode_jpeg(draw_overlay(ground, snapshot), 80)
-    return Instant(sequence=sequence, source=source, process=process, snapshot=snapshot, jpeg=jpeg)
+    picture = alarms.look(snapshot, source, process)
+    jpeg = encode_jpeg(draw_overlay(ground, snapshot, picture), 80)
+    return Instant(
+        sequence=sequence, source=source, process=process, snapshot=snapshot, jpeg=jpeg, alarms=picture
+    )
 
 
 def backdrop() -> npt.NDArray[np.uint8]:
@@ -128,9 +140,10 @@ def backdrop() -> npt.NDArray[np.uint8]:
 class Feeder(threading.Thread):
     """Publishes instants until the process ends."""
 
-    def __init__(self, hub: LiveHub) -> None:
+    def __init__(self, hub: LiveHub, alarms: AlarmDesk) -> None:
         super().__init__(name="feeder", daemon=True)
         self._hub = hub
+        self._alarms = alarms
         self.mode = "live"
 
     def run(self) -> None:
@@ -139,7 +152,7 @@ class Feeder(threading.Thread):
         for sequence in range(1_000_000):
             while self.mode == "stop":
                 time.sleep(0.01)
-            self._hub.publish(instant_at(sequence, self.mode, ground))
+            self._hub.publish(instant_at(sequence, self.mode, ground, self._alarms))
             time.sleep(1.0 / RATE_HZ)
 
 
@@ -149,9 +162,10 @@ def main() -> None:
     parser.add_argument("--port", type=int, default=0)
     port = parser.parse_args().port
     hub = LiveHub()
-    feeder = Feeder(hub)
+    alarms = AlarmDesk(Config())
+    feeder = Feeder(hub, alarms)
     door = socket.create_server(("127.0.0.1", port), reuse_port=False)
-    app = create_app(AppParts(hub=hub, config=Config(), setup=setup()))
+    app = create_app(AppParts(hub=hub, config=Config(), setup=setup(), alarms=alarms))
     server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
     threading.Thread(target=server.run, args=([door],), name="web server", daemon=True).start()
     feeder.start()

@@ -38,7 +38,7 @@ class Theatre:
         self.port = int(line)
 
     def tell(self, mode: str) -> None:
-        """Publish this from now on: live, unseen, lost, bare, stop."""
+        """Publish this from now on: live, unseen, lost, bare, deep, stop."""
         assert self._process.stdin is not None
         self._process.stdin.write(f"{mode}\n")
         self._process.stdin.flush()

@@ -153,6 +153,31 @@ def test_navigation_that_is_ended_in_the_plan_ends_its_alarms(room: Room) -> Non
     assert room.images(2.0, planned=False).alarms == ()
 
 
+def test_the_late_images_of_a_start_are_no_stalled_camera(room: Room, snapshot_of: SnapshotOf) -> None:
+    late = snapshot_of(image_number=500, captured_at_s=room.now_s - 2.0)
+    assert room.desk.look(late, RUNS, WORKS).alarms == ()
+    assert room.images(1.0).alarms == ()
+    late = snapshot_of(image_number=501, captured_at_s=room.now_s - 2.0)
+    assert conditions(room.desk.look(late, RUNS, WORKS)) == [Condition.CAMERA_STALLED]
+
+
+def test_a_patient_that_goes_out_of_sight_is_missed_with_or_without_the_drill(room: Room) -> None:
+    for seen in (True, False):
+        room.images(1.0)
+        for number in range(int(1.2 * 30)):
+            room.now_s += 1 / 30
+            snapshot = room.snapshot_of(
+                image_number=10_000 + number, captured_at_s=room.now_s - 0.04, seen=seen
+            )
+            gone = Absent(reason=AbsentReason.REFERENCE_UNSEEN)
+            picture = room.desk.look(
+                replace(snapshot, vertebra=gone, deviations={"drill": gone}), RUNS, WORKS
+            )
+        missed = {Condition.REFERENCE_UNSEEN} | (set() if seen else {Condition.DRILL_UNSEEN})
+        assert set(conditions(picture)) == missed
+        room.images(2.0)
+
+
 def test_a_moved_camera_alarms_and_does_not_end_navigation(room: Room, snapshot_of: SnapshotOf) -> None:
     room.images(1.0)
     for number in range(1000, 1030):

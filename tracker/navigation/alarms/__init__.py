@@ -8,13 +8,14 @@ from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priori
 from tracker.navigation.alarms.engine import AlarmEngine
 from tracker.navigation.alarms.evidence import Measure
 from tracker.navigation.alarms.limits import MOST_PAUSE_S, AlarmLimits
-from tracker.navigation.alarms.observed import Observed
+from tracker.navigation.alarms.observed import NOT_KNOWN, NotKnown, Observed, Reading
 from tracker.navigation.alarms.observing import Memory, observed_of, remembered
 from tracker.navigation.alarms.occurrence import AlarmState
 from tracker.navigation.alarms.picture import QUIET, Alarm, AlarmEvent, AlarmPicture, Change, Sound
 
 __all__ = [
     "MOST_PAUSE_S",
+    "NOT_KNOWN",
     "QUIET",
     "TRAITS",
     "Alarm",
@@ -28,8 +29,10 @@ __all__ = [
     "Kind",
     "Measure",
     "Memory",
+    "NotKnown",
     "Observed",
     "Priority",
+    "Reading",
     "Sound",
     "Trait",
     "observed_of",

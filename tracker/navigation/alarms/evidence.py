@@ -9,8 +9,7 @@ from typing import TypeAlias
 
 from tracker.navigation.alarms.conditions import TRAITS, Condition
 from tracker.navigation.alarms.limits import AlarmLimits
-from tracker.navigation.alarms.observed import Observed
-from tracker.navigation.snapshot import Absent
+from tracker.navigation.alarms.observed import NotKnown, Observed
 
 
 class Showing(StrEnum):
@@ -73,7 +72,7 @@ def _flag(shows: bool) -> Evidence:
 
 def _breach(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     clearance_mm = observed.clearance_mm
-    if isinstance(clearance_mm, Absent) or isnan(clearance_mm):
+    if isinstance(clearance_mm, NotKnown) or isnan(clearance_mm):
         return UNKNOWN
     shows = clearance_mm < (limits.hysteresis_mm if standing else 0.0)
     measure = Measure(value=clearance_mm, limit=0.0, unit="mm")
@@ -82,7 +81,7 @@ def _breach(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence
 
 def _past_depth(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     past_mm = observed.past_depth_mm
-    if isinstance(past_mm, Absent) or isnan(past_mm):
+    if isinstance(past_mm, NotKnown) or isnan(past_mm):
         return UNKNOWN
     shows = past_mm > (-limits.hysteresis_mm if standing else 0.0)
     measure = Measure(value=past_mm, limit=0.0, unit="mm")
@@ -91,9 +90,9 @@ def _past_depth(observed: Observed, limits: AlarmLimits, standing: bool) -> Evid
 
 def _breach_likely(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     ratio, clearance_mm = observed.breach_ratio, observed.clearance_mm
-    if isinstance(ratio, Absent):
+    if isinstance(ratio, NotKnown):
         return UNKNOWN
-    if not isinstance(clearance_mm, Absent) and clearance_mm < 0.0:
+    if not isinstance(clearance_mm, NotKnown) and clearance_mm < 0.0:
         return GONE
     limit = limits.breach_ratio
     measure = Measure(value=ratio * 100.0, limit=limit * 100.0, unit="%")
@@ -106,7 +105,7 @@ def _breach_likely(observed: Observed, limits: AlarmLimits, standing: bool) -> E
 
 def _clearance_low(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     clearance_mm = observed.clearance_mm
-    if isinstance(clearance_mm, Absent) or isnan(clearance_mm):
+    if isinstance(clearance_mm, NotKnown) or isnan(clearance_mm):
         return UNKNOWN
     if clearance_mm < 0.0:
         # Through the wall is another alarm, and the louder one.
@@ -146,7 +145,7 @@ def _pose_uncertain(observed: Observed, limits: AlarmLimits, standing: bool) -> 
     sd_mm, most_mm = observed.tip_sd_mm, observed.most_tip_sd_mm
     if not observed.pose_certain:
         return Evidence(showing=Showing.YES)
-    if isinstance(sd_mm, Absent) or isinstance(most_mm, Absent):
+    if isinstance(sd_mm, NotKnown) or isinstance(most_mm, NotKnown):
         return UNKNOWN
     measure = Measure(value=sd_mm, limit=most_mm, unit="mm")
     # A hysteresis larger than the limit could never be cleared.
@@ -158,7 +157,7 @@ def _pose_uncertain(observed: Observed, limits: AlarmLimits, standing: bool) -> 
 def _check_due(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     del standing
     age_s = observed.check_age_s
-    if isinstance(age_s, Absent):
+    if isinstance(age_s, NotKnown):
         return UNKNOWN
     measure = Measure(value=age_s / 60.0, limit=limits.check_due_after_s / 60.0, unit="min")
     shows = age_s > limits.check_due_after_s
@@ -173,7 +172,7 @@ def _no_armed_screen(observed: Observed, limits: AlarmLimits, standing: bool) ->
 
 def _disk_nearly_full(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     free_mb = observed.free_disk_mb
-    if isinstance(free_mb, Absent):
+    if isinstance(free_mb, NotKnown):
         return UNKNOWN
     least_mb = limits.least_free_disk_mb
     measure = Measure(value=free_mb, limit=least_mb, unit="MB")

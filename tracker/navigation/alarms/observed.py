@@ -3,10 +3,14 @@
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from tracker.navigation.snapshot import Absent, AbsentReason
 
-Reading: TypeAlias = float | Absent
-NOT_CHECKED = Absent(reason=AbsentReason.NOT_CHECKED)
+@dataclass(frozen=True, slots=True)
+class NotKnown:
+    """A number that this moment does not say."""
+
+
+Reading: TypeAlias = float | NotKnown
+NOT_KNOWN = NotKnown()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,11 +50,11 @@ class Observed:
     navigating: bool
     image_number: int = -1
     captured_at_s: float = 0.0
-    clearance_mm: Reading = NOT_CHECKED
-    breach_ratio: Reading = NOT_CHECKED
-    past_depth_mm: Reading = NOT_CHECKED
-    tip_sd_mm: Reading = NOT_CHECKED
-    most_tip_sd_mm: Reading = NOT_CHECKED
+    clearance_mm: Reading = NOT_KNOWN
+    breach_ratio: Reading = NOT_KNOWN
+    past_depth_mm: Reading = NOT_KNOWN
+    tip_sd_mm: Reading = NOT_KNOWN
+    most_tip_sd_mm: Reading = NOT_KNOWN
     drill_unseen_s: float = 0.0
     drill_put_away: bool = False
     reference_unseen_s: float = 0.0
@@ -62,9 +66,9 @@ class Observed:
     reference_in_place: bool = True
     registration_current: bool = True
     calibration_current: bool = True
-    check_age_s: Reading = NOT_CHECKED
+    check_age_s: Reading = NOT_KNOWN
     armed_screens: int = 0
     lost_screens: int = 0
-    free_disk_mb: Reading = NOT_CHECKED
+    free_disk_mb: Reading = NOT_KNOWN
     recording_runs: bool = True
     hold_asked_by: str = field(default="")

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from tracker.navigation.alarms.observed import NOT_CHECKED, Observed, Reading
+from tracker.navigation.alarms.observed import NOT_KNOWN, Observed, Reading
 from tracker.navigation.certainty import Judged
 from tracker.navigation.clearance import Nearest
 from tracker.navigation.deviation import Deviation
@@ -13,7 +13,8 @@ from tracker.pose import Seen
 # A tip farther than this from the channel's axis is not in this pedicle, however deep it is.
 BESIDE_MM = 30.0
 NOT_ENTERED_MM = 100.0
-ENDS_NAVIGATION = frozenset({AbsentReason.NO_PLAN, AbsentReason.NOT_REGISTERED})
+NOT_REGISTERED = Absent(reason=AbsentReason.NOT_REGISTERED)
+REFERENCE_UNSEEN = Absent(reason=AbsentReason.REFERENCE_UNSEEN)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,29 +32,25 @@ class Memory:
     reference_seen_at_s: float = 0.0
 
 
-def remembered(memory: Memory, snapshot: NavigationSnapshot) -> Memory:
-    """What is known after one more image.
+def remembered(memory: Memory, snapshot: NavigationSnapshot, *, now_s: float, fresh_s: float) -> Memory:
+    """What is known after one more image, looked at `now_s`.
 
-    Navigation begins with the first numbers. It ends when there is no channel or no registration any more,
+    Navigation begins with the first numbers that are not older than `fresh_s`: while everything is being
+    started, images come late. It ends when there is no channel or no registration any more,
     but not when a marker, or what was moved, takes the numbers away: that is what alarms are for.
     """
-    at_s = snapshot.captured_at_s
-    deviations = snapshot.deviations.values()
-    if any(isinstance(deviation, Deviation) for deviation in deviations):
-        memory = replace(memory, navigating=True)
-    elif any(isinstance(one, Absent) and one.reason in ENDS_NAVIGATION for one in deviations):
+    setup, at_s = snapshot.setup, snapshot.captured_at_s
+    if isinstance(setup.channel, Absent) or setup.registration == NOT_REGISTERED:
         memory = replace(memory, navigating=False)
-    markers = {tool.marker for tool in snapshot.setup.tools.values()}
+    elif any(isinstance(deviation, Deviation) for deviation in snapshot.deviations.values()):
+        memory = replace(memory, navigating=memory.navigating or now_s - at_s <= fresh_s)
+    markers = {tool.marker for tool in setup.tools.values()}
     if any(isinstance(snapshot.sightings.get(marker), Seen) for marker in markers):
         memory = replace(memory, drill_seen_at_s=at_s)
     # Where there is no patient reference, nothing is missed.
-    if not _waits_for_reference(snapshot):
+    if snapshot.vertebra != REFERENCE_UNSEEN:
         memory = replace(memory, reference_seen_at_s=at_s)
     return memory
-
-
-def _waits_for_reference(snapshot: NavigationSnapshot) -> bool:
-    return AbsentReason.REFERENCE_UNSEEN in _reasons(snapshot)
 
 
 def observed_of(
@@ -87,7 +84,7 @@ def observed_of(
         navigating=navigates,
         image_number=snapshot.image_number,
         captured_at_s=snapshot.captured_at_s,
-        past_depth_mm=_past_depth_mm(snapshot) if silent_s <= fresh_s else NOT_CHECKED,
+        past_depth_mm=_past_depth_mm(snapshot) if silent_s <= fresh_s else NOT_KNOWN,
         drill_unseen_s=unseen_s,
         drill_put_away=unseen_s > put_away_after_s,
         camera_silent_s=silent_s,
@@ -125,18 +122,20 @@ def _unsure_mm(judged: Judged) -> float:
 
 
 def _reasons(snapshot: NavigationSnapshot) -> frozenset[AbsentReason]:
-    """Why the tools have no numbers, if none of them has."""
-    absent = [one for one in snapshot.deviations.values() if isinstance(one, Absent)]
-    if len(absent) < len(snapshot.deviations):
+    """Why there are no numbers, if there are none: of the tools, of the patient, of the whole."""
+    deviations = snapshot.deviations.values()
+    if any(isinstance(deviation, Deviation) for deviation in deviations):
         return frozenset()
-    return frozenset(one.reason for one in absent)
+    withheld = snapshot.setup.withheld
+    absent = [one.reason for one in (*deviations, snapshot.vertebra) if isinstance(one, Absent)]
+    return frozenset(absent if withheld is None else [*absent, withheld])
 
 
 def _past_depth_mm(snapshot: NavigationSnapshot) -> Reading:
     """How far the deepest tip is past the planned end, of those that are near the channel."""
     channel = snapshot.setup.channel
     if not isinstance(channel, Channel):
-        return NOT_CHECKED
+        return NOT_KNOWN
     past = [
         -deviation.remaining_mm
         for deviation in snapshot.deviations.values()
@@ -146,4 +145,4 @@ def _past_depth_mm(snapshot: NavigationSnapshot) -> Reading:
     if past:
         return max(past)
     # Seen, and beside the patient: that is far from the end.
-    return -channel.length_mm if known else NOT_CHECKED
+    return -channel.length_mm if known else NOT_KNOWN

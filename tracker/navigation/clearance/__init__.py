@@ -1,10 +1,11 @@
 """The clearance of the whole drill: distances to the bone made once, looked up in each image.
 
-field = field_of_bone(surface, channel)          # once, when the channel is chosen: about a second
-rings = drill_rings(pose, channel, field, ...)   # each image: tens of microseconds
+field = choose_wall(channel, surface, measure, radius_mm=...).wall    # once for a channel: a second or two
+rings = drill_rings(pose, channel, field, ...)    # each image: tens of microseconds
 clearance = clearance_of_drill(rings, pose, channel)
 """
 
+from tracker.navigation.clearance.choice import ChosenWall, choose_wall, on_plan_mm
 from tracker.navigation.clearance.drill import (
     SOON_MM,
     Closest,
@@ -21,6 +22,7 @@ from tracker.navigation.clearance.rings import Rings
 
 __all__ = [
     "SOON_MM",
+    "ChosenWall",
     "Closest",
     "DrillClearance",
     "DrillRings",
@@ -29,9 +31,11 @@ __all__ = [
     "NotEntered",
     "Rings",
     "WallField",
+    "choose_wall",
     "clearance_of_drill",
     "drill_rings",
     "field_of_bone",
     "field_of_channel",
     "field_of_outline",
+    "on_plan_mm",
 ]

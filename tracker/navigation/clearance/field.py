@@ -19,14 +19,15 @@ from tracker.plan.surface import Surface
 
 STEP_MM = 0.5
 MARGIN_MM = 25.0
-# Holes and pores narrower than twice this do not join marrow and outside.
-CLOSES_MM = 1.0
+# Holes and pores narrower than twice this do not join marrow and outside; tried one after the other, because
+# a threshold opens the thin cortex of a real CT more or less widely. A foramen is wider than twice the last.
+CLOSES_MM = (1.0, 1.5, 2.0, 3.0)
 # What 16 bits hold: 256 mm, in steps that are a hundredth of a voxel.
 UNIT_MM = 1.0 / 128.0
 LARGEST_TRIANGLE_MM = 4.0
 STAMPED_STEPS = 2.0
 # A channel of which less than this lies in bone was planned on another surface, or in another unit.
-LEAST_IN_BONE_RATIO = 0.5
+LEAST_IN_BONE_RATIO = 0.8
 MOST_NODES = 40_000_000
 
 
@@ -47,12 +48,14 @@ class WallField:
         grid: of the nodes.
         values: (n0, n1, n2) int16, in `UNIT_MM`; below 0 inside the bone, above 0 outside.
         back: how deep the bone's back lies around the entry.
+        closes_mm: holes in the bone narrower than twice this were taken as closed; 0 where there is no bone.
     """
 
     against: MeasuredAgainst
     grid: Grid
     values: npt.NDArray[np.int16]
     back: Back
+    closes_mm: float = 0.0
 
     def __post_init__(self) -> None:
         for array in (self.values, self.grid.origin_mm, self.back.floor_mm):
@@ -61,7 +64,7 @@ class WallField:
     def __reduce__(self) -> tuple[object, ...]:
         # Made anew on the other side of a pipe, so that its arrays are read-only there too: for others, the
         # compiled loops would be compiled again.
-        return _field_from, (self.against, self.grid, self.values, self.back)
+        return _field_from, (self.against, self.grid, self.values, self.back, self.closes_mm)
 
     def distances_mm(self, points_mm: Array) -> tuple[Array, Array]:
         """Distances (n,) in mm of points (n, 3), above 0 outside, and their gradients (n, 3)."""
@@ -71,8 +74,14 @@ class WallField:
         return distance, gradient
 
 
-def _field_from(against: MeasuredAgainst, grid: Grid, values: npt.NDArray[np.int16], back: Back) -> WallField:
-    return WallField(against=against, grid=grid, values=values, back=back)
+def _field_from(
+    against: MeasuredAgainst,
+    grid: Grid,
+    values: npt.NDArray[np.int16],
+    back: Back,
+    closes_mm: float,
+) -> WallField:
+    return WallField(against=against, grid=grid, values=values, back=back, closes_mm=closes_mm)
 
 
 def grid_around(channel: Channel, *, step_mm: float = STEP_MM, margin_mm: float = MARGIN_MM) -> Grid:
@@ -92,12 +101,13 @@ def field_of_bone(
     *,
     step_mm: float = STEP_MM,
     margin_mm: float = MARGIN_MM,
-    closes_mm: float = CLOSES_MM,
+    closes_mm: tuple[float, ...] = CLOSES_MM,
 ) -> WallField:
     """The distances to the bone's outer wall: true to a tenth of a millimetre near it.
 
-    Marrow and pores count as bone; the canal and all that is reached from outside do not. The bone's back,
-    through which a drill comes in, is no wall: distances are those to all other parts of the surface.
+    Marrow and pores count as bone; the canal and all that is reached from outside do not. Holes in the
+    cortex are taken as closed up to the least of the given widths with which the channel lies in bone. The
+    bone's back, through which a drill comes in, is no wall: distances are to all other parts of the surface.
 
     Raises:
         PlanError: BONE_NOT_AT_CHANNEL, most of the channel lies outside of the surface;
@@ -108,15 +118,18 @@ def field_of_bone(
     _refuse_inside_out(surface)
     corners = split_to(near_box(surface, grid), LARGEST_TRIANGLE_MM, grid)
     steps = grid.steps_of(corners)
-    bone = filled(solid_of(grid, steps), step_mm=step_mm, closes_mm=closes_mm)
-    _refuse_elsewhere(bone, grid, channel)
+    bone, closed_mm = _bone_around(channel, grid, solid_of(grid, steps), closes_mm)
     across = directions_of(channel)
     back, is_back = back_of(bone, grid, channel.entry_in_vertebra_mm, across, corners)
     outer = _faces_outside(bone, grid, corners)
     walls = np.ascontiguousarray(steps[outer & ~is_back])
     squared = _squared_steps(bone, walls, np.ascontiguousarray(steps[outer & is_back]))
     return WallField(
-        against=MeasuredAgainst.BONE, grid=grid, values=packed(np.sqrt(squared) * step_mm, bone), back=back
+        against=MeasuredAgainst.BONE,
+        grid=grid,
+        values=packed(np.sqrt(squared) * step_mm, bone),
+        back=back,
+        closes_mm=closed_mm,
     )
 
 
@@ -195,17 +208,25 @@ def _refuse_large(grid: Grid) -> None:
         )
 
 
-def _refuse_elsewhere(bone: Flags, grid: Grid, channel: Channel) -> None:
+def _bone_around(
+    channel: Channel, grid: Grid, solid: Flags, closes_mm: tuple[float, ...]
+) -> tuple[Flags, float]:
+    """The bone with its marrow, and how wide holes had to be closed until the channel lies in it."""
     along = np.linspace(0.1, 0.9, 41)[:, None]
-    line = channel.entry_in_vertebra_mm + along * (
-        channel.target_in_vertebra_mm - channel.entry_in_vertebra_mm
+    entry, target = channel.entry_in_vertebra_mm, channel.target_in_vertebra_mm
+    line = grid.nearest(entry + along * (target - entry))
+    ratio = 0.0
+    for closed_mm in closes_mm:
+        bone = filled(solid, step_mm=grid.step_mm, closes_mm=closed_mm)
+        if not bone.all():
+            ratio = float(ndimage.binary_dilation(bone, CROSS)[line].mean())
+        if ratio >= LEAST_IN_BONE_RATIO:
+            return bone, closed_mm
+    raise PlanError(
+        "BONE_NOT_AT_CHANNEL",
+        f"{100.0 * ratio:.0f} % of channel '{channel.name}' lies inside of the bone's surface, needed "
+        f"{100.0 * LEAST_IN_BONE_RATIO:.0f} % or more",
+        "Check the unit and the coordinates of the surface (mm, LPS, of the channel's own CT); where its "
+        "cortex has holes, make it again with a lower threshold.",
+        {"in_bone_ratio": ratio},
     )
-    ratio = float(ndimage.binary_dilation(bone, CROSS)[grid.nearest(line)].mean())
-    if ratio < LEAST_IN_BONE_RATIO or bone.all():
-        raise PlanError(
-            "BONE_NOT_AT_CHANNEL",
-            f"{100.0 * ratio:.0f} % of channel '{channel.name}' lies inside of the bone's surface, needed "
-            f"{100.0 * LEAST_IN_BONE_RATIO:.0f} % or more",
-            "Check the unit and the coordinates of the surface: mm, LPS, of the same CT as the channel.",
-            {"in_bone_ratio": ratio},
-        )

@@ -70,6 +70,7 @@ def register_needles(
     view: View,
     *,
     limits: NeedleLimits | None = None,
+    order_is_sure: bool = False,
 ) -> NeedleFit:
     """The vertebra's pose in the camera, fitted to the needles, the measured view and touched points.
 
@@ -83,6 +84,7 @@ def register_needles(
         camera: calibrated.
         view: tilt and distance of the camera, measured, and touched points.
         limits: the gate.
+        order_is_sure: whether the needles cannot have been marked for one another, as under an overlay.
 
     Raises:
         InvalidInput: NEEDLES_UNPAIRED.
@@ -90,12 +92,7 @@ def register_needles(
             NEEDLES_DISAGREE, NEEDLE_OFF_ITS_PLACE, NEEDLES_AMBIGUOUS.
     """
     gate = limits or NeedleLimits()
-    if len(places) != len(seen):
-        raise InvalidInput(
-            "NEEDLES_UNPAIRED",
-            f"{len(places)} needles are planned and {len(seen)} are marked in the image",
-            "Mark each planned needle once.",
-        )
+    _refuse_unpaired(places, seen)
     refuse_poor_places(places)
     found = solutions(Task.of(places, seen, camera, view))
     best = found[0]
@@ -103,7 +100,7 @@ def register_needles(
     freedom = _freedom(best)
     orders = other_orders(places, seen, camera, view)
     order_lead = orders[0][1].cost - best.cost if orders else math.inf
-    if orders:
+    if orders and not order_is_sure:
         refuse_swapped(places, orders[0][0], order_lead, gate)
     _refuse_disagreement(best, freedom, gate)
     _refuse_offset(residuals, gate)
@@ -123,6 +120,15 @@ def register_needles(
         rivals=len(found) - 1,
         order_lead=order_lead,
     )
+
+
+def _refuse_unpaired(places: Sequence[NeedlePlace], seen: Sequence[NeedleSeen]) -> None:
+    if len(places) != len(seen):
+        raise InvalidInput(
+            "NEEDLES_UNPAIRED",
+            f"{len(places)} needles are planned and {len(seen)} are marked in the image",
+            "Mark each planned needle once.",
+        )
 
 
 def _residuals(best: Solution) -> tuple[NeedleResidual, ...]:

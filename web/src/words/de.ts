@@ -149,7 +149,8 @@ export const de: Words = {
     },
     REFERENCE_MOVED: {
       state: "PATIENT BEWEGT",
-      sentence: "Der Patient oder sein Marker hat sich bewegt. An einer Landmarke prüfen oder neu registrieren.",
+      sentence:
+        "Der Patient oder sein Marker hat sich bewegt. An einer Landmarke prüfen oder neu registrieren.",
     },
     POSE_JUMPED: {
       state: "POSE GESPRUNGEN",
@@ -159,23 +160,6 @@ export const de: Words = {
       state: "NICHT GEPRÜFT",
       sentence: "Registriert, aber noch nicht an einer Landmarke geprüft. Zum Prüfen eine berühren.",
     },
-    REFERENCE_UNSEEN: {
-      state: "PATIENT NICHT GESEHEN",
-      sentence: "Die Sicht der Kamera auf den Marker am Patienten freimachen.",
-    },
-    CAMERA_MOVED: {
-      state: "KAMERA BEWEGT",
-      sentence: "Sie hat sich seit der Registrierung bewegt. Neu registrieren.",
-    },
-    REFERENCE_MOVED: {
-      state: "PATIENTENMARKER BEWEGT",
-      sentence: "Er hat sich seit der Registrierung bewegt. Befestigen und neu registrieren.",
-    },
-    POSE_JUMPED: {
-      state: "LAGE NICHT EINDEUTIG",
-      sentence: "Den Bohrer still halten und seinen Marker zur Kamera neigen.",
-    },
-    NOT_CHECKED: { state: "NICHT GEPRÜFT", sentence: "Das hat noch niemand geprüft." },
   },
   unseen: {
     NO_CANDIDATE: "nichts im Bild sieht ihm ähnlich",

@@ -149,20 +149,6 @@ export const en: Words = {
       state: "NOT CHECKED",
       sentence: "Registered, but not yet held against a landmark. Touch one to check.",
     },
-    REFERENCE_UNSEEN: {
-      state: "PATIENT NOT SEEN",
-      sentence: "Clear the camera's view of the patient's marker.",
-    },
-    CAMERA_MOVED: { state: "CAMERA MOVED", sentence: "It moved since the registration. Register again." },
-    REFERENCE_MOVED: {
-      state: "PATIENT MARKER MOVED",
-      sentence: "It moved since the registration. Fix it and register again.",
-    },
-    POSE_JUMPED: {
-      state: "POSE UNRESOLVED",
-      sentence: "Hold the drill still, and tilt its marker towards the camera.",
-    },
-    NOT_CHECKED: { state: "NOT CHECKED", sentence: "Nobody has looked yet." },
   },
   unseen: {
     NO_CANDIDATE: "nothing in the image looks like it",

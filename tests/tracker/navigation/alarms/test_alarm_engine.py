@@ -4,8 +4,8 @@ import pytest
 
 from tests.tracker.navigation.alarms.theatre_of_alarms import Stream, good
 from tracker.errors import InvalidInput
-from tracker.navigation import Absent, AbsentReason
 from tracker.navigation.alarms import (
+    NOT_KNOWN,
     AlarmEngine,
     AlarmState,
     Change,
@@ -15,12 +15,11 @@ from tracker.navigation.alarms import (
     Sound,
 )
 
-NOT_SEEN = Absent(reason=AbsentReason.MARKER_UNSEEN)
 UNSEEN = {
-    "clearance_mm": NOT_SEEN,
-    "breach_ratio": NOT_SEEN,
-    "past_depth_mm": NOT_SEEN,
-    "tip_sd_mm": NOT_SEEN,
+    "clearance_mm": NOT_KNOWN,
+    "breach_ratio": NOT_KNOWN,
+    "past_depth_mm": NOT_KNOWN,
+    "tip_sd_mm": NOT_KNOWN,
 }
 HIGHS = {"clearance_mm": -0.4}
 

@@ -13,6 +13,7 @@ from tracker.navigation.clearance import (
     Nearest,
     NotEntered,
     WallField,
+    choose_wall,
     clearance_of_drill,
     drill_rings,
     field_of_bone,
@@ -20,7 +21,7 @@ from tracker.navigation.clearance import (
     field_of_outline,
 )
 from tracker.navigation.directions import Wall
-from tracker.plan import Channel
+from tracker.plan import Channel, Surface
 from tracker.plan.pedicle import PedicleMeasure, PedicleSpread
 from tracker.plan.screw import GertzbeinRobbins
 from tracker.rehearsal.anatomy import bone_field, pedicle_channels, vertebra_surface
@@ -168,6 +169,32 @@ def test_the_isthmus_s_outline_stands_in_for_the_bone(medial_mm: float, clearanc
     clearance = _clearance(drill_at(ROD_CHANNEL, 30.0, medial_mm=medial_mm), ROD_CHANNEL, field)
     assert clearance.against is MeasuredAgainst.PEDICLE
     assert _mm(clearance.now) == pytest.approx(clearance_mm, abs=0.1)
+
+
+def test_the_bone_is_the_wall_where_it_is_known_and_agrees_with_the_plan() -> None:
+    chosen = choose_wall(ROD_CHANNEL, rod(), _round_pedicle(4.5), radius_mm=2.0)
+    assert (chosen.wall.against, chosen.remarks) == (MeasuredAgainst.BONE, ())
+
+
+@pytest.mark.parametrize("measured", [True, False])
+@pytest.mark.parametrize(
+    ("surface", "codes"),
+    [
+        pytest.param(None, [], id="no-surface"),
+        pytest.param(rod(1.7), ["BONE_CONTRADICTS_PLAN"], id="walls-eaten-by-a-threshold"),
+        pytest.param(
+            Surface(vertices_mm=rod().vertices_mm + 99.0, faces=rod().faces),
+            ["BONE_NOT_AT_CHANNEL"],
+            id="a-surface-elsewhere",
+        ),
+    ],
+)
+def test_without_a_surface_that_fits_the_plan_the_next_best_wall_is_taken_and_told(
+    surface: Surface | None, codes: list[str], *, measured: bool
+) -> None:
+    chosen = choose_wall(ROD_CHANNEL, surface, _round_pedicle(4.5) if measured else None, radius_mm=2.0)
+    assert chosen.wall.against is (MeasuredAgainst.PEDICLE if measured else MeasuredAgainst.CHANNEL)
+    assert [remark.code for remark in chosen.remarks] == codes
 
 
 @pytest.mark.parametrize(

@@ -78,14 +78,17 @@ def test_marrow_counts_as_bone_and_its_walls_as_none() -> None:
     np.testing.assert_allclose(_side_distances_mm(together(rod(), marrow)), [-3.5, -1.0, 1.0], atol=0.06)
 
 
-def test_a_pore_through_the_cortex_does_not_let_the_outside_in() -> None:
+@pytest.mark.parametrize(("hole_mm", "closes_mm"), [(0.8, 1.0), (2.2, 3.0)])
+def test_a_hole_in_the_cortex_does_not_let_the_outside_in(hole_mm: float, closes_mm: float) -> None:
     marrow = rod(3.5, turned_inside_out=True, shorter_mm=2.0)
-    # Fine triangles, of which a spot as wide as a millimetre is left out, in both walls.
+    # Fine triangles, of which a spot is left out, in both walls.
     fine = _finer(together(rod(), marrow))
     middle = middles_mm(fine)
-    pore = (np.hypot(middle[:, 1], middle[:, 0]) < 0.8) & (middle[:, 2] > 0.0)
-    assert pore.sum() > 3
-    np.testing.assert_allclose(_side_distances_mm(without_faces(fine, pore)), [-3.5, -1.0, 1.0], atol=0.06)
+    hole = (np.hypot(middle[:, 1], middle[:, 0]) < hole_mm) & (middle[:, 2] > 0.0)
+    assert hole.sum() > 3
+    holed = without_faces(fine, hole)
+    np.testing.assert_allclose(_side_distances_mm(holed), [-3.5, -1.0, 1.0], atol=0.06)
+    assert field_of_bone(holed, ROD_CHANNEL, margin_mm=15.0).closes_mm <= closes_mm
 
 
 def _finer(surface: Surface) -> Surface:

@@ -1,0 +1,89 @@
+"""Where a thin straight bar may be: two edges side by side that face away from each other."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.geometry import Array
+
+Image8 = npt.NDArray[np.uint8]
+SHORTEST_EDGE_PX = 7.0
+MOST_SKEW_DEG = 7.0
+LEAST_SHARED_PX = 6.0
+SAME_PX, SAME_DEG = 2.5, 6.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bar:
+    """A piece of a bar.
+
+    Attributes:
+        middle_px: (2,), on its middle line.
+        along: (2,), unit.
+        width_px: from edge to edge.
+        length_px: over which both edges were seen.
+    """
+
+    middle_px: Array
+    along: Array
+    width_px: float
+    length_px: float
+
+
+def bars(grey: Image8, narrowest_px: float, widest_px: float) -> list[Bar]:
+    """Pieces of bars of such a width in a grey image (h, w), the longest first, each bar once."""
+    found: object = cv2.createLineSegmentDetector(cv2.LSD_REFINE_STD).detect(grey)[0]
+    if found is None:
+        return []
+    edges = np.asarray(found, dtype=np.float64).reshape(-1, 4)
+    line = edges[:, 2:] - edges[:, :2]
+    length = np.hypot(line[:, 0], line[:, 1])
+    edges, line, length = (one[length >= SHORTEST_EDGE_PX] for one in (edges, line, length))
+    along = line / length[:, None]
+    pieces = []
+    for n in range(len(edges)):
+        start, way, beside = edges[n, :2], along[n], np.array([-along[n, 1], along[n, 0]])
+        # An edge's direction tells its bright side, so the other edge of a bar runs the other way.
+        facing = along @ way < -np.cos(np.radians(MOST_SKEW_DEG))
+        first, second = (edges[:, :2] - start) @ way, (edges[:, 2:] - start) @ way
+        low = np.maximum(np.minimum(first, second), 0.0)
+        high = np.minimum(np.maximum(first, second), length[n])
+        middle = 0.5 * (edges[:, :2] + edges[:, 2:])
+        # The distance where both are, so that a slight skew over a long way does not count.
+        shared = start + (0.5 * (low + high))[:, None] * way
+        at = np.einsum("ij,ij->i", shared - middle, -along)
+        width = (middle - at[:, None] * along - shared) @ beside
+        good = facing & (high - low >= LEAST_SHARED_PX)
+        good &= (np.abs(width) >= narrowest_px) & (np.abs(width) <= widest_px)
+        for m in np.flatnonzero(good):
+            if m > n:
+                mean = way - along[m]
+                pieces.append(
+                    Bar(
+                        middle_px=shared[m] + 0.5 * width[m] * beside,
+                        along=mean / np.linalg.norm(mean),
+                        width_px=float(abs(width[m])),
+                        length_px=float(high[m] - low[m]),
+                    )
+                )
+    return _each_once(sorted(pieces, key=lambda one: -one.length_px))
+
+
+def is_on(bar: Bar, middle_px: Array, along: Array) -> bool:
+    """Whether a straight line through a point (2,) is that of the bar."""
+    beside = np.array([-bar.along[1], bar.along[0]])
+    turned = abs(float(along @ beside))
+    return abs(float((middle_px - bar.middle_px) @ beside)) < SAME_PX and turned < np.sin(
+        np.radians(SAME_DEG)
+    )
+
+
+def _each_once(pieces: list[Bar]) -> list[Bar]:
+    kept: list[Bar] = []
+    for piece in pieces:
+        near = [one for one in kept if np.linalg.norm(one.middle_px - piece.middle_px) < 60.0]
+        if not any(is_on(one, piece.middle_px, piece.along) for one in near):
+            kept.append(piece)
+    return kept

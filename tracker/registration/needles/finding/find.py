@@ -1,0 +1,252 @@
+"""Thin straight bars with a head, ranked; what does not look like a needle is not claimed."""
+
+import dataclasses
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from tracker.camera import CameraModel
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+from tracker.registration.needles.finding.bars import Bar, bars, is_on
+from tracker.registration.needles.finding.head import head_length_px
+from tracker.registration.needles.finding.sections import Sections, cut
+from tracker.registration.needles.seen import NeedleSeen
+from tracker.registration.needles.view import View
+
+Image8 = npt.NDArray[np.uint8]
+LONGEST_PX, LONGEST_GAP_PX = 400.0, 14
+UP_PX = (0.0, -1.0)
+LEAST_LENGTH_IN_WIDTHS = 14.0
+# Bare metal has hardly a colour of its own, and a wire has one shade all along but for its shine.
+MOST_COLOUR_RATIO, MOST_SHADE_CHANGE = 0.25, 45.0
+MOST_PIECES = 120
+LEAST_WHOLE_RATIO = 0.7
+MOST_BEND_PX = 0.6
+# Noise alone would make the line far surer; uneven light on a wire moves both sides alike.
+LEAST_ACROSS_SD_PX, ALONG_SD_PX = 0.3, 2.0
+NEAR_PX, NEAR_DEG = 12.0, 12.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WidthRange:
+    """How wide a needle's wire may be in the image, in px."""
+
+    narrowest_px: float = 2.5
+    widest_px: float = 9.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundNeedle:
+    """What looks like a needle.
+
+    Attributes:
+        seen: the same as a person would have marked it; where it goes into the bone is not claimed.
+        score_ratio: 0..1, how much it looks like a whole, straight wire with a head.
+        has_head: whether it ends in something wider.
+        whole_ratio: share of its length on which both sides are seen.
+        bend_px: RMS of its middle about the straight line.
+    """
+
+    seen: NeedleSeen
+    score_ratio: float
+    has_head: bool
+    whole_ratio: float
+    bend_px: float
+
+
+def expected_width_px(view: View, camera: CameraModel, *, radius_mm: float = 0.8) -> WidthRange:
+    """How wide a wire of this radius is at the measured distance, with room for another depth."""
+    width = 2.0 * radius_mm * float(camera.matrix[0, 0]) / view.distance_mm
+    return WidthRange(narrowest_px=max(1.5, 0.65 * width), widest_px=max(4.0, 1.4 * width))
+
+
+def find_needles(
+    image: npt.ArrayLike,
+    camera: CameraModel,
+    *,
+    width: WidthRange | None = None,
+    near: NeedleSeen | None = None,
+    heads_to: npt.ArrayLike = UP_PX,
+) -> tuple[FoundNeedle, ...]:
+    """Everything in the image that looks like a needle, the likeliest first; empty where nothing does.
+
+    Args:
+        image: (h, w, 3) BGR or (h, w) grey, uint8.
+        camera: calibrated; its lens bends a straight wire.
+        width: of the wire.
+        heads_to: (2,), in which direction of the image the heads are; up, where the patient lies prone.
+        near: roughly where a needle is, as a person marked it; only what lies there is told.
+
+    Raises:
+        InvalidInput: IMAGE_INVALID.
+    """
+    picture = _checked(image, camera)
+    span = width or WidthRange()
+    heads = np.asarray(heads_to, dtype=np.float64).reshape(2)
+    grey = np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY), dtype=np.uint8)
+    found: list[tuple[Bar, FoundNeedle]] = []
+    pieces = bars(grey, span.narrowest_px, span.widest_px)
+    likely = [bar for bar in pieces if _is_metal(picture, bar) and (near is None or _is_near(bar, near))]
+    for bar in likely[:MOST_PIECES]:
+        if any(is_on(one, bar.middle_px, bar.along) for one, _ in found):
+            continue
+        needle = _needle(picture, camera, bar, heads)
+        if needle is not None:
+            found.append((_bar_of(needle), needle))
+    return tuple(_each_once(sorted((one for _, one in found), key=lambda one: -one.score_ratio)))
+
+
+def _needle(picture: Image8, camera: CameraModel, bar: Bar, heads_to: Array) -> FoundNeedle | None:
+    """The whole needle of which a piece was seen; None where it is none."""
+    middle, along, width = bar.middle_px, bar.along, bar.width_px
+    span = (-bar.length_px, bar.length_px)
+    for _ in range(3):
+        sections = cut(picture, middle, along, width, max(span[0], -LONGEST_PX), min(span[1], LONGEST_PX))
+        sections = _of_one_shade(sections)
+        run = _run(sections)
+        if run.stop - run.start < 6:
+            return None
+        good = np.flatnonzero(sections.is_bar[run]) + run.start
+        slope, shift = np.polyfit(sections.at_px[good], sections.off_px[good], 1)
+        beside = np.array([-along[1], along[0]])
+        width = float(np.median(sections.width_px[good]))
+        at = 0.5 * (sections.at_px[run.start] + sections.at_px[run.stop - 1])
+        middle = middle + at * along + (slope * at + shift) * beside
+        along = along + slope * beside
+        along /= np.linalg.norm(along)
+        half = 0.5 * (run.stop - run.start)
+        span = (-half - 60.0, half + 60.0)
+    sections = cut(picture, middle, along, width, max(span[0], -LONGEST_PX), min(span[1], LONGEST_PX))
+    return _judged(picture, camera, sections, (middle, along, width), heads_to)
+
+
+def _judged(
+    picture: Image8,
+    camera: CameraModel,
+    sections: Sections,
+    line: tuple[Array, Array, float],
+    heads_to: Array,
+) -> FoundNeedle | None:
+    middle, along, width = line
+    sections = _of_one_shade(sections)
+    run = _run(sections)
+    good = np.flatnonzero(sections.is_bar[run]) + run.start
+    length = float(run.stop - run.start)
+    if length < LEAST_LENGTH_IN_WIDTHS * width or len(good) < LEAST_WHOLE_RATIO * length:
+        return None
+    beside = np.array([-along[1], along[0]])
+    points = middle + sections.at_px[good, None] * along + sections.off_px[good, None] * beside
+    ends, bend = _straight(camera, points)
+    if bend > MOST_BEND_PX:
+        return None
+    if (ends[1] - ends[0]) @ heads_to < 0.0:
+        ends = ends[::-1]
+    has_head = head_length_px(picture, ends[1], ends[1] - ends[0], width) > 0.0
+    whole = len(good) / length
+    spread = float(np.std(sections.width_px[good]) / width)
+    score = (
+        whole * (1.0 - bend / (2.0 * MOST_BEND_PX)) * (1.0 - min(spread, 0.5)) * (1.0 if has_head else 0.5)
+    )
+    seen = NeedleSeen(
+        entry_px=ends[0],
+        head_px=ends[1],
+        across_sd_px=max(LEAST_ACROSS_SD_PX, 3.0 * bend / np.sqrt(len(good))),
+        along_sd_px=ALONG_SD_PX,
+        width_px=width,
+    )
+    return FoundNeedle(seen=seen, score_ratio=score, has_head=has_head, whole_ratio=whole, bend_px=bend)
+
+
+def _straight(camera: CameraModel, points_px: Array) -> tuple[Array, float]:
+    """Both ends (2, 2) px of the line that is straight in space, and the RMS of the points about it."""
+    focal = np.diag(camera.matrix)[:2]
+    flat = camera.normalised_from_px(points_px) * focal
+    centre = flat.mean(axis=0)
+    _, _, axes = np.linalg.svd(flat - centre)
+    along, off = (flat - centre) @ axes[0], (flat - centre) @ axes[1]
+    ends = centre + np.array([along.min(), along.max()])[:, None] * axes[0]
+    back = camera.px_from_camera(np.column_stack([ends / focal, np.ones(2)]))
+    return back, float(np.sqrt(np.mean(off**2)))
+
+
+def _is_metal(picture: Image8, bar: Bar) -> bool:
+    """Whether a piece of a bar is as grey as metal; a grey image cannot tell."""
+    at = np.linspace(-0.4, 0.4, 9)[:, None] * bar.length_px * bar.along + bar.middle_px
+    column, row = np.rint(at).astype(int).T
+    height, width = picture.shape[:2]
+    colour = picture[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)].astype(np.float64)
+    middle = np.median(colour, axis=0)
+    return bool(np.ptp(middle) <= MOST_COLOUR_RATIO * max(float(middle.max()), 40.0))
+
+
+def _of_one_shade(sections: Sections) -> Sections:
+    """The same, where what is not of the bar's own shade is not the bar."""
+    if not sections.is_bar.any():
+        return sections
+    own = np.median(sections.inside[sections.is_bar], axis=0)
+    off = np.linalg.norm(sections.inside - own, axis=1) / np.sqrt(3.0)
+    colour = np.ptp(sections.inside, axis=1) / np.maximum(sections.inside.max(axis=1), 40.0)
+    alike = (off < MOST_SHADE_CHANGE) & (colour < 1.5 * MOST_COLOUR_RATIO)
+    return dataclasses.replace(sections, is_bar=sections.is_bar & alike)
+
+
+def _run(sections: Sections) -> slice:
+    """The cuts from end to end of the bar around the middle; short gaps are bridged."""
+    good = np.flatnonzero(sections.is_bar)
+    if not len(good):
+        return slice(0, 0)
+    breaks = np.flatnonzero(np.diff(good) > LONGEST_GAP_PX)
+    starts, stops = np.append(0, breaks + 1), np.append(breaks + 1, len(good))
+    # The longest piece, not the nearest: the seed may lie on a stretch with little contrast.
+    best = int(np.argmax(stops - starts))
+    return slice(int(good[starts[best]]), int(good[stops[best] - 1]) + 1)
+
+
+def _bar_of(needle: FoundNeedle) -> Bar:
+    line = needle.seen.head_px - needle.seen.entry_px
+    length = float(np.linalg.norm(line))
+    return Bar(
+        middle_px=0.5 * (needle.seen.head_px + needle.seen.entry_px),
+        along=line / length,
+        width_px=needle.seen.width_px,
+        length_px=length,
+    )
+
+
+def _each_once(found: list[FoundNeedle]) -> list[FoundNeedle]:
+    kept: list[FoundNeedle] = []
+    for one in found:
+        bar = _bar_of(one)
+        if not any(is_on(_bar_of(other), bar.middle_px, bar.along) for other in kept):
+            kept.append(one)
+    return kept
+
+
+def _is_near(bar: Bar, near: NeedleSeen) -> bool:
+    line = near.head_px - near.entry_px
+    along = line / np.linalg.norm(line)
+    beside = np.array([-along[1], along[0]])
+    off = bar.middle_px - near.entry_px
+    return (
+        abs(float(off @ beside)) < NEAR_PX
+        and -NEAR_PX < float(off @ along) < near.length_px + NEAR_PX
+        and abs(float(bar.along @ beside)) < np.sin(np.radians(NEAR_DEG))
+    )
+
+
+def _checked(image: npt.ArrayLike, camera: CameraModel) -> Image8:
+    picture = np.asarray(image)
+    width, height = camera.size_wh_px
+    if picture.dtype != np.uint8 or picture.shape not in {(height, width), (height, width, 3)}:
+        raise InvalidInput(
+            "IMAGE_INVALID",
+            f"the image is {picture.dtype} of shape {picture.shape}, needed uint8 of {height} rows and "
+            f"{width} columns, grey or BGR",
+            "Give an image of the camera that was calibrated.",
+        )
+    if picture.ndim == 2:
+        return np.asarray(cv2.cvtColor(picture, cv2.COLOR_GRAY2BGR), dtype=np.uint8)
+    return picture
