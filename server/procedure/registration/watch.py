@@ -1,4 +1,4 @@
-"""Withdraws a registration, or its check, when tracking goes on saying that camera or reference were moved."""
+"""Withdraws a registration, or its check, when tracking keeps saying that camera or reference were moved."""
 
 import structlog
 
