@@ -48,7 +48,6 @@ class Guiding:
         self._jobs = jobs
         self._lock = threading.Lock()
         self._made: tuple[tuple[str, ...], Guide] | None = None
-        self._begun: tuple[str, ...] = ()
         # Called when a better guide is there than was handed out.
         self.tell: Callable[[], None] = lambda: None
 
@@ -58,24 +57,21 @@ class Guiding:
         Where the case has a surface of the bone, the distances to it are measured in a job, which calls
         `tell` at its end; until then the pedicle's outline is the wall, or the channel.
         """
-        try:
-            planned = self._planned(active)
-        except NavigationError as error:
-            log.warning(error.message, code=error.code, remedy=error.remedy, document=active.title)
-            return None
         surface = self._surface(active.case_id)
         key = (active.id, "" if surface is None else surface.id)
         with self._lock:
             if self._made is not None and self._made[0] == key:
                 return self._made[1]
-            is_begun = self._begun == key
-            self._begun = key
+        try:
+            planned = self._planned(active)
+        except NavigationError as error:
+            log.warning(error.message, code=error.code, remedy=error.remedy, document=active.title)
+            return None
         plain = choose_wall(planned.active.channel, None, planned.measure, radius_mm=USUAL_RADIUS_MM)
         guide = _guide(planned, plain)
-        if surface is None:
-            with self._lock:
-                self._made = (key, guide)
-        elif not is_begun:
+        with self._lock:
+            self._made = (key, guide)
+        if surface is not None:
             self._measure(key, planned, guide, surface)
         return guide
 
@@ -84,7 +80,8 @@ class Guiding:
             if not isinstance(chosen, ChosenWall):
                 raise TypeError(f"a wall gave {type(chosen).__name__}")
             with self._lock:
-                if self._begun != key:
+                if self._made is None or self._made[0] != key:
+                    # Another channel is drilled by now, or the bone has another surface.
                     return {"in_use": False}
                 self._made = (key, replace(guide, wall=chosen.wall))
             for remark in chosen.remarks:

@@ -10,6 +10,7 @@ from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
 from server.procedure.ct import CtStep, OpenedCt
+from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
 from server.procedure.plan import PlanStep
 from server.procedure.registration import RegistrationSteps
@@ -72,7 +73,8 @@ class Steps:
         brought = brought_by(config)
         source = brought.source
         procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
-        in_use = CaseInUse(store, adopt, procedure=procedure, brought=brought)
+        guiding = Guiding(store=store, jobs=jobs)
+        in_use = CaseInUse(store, adopt, procedure=procedure, guiding=guiding, brought=brought)
         store.call_after_writing(in_use.refresh)
         # A case that was open when the server stopped is open again.
         in_use.refresh()
