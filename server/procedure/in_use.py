@@ -1,12 +1,15 @@
 """What the open case knows, kept in use: each change of it reaches the tracking process at once."""
 
 import threading
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import structlog
 
+from server.alarms import ProcedureFacts
 from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.facts import facts_of
 from server.procedure.guiding import Guiding
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.registered import (
@@ -44,6 +47,7 @@ class CaseInUse:
         guiding: what the drill is held against.
         brought: by the settings: a calibration of another camera's source, or what is fixed to another
             reference, is not used.
+        know: told what the alarms shall know of the procedure, whenever the case has changed.
     """
 
     def __init__(
@@ -54,6 +58,7 @@ class CaseInUse:
         procedure: Procedure,
         guiding: Guiding,
         brought: Brought,
+        know: Callable[[ProcedureFacts], None],
     ) -> None:
         self._store = store
         self._adopt = adopt
@@ -61,6 +66,7 @@ class CaseInUse:
         self._brought = brought
         self._lock = threading.Lock()
         self._guiding = guiding
+        self._know = know
         self._in_use: tuple[tuple[str, ...], Guide | None] = ((), None)
         guiding.tell = self.refresh
 
@@ -74,6 +80,7 @@ class CaseInUse:
             if ids != self._in_use[0] or guide is not self._in_use[1]:
                 self._adopt(replace(self._setup_of(documents), guide=guide))
                 self._in_use = (ids, guide)
+                self._know(facts_of(self._procedure.state(), now_s=time.monotonic()))
 
     def _documents(self) -> list[Document]:
         """What of the open case holds and says something of the set-up."""
