@@ -29,7 +29,7 @@ from tracker.plan.volume import Volume
 WALL_SD_VOXELS = 0.3
 USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
-LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
+LEAST_FACED, LEAST_FACED_SD, ENDPLATE_RATIO = 0.5, 0.15, 0.7
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
 BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
@@ -111,7 +111,7 @@ def _along_course(
     own_weight = 1.0 / np.square(isthmus.slope_sd_deg)
     course_weight = 1.0 / np.square([course.transverse_sd_deg, course.sagittal_sd_deg])
     both = (own_weight * own + course_weight * expected) / (own_weight + course_weight)
-    spread = 1.0 / np.sqrt(own_weight + course_weight)
+    spread = np.hypot(1.0 / np.sqrt(own_weight + course_weight), isthmus.bent_sd_deg)
     axis = axis_from_angles(side, transverse_deg=float(both[0]), sagittal_deg=float(both[1]))
     turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
     if turned_deg >= TURNED_DEG:
@@ -233,10 +233,12 @@ def _fit_warnings(
 
 
 def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
-    """Each wall's own spread, and what the axis's spread makes of it where the wall is met aslant."""
-    parts = [wall_sd_mm, wall_sd_mm]
+    """Each wall's own spread and the axis's, and what they make along the axis of a wall met aslant."""
+    parts = []
     for wall in (front, back):
-        aslant = np.sqrt(max(1.0 - wall.faced_ratio**2, 0.0)) / max(wall.faced_ratio, LEAST_FACED)
+        faced = max(abs(wall.faced_ratio), LEAST_FACED_SD)
+        aslant = np.sqrt(1.0 - min(faced, 1.0) ** 2) / max(faced, LEAST_FACED)
+        parts.append(wall_sd_mm / faced)
         parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
         parts.append(wall.sd_mm)
     return float(np.linalg.norm(parts))
