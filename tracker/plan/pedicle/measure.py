@@ -12,6 +12,7 @@ from tracker.plan.pedicle.fit import FittedBar, fit_bar
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.record import (
+    LEAST_AHEAD_MM,
     PedicleMeasure,
     PedicleSpread,
     Side,
@@ -181,8 +182,15 @@ def _record(
             length_mm=_length_sd_mm(front, back, isthmus, WALL_SD_VOXELS * voxel),
             isthmus_mm=isthmus.centre_sd_mm,
         ),
+        opens_ahead_mm=_opens_ahead_mm(bar, isthmus),
         warnings=tuple(warnings),
     )
+
+
+def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
+    """From the isthmus to where the bar opens, or as far as it was followed."""
+    ahead = float((bar.centre_mm - isthmus.centre_mm) @ isthmus.axis) + bar.ahead_mm
+    return max(ahead, LEAST_AHEAD_MM)
 
 
 def _voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
