@@ -112,7 +112,8 @@ def _along_course(
     own_weight = 1.0 / np.square(isthmus.slope_sd_deg)
     course_weight = 1.0 / np.square([course.transverse_sd_deg, course.sagittal_sd_deg])
     both = (own_weight * own + course_weight * expected) / (own_weight + course_weight)
-    spread = np.hypot(1.0 / np.sqrt(own_weight + course_weight), isthmus.bent_sd_deg)
+    own_share = own_weight / (own_weight + course_weight)
+    spread = np.hypot(1.0 / np.sqrt(own_weight + course_weight), own_share * isthmus.bent_sd_deg)
     axis = axis_from_angles(side, transverse_deg=float(both[0]), sagittal_deg=float(both[1]))
     turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
     if turned_deg >= TURNED_DEG:
