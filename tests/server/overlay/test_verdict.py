@@ -65,7 +65,7 @@ def _drawn(verdict: Verdict) -> Image:
 
 
 def test_without_colour_the_shapes_still_differ() -> None:
-    inked = [(_drawn(verdict) > 60).all(axis=2)[48:100, 10:58] for verdict in Verdict]
+    inked = [np.asarray(_drawn(verdict) > 60).all(axis=2)[48:100, 10:58] for verdict in Verdict]
     for index, shape in enumerate(inked):
         for other in inked[index + 1 :]:
             assert (shape != other).mean() > 0.03
