@@ -93,13 +93,7 @@ class Steps:
             camera=CameraStep(
                 hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source
             ),
-            tool=ToolStep(
-                hub=hub,
-                store=store,
-                gate=ToolGate(**config.tool_calibration.model_dump()),
-                side_mm_from_marker=side_mm_from_marker,
-                tools=config.tools,
-            ),
+            tool=_tool_step(hub, store, config, side_mm_from_marker),
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
             plan=plan,
@@ -121,6 +115,18 @@ class Steps:
         self.camera.end()
         self.tool.end()
         self.registration.close()
+
+
+def _tool_step(
+    hub: LiveHub, store: CaseStore, config: Config, side_mm_from_marker: Mapping[str, float]
+) -> ToolStep:
+    return ToolStep(
+        hub=hub,
+        store=store,
+        gate=ToolGate(**config.tool_calibration.model_dump()),
+        side_mm_from_marker=side_mm_from_marker,
+        tools=config.tools,
+    )
 
 
 def _keep_in_use(in_use: CaseInUse, store: CaseStore) -> None:
