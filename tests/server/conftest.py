@@ -89,6 +89,7 @@ def make_snapshot(
     with_tool: bool = True,
     pose_variance: float = 1e-4,
     watched: Watched | None = None,
+    judged: bool = False,
     camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
     image_number: int = 0,
     captured_at_s: float = 0.0,
@@ -116,7 +117,7 @@ def make_snapshot(
         size_wh_px=size_wh_px,
         stage_ms={"edges": 3.0, "pose": 1.0},
         skipped_images=0,
-        guide=_guide(),
+        guide=_guide() if judged else None,
         watched=watched or Watched(),
     )
 
