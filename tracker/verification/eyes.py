@@ -91,9 +91,7 @@ class Eyes:
                 touched=truth.touched,
             )
             watched = {
-                anchor: watching.take(
-                    self._setup(anchor), image, look.sightings_for(anchor), at_s=self._at_s
-                )
+                anchor: watching.take(self._setup(anchor), image, look.sightings_for(anchor), at_s=self._at_s)
                 for anchor, watching in self._watching.items()
             }
             found.append(replace(look, watched=watched))

@@ -18,7 +18,9 @@ LONGEST_HIDDEN_MM = 30.0
 BEFORE_MM = np.arange(0.3, 80.0, 0.4)
 
 
-def calibrated_tool(tool: ToolModel, settings: VerificationSettings, random: np.random.Generator) -> ToolModel:
+def calibrated_tool(
+    tool: ToolModel, settings: VerificationSettings, random: np.random.Generator
+) -> ToolModel:
     """The tool as a calibration knows it, which states its own spread."""
     true = tool.marker_from_tool
     lean = np.append(random.normal(0.0, np.radians(settings.axis_sd_deg), 2), 0.0)
@@ -38,9 +40,7 @@ def marked_on_ct(points_mm: Array, sd_mm: float, random: np.random.Generator) ->
     return np.asarray(points_mm + random.normal(0.0, sd_mm, np.shape(points_mm)))
 
 
-def measured_by_ruler(
-    theatre: Theatre, middle_mm: Array, random: np.random.Generator
-) -> MeasuredView:
+def measured_by_ruler(theatre: Theatre, middle_mm: Array, random: np.random.Generator) -> MeasuredView:
     """V, H and azimuth as measured to the needles' middle (3,), on a patient who hardly lies flat."""
     stated = MeasuredView(vertical_mm=1.0, horizontal_mm=1.0)
     lying = rotation_from_vector(random.normal(0.0, np.radians(stated.lying_sd_deg), 3))
@@ -57,7 +57,7 @@ def measured_by_ruler(
 def clicked(
     theatre: Theatre, needle: Needle, settings: VerificationSettings, random: np.random.Generator
 ) -> NeedleSeen:
-    """A needle as somebody marks it in the image: from where it comes out of or from behind bone, to its head."""
+    """A needle as somebody marks it in the image: from where bone shows it to its head."""
     entry = needle_entries((needle,))[0]
     way = needle.head_in_vertebra_mm - entry
     length_mm = float(np.linalg.norm(way))
