@@ -3,6 +3,7 @@
 import json
 import multiprocessing
 import os
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -54,7 +55,7 @@ def verify_theatres(
         value = {"seed": seed, **figures_value(figures, settings)}
         if with_rows:
             value["rows"] = [row for theatre in found for row in row_values(theatre)]
-        print(json.dumps(value, allow_nan=False))
+        sys.stdout.write(json.dumps(value, allow_nan=False) + "\n")
     else:
         console = Console(width=None if Console().is_terminal else 150)
         for table in tables_of(figures, settings):

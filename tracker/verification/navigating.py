@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracker.navigation import Absent, Guide, NavigationSnapshot, Setup, navigate
+from tracker.navigation import Absent, AbsentReason, Guide, NavigationSnapshot, Setup, navigate
 from tracker.navigation.certainty import Placed
 from tracker.navigation.clearance import drill_rings
 from tracker.navigation.guide import placed_tool
@@ -129,15 +129,18 @@ def _against(
 ) -> tuple[str, HeldTool | None]:
     """Why nothing is shown, or what is shown against the truth."""
     deviation, vertebra = snapshot.deviations[tool.name], snapshot.vertebra
+    seen = look.sightings[tool.marker]
     if isinstance(deviation, Absent):
         return deviation.reason.value, None
-    seen = look.sightings[tool.marker]
-    if isinstance(vertebra, Absent) or not isinstance(seen, Seen):
-        raise RuntimeError("a deviation is shown without marker or vertebra")
+    if isinstance(vertebra, Absent):
+        return vertebra.reason.value, None
+    if not isinstance(seen, Seen):
+        return AbsentReason.MARKER_UNSEEN.value, None
     shown = placed_tool(
         Placed(pose=vertebra.camera_from_vertebra, covariance=vertebra.covariance),
         Placed(pose=seen.camera_from_marker, covariance=seen.pose_covariance),
         tool,
+        tip_slope=vertebra.tip_slope_for(tool),
     )
     return "", held(shown, look.vertebra_from_tool, channel)
 
