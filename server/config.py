@@ -154,10 +154,17 @@ class RegistrationConfig(Section):
     """RMS distance of the landmarks from where the fit lays them."""
     most_tre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
     """The stated error (3-D RMS) at the entry point of every channel of the vertebra."""
-    capture_images: Annotated[int, Field(ge=3, le=300)] = 15
+    most_left_out_mm: Annotated[float, Field(gt=0.0, le=50.0)] = 5.0
+    """Distance of any landmark from where all the others have it; known of four and more."""
+    capture_images: Annotated[int, Field(ge=3, le=300)] = 12
     """Images in a row in which the tip rests on a landmark, and is seen in all of them."""
-    most_capture_spread_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0
-    """RMS distance of the tip from its mean in these images."""
+    capture_s: Annotated[float, Field(ge=0.05, le=10.0)] = 0.4
+    """How long they last at least, so that a hand's tremor is in them."""
+    most_capture_sd_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 0.4
+    """Standard deviation of the tip in them, along its worst axis."""
+    most_nudge_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
+    """How far all nudges by hand together may lead, between the entry points."""
+    most_nudge_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
     check_required: bool = True
     """false: navigate by a registration that was not checked on a landmark."""
     most_check_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0

@@ -1,5 +1,6 @@
 """A registration, and its check on anatomy, as a case keeps them."""
 
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -10,10 +11,42 @@ from server.store import Document
 from tracker.errors import InvalidInput, NavigationError, RegistrationError
 from tracker.geometry import Rigid
 from tracker.registration import AnchoredTo, Method, Registration
+from tracker.registration.nudge import NudgeAxis, NudgeKind
 
 Row4 = Annotated[list[float], Field(min_length=4, max_length=4)]
 Row6 = Annotated[list[float], Field(min_length=6, max_length=6)]
 Value = float | int | bool | str | None
+
+
+class KeptNudge(Section):
+    """One nudge by hand."""
+
+    kind: NudgeKind
+    axis: NudgeAxis
+    amount: float
+    """mm or degrees, with its sign."""
+    made_by: str
+    made_at: str
+    """UTC, ISO 8601 with milliseconds."""
+
+
+class KeptNudges(Section):
+    """A registration before it was nudged, and what was nudged since."""
+
+    anchor_from_vertebra: Annotated[list[Row4], Field(min_length=4, max_length=4)]
+    covariance: Annotated[list[Row6], Field(min_length=6, max_length=6)]
+    pivot_lps_mm: Annotated[list[float], Field(min_length=3, max_length=3)]
+    """About which it is turned: between the entry points."""
+    nudges: list[KeptNudge]
+    """The oldest first."""
+
+    def made(self, nudged: Registration) -> Registration:
+        """The registration as it was before."""
+        return replace(
+            nudged,
+            anchor_from_vertebra=Rigid.from_matrix(self.anchor_from_vertebra),
+            covariance=np.array(self.covariance),
+        )
 
 
 class KeptRegistration(Section):
@@ -33,6 +66,8 @@ class KeptRegistration(Section):
     """Of its gates."""
     made_from: dict[str, object]
     """The points, needles or sweep behind it."""
+    nudged: KeptNudges | None = None
+    """What was nudged by hand since; null where nothing was."""
 
     @classmethod
     def of(
@@ -86,10 +121,10 @@ class KeptCheck(Section):
     passed: bool
     run: str
     """Which run of the server it was made in."""
-    found_in_vertebra_mm: list[float]
-    """Where the registration says that the tip was, LPS."""
-    expected_sd_mm: float
-    """The distance that the stated uncertainty makes likely (root of the sum of variances)."""
+    off_lps_mm: list[float]
+    """Where the registration has the tip, minus the landmark: to the left, the back, the head."""
+    sd_mm: float
+    """How unsure that distance is (3-D RMS), by what registration and tip state."""
     images: int
 
 

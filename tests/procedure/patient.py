@@ -9,9 +9,12 @@ from server.store import DocumentKind
 from tests.procedure.conftest import Server
 from tests.procedure.test_tool_step import calibrated
 from tracker.geometry import Array, Camera, Marker, Rigid, Vertebra, rotation_from_vector
+from tracker.navigation import AbsentReason
 from tracker.plan import Channel, Landmark, PlanDocument, plan_to_mapping
 from tracker.plan.document import PlannedChannel, VertebraPlan
+from tracker.plan.pedicle import Side
 from tracker.pose import Seen
+from tracker.registration import Registration
 
 BY = {"made_by": "ito"}
 DRILL = {"tool": "drill"}
@@ -26,6 +29,7 @@ LANDMARKS = {
 USED = list(LANDMARKS)[:4]
 SPARE = list(LANDMARKS)[4]
 CAMERA_FROM_VERTEBRA: Rigid[Camera, Vertebra] = Rigid.from_vector([1.3, 0.2, -0.1], [12.0, -20.0, 460.0])
+SIDES: tuple[tuple[Side, float], ...] = (("left", 1.0), ("right", -1.0))
 # Facing the camera, with its tool hanging down from it.
 FACING = rotation_from_vector([np.pi, 0.0, 0.0])
 
@@ -87,7 +91,7 @@ def plan_content(*vertebrae: str, shift_mm: float = 0.0) -> dict[str, Any]:
                                 radius_mm=3.0,
                             ),
                         )
-                        for side, way in (("left", 1.0), ("right", -1.0))
+                        for side, way in SIDES
                     ),
                     landmarks=tuple(
                         Landmark(name=one, point_lps_mm=np.array(point)) for one, point in LANDMARKS.items()
@@ -181,6 +185,16 @@ def ready(server: Server, *vertebrae: str) -> str:
     with_plan(server, case_id, *vertebrae)
     activate(server)
     return case_id
+
+
+def withheld(server: Server) -> AbsentReason | None:
+    """Why the tracking process gives no numbers."""
+    return server.adopted[-1].withheld
+
+
+def registered(server: Server) -> Registration | None:
+    """What the tracking process navigates by."""
+    return server.adopted[-1].registration
 
 
 def states(server: Server) -> dict[str, str]:

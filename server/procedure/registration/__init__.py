@@ -2,6 +2,7 @@
 
 from server.procedure.registration.check import CheckSession, CheckStatus, CheckStep
 from server.procedure.registration.ground import Ground, GroundFinder
+from server.procedure.registration.nudging import NudgesStatus, NudgeStep
 from server.procedure.registration.points import PointsStep, TargetError, target_errors
 from server.procedure.registration.session import PointsSession, PointsStatus, residuals_mm
 from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
@@ -14,6 +15,8 @@ __all__ = [
     "CheckStep",
     "Ground",
     "GroundFinder",
+    "NudgeStep",
+    "NudgesStatus",
     "PointsSession",
     "PointsStatus",
     "PointsStep",

@@ -11,8 +11,8 @@ from server.procedure.registration.ground import Ground
 from server.procedure.registration.touching import Touch, TouchState, TouchStatus
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
+from tracker.registration.capture import CapturedLandmark, CaptureSettings
 from tracker.registration.points import PairedPoints, PointRegistration, register_points
-from tracker.registration.touch import Touched, TouchGate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +28,7 @@ class TouchedLandmark:
 
     name: str
     point_lps_mm: Array
-    touched: Touched | None
+    touched: CapturedLandmark | None
     used: bool
 
 
@@ -59,12 +59,12 @@ class PointsStatus:
 class PointsSession:
     """Holds what was touched until it is concluded or thrown away; may be asked from any thread."""
 
-    def __init__(self, hub: LiveHub, ground: Ground, gate: TouchGate) -> None:
+    def __init__(self, hub: LiveHub, ground: Ground, gate: CaptureSettings) -> None:
         self.ground = ground
         self._hub = hub
         self._gate = gate
         self._lock = threading.Lock()
-        self._touched: dict[str, Touched] = {}
+        self._touched: dict[str, CapturedLandmark] = {}
         self._left_out: set[str] = set()
         self._touch: Touch | None = None
 
@@ -178,7 +178,7 @@ def fit_of(landmarks: tuple[TouchedLandmark, ...]) -> PointRegistration:
     return register_points(
         PairedPoints(
             fixed_mm=np.array([one.point_lps_mm for one, _ in pairs]).reshape(-1, 3),
-            moving_mm=np.array([touched.point_mm for _, touched in pairs]).reshape(-1, 3),
+            moving_mm=np.array([touched.tip_in_anchor_mm for _, touched in pairs]).reshape(-1, 3),
             moving_covariances_mm2=np.array([touched.covariance_mm2 for _, touched in pairs]).reshape(
                 -1, 3, 3
             ),

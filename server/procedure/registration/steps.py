@@ -7,6 +7,7 @@ from server.live import LiveHub
 from server.procedure.plan import PlanShelf
 from server.procedure.registration.check import CheckStep
 from server.procedure.registration.ground import GroundFinder
+from server.procedure.registration.nudging import NudgeStep
 from server.procedure.registration.points import PointsStep
 from server.procedure.registration.shelf import RegistrationShelf
 from server.procedure.registration.watch import MoveWatch
@@ -22,12 +23,14 @@ class RegistrationSteps:
         shelf: where registrations lie.
         points: by landmarks that are touched.
         check: on a landmark that was not used.
+        nudge: by hand, in small steps.
         watch: withdraws a registration when camera or reference were moved.
     """
 
     shelf: RegistrationShelf
     points: PointsStep
     check: CheckStep
+    nudge: NudgeStep
     watch: MoveWatch
 
     @classmethod
@@ -50,6 +53,7 @@ class RegistrationSteps:
             check=CheckStep(
                 hub=hub, store=store, grounds=grounds, shelf=shelf, procedure=procedure, gate=gate
             ),
+            nudge=NudgeStep(grounds=grounds, shelf=shelf, gate=gate),
             watch=MoveWatch(hub, store=store, procedure=procedure, after_s=gate.moved_after_s),
         )
 
