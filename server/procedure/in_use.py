@@ -7,7 +7,13 @@ import structlog
 
 from server.procedure.camera import MAIN_CAMERA, kept_camera
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
-from server.procedure.registered import check_name, kept_registration
+from server.procedure.registered import (
+    KeptCheck,
+    KeptRegistration,
+    check_name,
+    kept_check,
+    kept_registration,
+)
 from server.procedure.state import Brought, Procedure
 from server.procedure.tool import kept_tool
 from server.setup import CaseSetup
@@ -17,7 +23,6 @@ from tracker.errors import NavigationError
 from tracker.navigation import AbsentReason
 from tracker.plan import Channel
 from tracker.pose import ToolModel
-from tracker.registration import Registration
 
 log = structlog.get_logger(__name__)
 
@@ -85,7 +90,8 @@ class CaseInUse:
         cameras: dict[str, CameraModel] = {}
         tools: dict[str, ToolModel] = {}
         channel: Channel | None = None
-        registration: Registration | None = None
+        registered: KeptRegistration | None = None
+        check: KeptCheck | None = None
         for document in documents:
             try:
                 if document.kind is DocumentKind.CAMERA:
@@ -93,20 +99,29 @@ class CaseInUse:
                 elif document.kind is DocumentKind.PLAN:
                     channel = kept_channel(document).channel
                 elif document.kind is DocumentKind.REGISTRATION:
-                    kept = kept_registration(document, reference=self._brought.reference)
-                    registration = kept.registration
-                elif document.kind is DocumentKind.TOOL:
+                    registered = kept_registration(document, reference=self._brought.reference)
+                elif document.kind is DocumentKind.CHECK:
+                    check = kept_check(document)
+                else:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        is_withheld = registration is not None and self._procedure.state().waits_for_check
+        is_withheld = registered is not None and self._procedure.state().waits_for_check
         return CaseSetup(
             camera=cameras.get(MAIN_CAMERA),
             tools=tools,
             channel=channel,
-            registration=registration,
+            registration=None if registered is None else registered.registration,
+            registered_from_s=None if registered is None else self._from_s(registered, check),
             withheld=AbsentReason.NOT_CHECKED if is_withheld else None,
         )
+
+    def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:
+        """Since when it stands, by the images' clock: touched, or checked since; None before this run."""
+        run = self._procedure.run
+        if check is not None and check.passed and check.run == run:
+            return check.from_s
+        return registered.from_s if registered.run == run else None
 
 
 def _named(name: str, tool: ToolModel | None) -> Mapping[str, ToolModel]:

@@ -62,6 +62,8 @@ class KeptRegistration(Section):
     covariance: Annotated[list[Row6], Field(min_length=6, max_length=6)]
     run: str
     """Which run of the server it was made in: past its end nobody knows whether a camera was moved."""
+    from_s: float | None = None
+    """When its first point was touched, by the clock of that run's images; null where no tip touched."""
     numbers: dict[str, Value]
     """Of its gates."""
     made_from: dict[str, object]
@@ -79,6 +81,7 @@ class KeptRegistration(Section):
         run: str,
         numbers: dict[str, Value],
         made_from: dict[str, object],
+        from_s: float | None,
     ) -> "KeptRegistration":
         """As it is kept."""
         return cls(
@@ -91,6 +94,7 @@ class KeptRegistration(Section):
             run=run,
             numbers=numbers,
             made_from=made_from,
+            from_s=from_s,
         )
 
     @property
@@ -121,6 +125,8 @@ class KeptCheck(Section):
     passed: bool
     run: str
     """Which run of the server it was made in."""
+    from_s: float
+    """When the tip was first seen on the landmark, by the clock of that run's images."""
     off_lps_mm: list[float]
     """Where the registration has the tip, minus the landmark: to the left, the back, the head."""
     sd_mm: float

@@ -142,6 +142,7 @@ def test_a_check_holds_for_its_time_and_its_run(
             most_mm=2.0,
             passed=passed,
             run=run,
+            from_s=1.0,
             off_lps_mm=[0.0, 0.0, 0.0],
             sd_mm=0.5,
             images=15,

@@ -266,6 +266,29 @@ def test_beside_a_reference_patient_and_camera_may_move_and_the_server_start_aga
     assert states(without)["register"] == "out_of_date"
 
 
+def test_a_move_of_the_reference_asks_for_another_check(server: Server) -> None:
+    case_id = ready(server)
+    patient = Patient(server=server)
+    patient.register()
+    patient.check()
+    checked_from_s = server.adopted[-1].registered_from_s
+    assert checked_from_s is not None
+
+    def withdrawn() -> bool:
+        patient.show(None, moved=AbsentReason.REFERENCE_MOVED)
+        return states(server)["check"] == "out_of_date"
+
+    server.until(withdrawn)
+    assert server.store.latest(case_id, DocumentKind.REGISTRATION, "L3") is not None
+    server.until(lambda: withheld(server) is AbsentReason.NOT_CHECKED)
+    patient.check()
+    assert withheld(server) is None
+    # What moved before this check counts no more.
+    again_from_s = server.adopted[-1].registered_from_s
+    assert again_from_s is not None
+    assert again_from_s > checked_from_s
+
+
 def test_a_move_of_the_camera_withdraws_the_registration_once_it_lasts(server: Server) -> None:
     case_id = ready(server)
     patient = Patient(server=server)

@@ -69,23 +69,24 @@ class CheckSession:
             vertebra=self.ground.vertebra.name,
             tool=self.ground.tool,
             capture=capture,
-            outcome=None if capture.touched is None else self._outcome(capture.landmark, capture.touched),
+            outcome=None if capture.touched is None else self._outcome(capture, capture.touched),
         )
 
     def stop(self) -> None:
         """Look no more."""
         self._touch.stop()
 
-    def _outcome(self, landmark: str, touched: CapturedLandmark) -> KeptCheck:
+    def _outcome(self, capture: TouchStatus, touched: CapturedLandmark) -> KeptCheck:
         held = self._held_against(touched)
         return KeptCheck(
             vertebra=self.ground.vertebra.name,
-            landmark=landmark,
+            landmark=capture.landmark,
             tool=self.ground.tool,
             distance_mm=held.distance_mm,
             most_mm=held.most_mm,
             passed=held.passed,
             run=self._run,
+            from_s=capture.from_s or 0.0,
             off_lps_mm=held.off_mm.tolist(),
             sd_mm=held.sd_mm,
             images=touched.images,

@@ -103,25 +103,24 @@ class NudgeStep:
         return self._put(shelved, nudged.undone(), kept[:-1], made_by=made_by)
 
     def _nudged(self, shelved: ShelvedRegistration) -> tuple[NudgedRegistration, tuple[KeptNudge, ...]]:
-        kept = shelved.kept.nudged
+        registration, kept = shelved.kept.registration, shelved.kept.nudged
         if kept is None:
-            made, pivot, nudges = shelved.kept.registration, self._entry(shelved), ()
-        else:
-            made = kept.made(shelved.kept.registration)
-            pivot, nudges = np.array(kept.pivot_lps_mm), tuple(kept.nudges)
-        return (
-            NudgedRegistration(
-                made=made,
-                pivot_mm=pivot,
-                limits=self._limits,
-                nudges=tuple(Nudge(kind=one.kind, axis=one.axis, amount=one.amount) for one in nudges),
-            ),
-            nudges,
+            made = NudgedRegistration(
+                made=registration, pivot_mm=self._middle_entry(shelved), limits=self._limits
+            )
+            return made, ()
+        nudges = tuple(Nudge(kind=one.kind, axis=one.axis, amount=one.amount) for one in kept.nudges)
+        nudged = NudgedRegistration(
+            made=kept.made(registration),
+            pivot_mm=np.array(kept.pivot_lps_mm),
+            limits=self._limits,
+            nudges=nudges,
         )
+        return nudged, tuple(kept.nudges)
 
-    def _entry(self, shelved: ShelvedRegistration) -> Array:
+    def _middle_entry(self, shelved: ShelvedRegistration) -> Array:
         ground = self._grounds.find(vertebra=shelved.kept.vertebra, tool=None)
-        return np.mean(ground.entries_mm, axis=0)
+        return np.asarray(np.mean(ground.entries_mm, axis=0))
 
     def _put(
         self,
@@ -144,6 +143,7 @@ class NudgeStep:
                 "nudged_deg": after.turn_deg,
             },
             made_from=shelved.kept.made_from,
+            from_s=shelved.kept.from_s,
         )
         kept = KeptNudges(
             anchor_from_vertebra=after.made.anchor_from_vertebra.matrix.tolist(),

@@ -137,6 +137,7 @@ class PointsStep:
             numbers=self.numbers(status, status.fit),
             made_from=made_from(status),
             made_by=made_by,
+            from_s=status.from_s,
         )
         self.end()
         return document

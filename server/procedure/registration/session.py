@@ -42,6 +42,7 @@ class PointsStatus:
         capture: the one that runs, or was last refused or taken; None before the first.
         fit: of the points that are used.
         trouble: why they give no fit yet.
+        from_s: when the first of the points was touched, by the clock of the images; None before.
     """
 
     ground: Ground
@@ -49,6 +50,7 @@ class PointsStatus:
     capture: TouchStatus | None
     fit: PointRegistration | None
     trouble: Trouble | None
+    from_s: float | None
 
     @property
     def used(self) -> tuple[TouchedLandmark, ...]:
@@ -65,6 +67,7 @@ class PointsSession:
         self._gate = gate
         self._lock = threading.Lock()
         self._touched: dict[str, CapturedLandmark] = {}
+        self._from_s: dict[str, float] = {}
         self._left_out: set[str] = set()
         self._touch: Touch | None = None
 
@@ -112,6 +115,7 @@ class PointsSession:
             self._take_over()
             self._refuse_untouched(landmark)
             del self._touched[landmark]
+            self._from_s.pop(landmark, None)
             self._left_out.discard(landmark)
             if self._touch is not None and self._touch.landmark == landmark:
                 self._touch.stop()
@@ -124,6 +128,7 @@ class PointsSession:
             self._take_over()
             touched, left_out = dict(self._touched), set(self._left_out)
             capture = None if self._touch is None else self._touch.status
+            from_s = min(self._from_s.values(), default=None)
         landmarks = tuple(
             TouchedLandmark(
                 name=one.name,
@@ -139,7 +144,12 @@ class PointsSession:
         except RegistrationError as error:
             trouble = Trouble.from_error(error)
         return PointsStatus(
-            ground=self.ground, landmarks=landmarks, capture=capture, fit=fit, trouble=trouble
+            ground=self.ground,
+            landmarks=landmarks,
+            capture=capture,
+            fit=fit,
+            trouble=trouble,
+            from_s=from_s,
         )
 
     def stop(self) -> None:
@@ -157,6 +167,8 @@ class PointsSession:
             self._touch.stop()
         if status.touched is not None and self._touched.get(status.landmark) is not status.touched:
             self._touched[status.landmark] = status.touched
+            if status.from_s is not None:
+                self._from_s[status.landmark] = status.from_s
 
     def _refuse_untouched(self, landmark: str) -> None:
         if landmark not in self._touched:

@@ -84,6 +84,7 @@ class RegistrationShelf:
         numbers: dict[str, Value],
         made_from: dict[str, object],
         made_by: str,
+        from_s: float | None,
         expected_version: int | None = None,
     ) -> Document:
         """Keep a registration that passed its gate, as the next version of its vertebra's."""
@@ -94,6 +95,7 @@ class RegistrationShelf:
             run=self._procedure.run,
             numbers=numbers,
             made_from=made_from,
+            from_s=from_s,
         )
         return self._store.put(
             ground.case_id,

@@ -8,7 +8,7 @@ from server.live import Instant, LiveHub, Trouble
 from server.procedure.following import Follower
 from tracker.errors import CalibrationError, InvalidInput, RegistrationError
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
-from tracker.navigation.PLACE import tool_in_view
+from tracker.navigation.concluding import tool_in_view
 from tracker.pose import Seen
 from tracker.registration.capture import (
     CapturedLandmark,
@@ -43,6 +43,7 @@ class TouchStatus:
         state: whether more images are looked at.
         images: in which it was seen so far.
         wanted: how many there must be.
+        from_s: when the tip was first looked for, by the clock of the images; None before the first image.
         touched: the point; None until it is taken.
         trouble: why it was refused.
     """
@@ -51,6 +52,7 @@ class TouchStatus:
     state: TouchState
     images: int
     wanted: int
+    from_s: float | None
     touched: CapturedLandmark | None
     trouble: Trouble | None
 
@@ -76,6 +78,7 @@ class Touch:
         self._lock = threading.Lock()
         self._collector = LandmarkCollector(gate)
         self._images = 0
+        self._from_s: float | None = None
         self._image_number = -1
         self._touched: CapturedLandmark | None = None
         self._follower = Follower(hub, self._look, name=f"capturing {landmark}")
@@ -91,6 +94,7 @@ class Touch:
                 state=TouchState.REFUSED if trouble is not None else state,
                 images=self._images,
                 wanted=self._gate.least_images,
+                from_s=self._from_s,
                 touched=self._touched,
                 trouble=trouble,
             )
@@ -112,6 +116,7 @@ class Touch:
         tip = tip_of(snapshot, self._tool, self._reference)
         with self._lock:
             self._image_number = snapshot.image_number
+            self._from_s = tip.at_s if self._from_s is None else self._from_s
             self._collector.take(tip)
             self._images += isinstance(tip, TipSample)
             if self._collector.is_over:
