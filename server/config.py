@@ -230,8 +230,6 @@ class AlarmsConfig(Section):
     reference_unseen_after_ms: Annotated[float, Field(ge=100.0, le=60_000.0)] = 1000
     put_away_after_s: Annotated[float, Field(ge=5.0, le=3600.0)] = 120
     """A drill unseen for longer lies somewhere on purpose, and is no longer missed."""
-    check_due_after_min: Annotated[float, Field(ge=1.0, le=1440.0)] = 30
-    """Since the last check on anatomy."""
     screen_lost_after_s: Annotated[float, Field(ge=3.0, le=600.0)] = 6
     """A screen with armed sound that says nothing for this long is lost."""
     least_free_disk_mb: Annotated[float, Field(ge=0.0, le=1e7)] = 2000

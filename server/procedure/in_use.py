@@ -1,11 +1,16 @@
 """What the open case knows, kept in use: each change of it reaches the tracking process at once."""
 
 import threading
+import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import structlog
 
+from server.alarms import ProcedureFacts
 from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.facts import facts_of
+from server.procedure.guiding import Guiding
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.registered import (
     KeptCheck,
@@ -20,9 +25,10 @@ from server.setup import CaseSetup
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.camera import CameraModel
 from tracker.errors import NavigationError
-from tracker.navigation import AbsentReason
+from tracker.navigation import AbsentReason, Guide
 from tracker.plan import Channel
 from tracker.pose import ToolModel
+from tracker.registration import AnchoredTo
 
 log = structlog.get_logger(__name__)
 
@@ -38,8 +44,10 @@ class CaseInUse:
         store: where cases are kept.
         adopt: told what the open case knows, whenever that has changed.
         procedure: its state, which says whether numbers are withheld.
+        guiding: what the drill is held against.
         brought: by the settings: a calibration of another camera's source, or what is fixed to another
             reference, is not used.
+        know: told what the alarms shall know of the procedure, whenever the case has changed.
     """
 
     def __init__(
@@ -48,23 +56,31 @@ class CaseInUse:
         adopt: Callable[[CaseSetup], None],
         *,
         procedure: Procedure,
+        guiding: Guiding,
         brought: Brought,
+        know: Callable[[ProcedureFacts], None],
     ) -> None:
         self._store = store
         self._adopt = adopt
         self._procedure = procedure
         self._brought = brought
         self._lock = threading.Lock()
-        self._in_use: tuple[str, ...] = ()
+        self._guiding = guiding
+        self._know = know
+        self._in_use: tuple[tuple[str, ...], Guide | None] = ((), None)
+        guiding.tell = self.refresh
 
     def refresh(self) -> None:
         """Look what the open case knows now, and hand it on if it is not what is in use."""
         with self._lock:
             documents = self._documents()
             ids = tuple(document.id for document in documents)
-            if ids != self._in_use:
-                self._adopt(self._setup_of(documents))
-                self._in_use = ids
+            active = [document for document in documents if document.kind is DocumentKind.PLAN]
+            guide = self._guiding.guide_for(active[0]) if active else None
+            if ids != self._in_use[0] or guide is not self._in_use[1]:
+                self._adopt(replace(self._setup_of(documents), guide=guide))
+                self._in_use = (ids, guide)
+                self._know(facts_of(self._procedure.state(), now_s=time.monotonic()))
 
     def _documents(self) -> list[Document]:
         """What of the open case holds and says something of the set-up."""
@@ -119,7 +135,9 @@ class CaseInUse:
     def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:
         """Since when it stands, by the images' clock: touched, or checked since; None before this run."""
         run = self._procedure.run
-        if check is not None and check.passed and check.run == run:
+        is_fixed = registered.registration.anchored_to is AnchoredTo.REFERENCE
+        # Of a camera that was moved a check on one landmark takes nothing back: its turn is not seen there.
+        if is_fixed and check is not None and check.passed and check.run == run:
             return check.from_s
         return registered.from_s if registered.run == run else None
 

@@ -4,12 +4,14 @@ import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from server.alarms import ProcedureFacts
 from server.capture.address import SourceKind, source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
 from server.procedure.ct import CtStep, OpenedCt
+from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
 from server.procedure.plan import PlanStep
 from server.procedure.registration import RegistrationSteps
@@ -58,6 +60,7 @@ class Steps:
         config: Config,
         side_mm_from_marker: Mapping[str, float],
         adopt: Callable[[CaseSetup], None],
+        know: Callable[[ProcedureFacts], None] = lambda _: None,
     ) -> "Steps":
         """The steps; from here on `adopt` is told whenever the open case knows something else.
 
@@ -68,11 +71,13 @@ class Steps:
             config: the gates, and the tools as the settings have them.
             side_mm_from_marker: the markers that are looked for.
             adopt: has the tracking process work with what a case knows.
+            know: told what the alarms shall know of the procedure.
         """
         brought = brought_by(config)
         source = brought.source
         procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
-        in_use = CaseInUse(store, adopt, procedure=procedure, brought=brought)
+        guiding = Guiding(store=store, jobs=jobs)
+        in_use = CaseInUse(store, adopt, procedure=procedure, guiding=guiding, brought=brought, know=know)
         store.call_after_writing(in_use.refresh)
         # A case that was open when the server stopped is open again.
         in_use.refresh()

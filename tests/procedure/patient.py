@@ -10,7 +10,7 @@ from tests.procedure.conftest import Server
 from tests.procedure.test_tool_step import calibrated
 from tracker.geometry import Array, Camera, Marker, Rigid, Vertebra, rotation_from_vector
 from tracker.navigation import AbsentReason
-from tracker.plan import Channel, Landmark, PlanDocument, plan_to_mapping
+from tracker.plan import Channel, Landmark, PlanDocument, ReferenceSlice, plan_to_mapping
 from tracker.plan.document import PlannedChannel, VertebraPlan
 from tracker.plan.pedicle import Side
 from tracker.pose import Seen
@@ -74,13 +74,16 @@ def tool_content(tip_in_marker_mm: Array = TIP_IN_MARKER) -> dict[str, Any]:
     }
 
 
-def plan_content(*vertebrae: str, shift_mm: float = 0.0) -> dict[str, Any]:
+def plan_content(
+    *vertebrae: str, shift_mm: float = 0.0, references: tuple[ReferenceSlice, ...] = ()
+) -> dict[str, Any]:
     """A plan of these vertebrae, each with both channels and all landmarks."""
     return plan_to_mapping(
         PlanDocument(
             vertebrae=tuple(
                 VertebraPlan(
                     name=name,
+                    references=references,
                     channels=tuple(
                         PlannedChannel(
                             side=side,

@@ -266,9 +266,10 @@ def test_beside_a_reference_patient_and_camera_may_move_and_the_server_start_aga
     assert states(without)["register"] == "out_of_date"
 
 
-def test_a_move_of_the_reference_asks_for_another_check(server: Server) -> None:
+def test_a_move_of_the_reference_asks_for_another_check(tmp_path: Path, turns: ExitStack) -> None:
+    server = turns.enter_context(serving(tmp_path, REFERENCE))
     case_id = ready(server)
-    patient = Patient(server=server)
+    patient = Patient(server=server, camera_from_reference=CAMERA_FROM_REFERENCE)
     patient.register()
     patient.check()
     checked_from_s = server.adopted[-1].registered_from_s

@@ -3,7 +3,7 @@
 from server.procedure.registration.check import CheckSession, CheckStatus, CheckStep
 from server.procedure.registration.ground import Ground, GroundFinder
 from server.procedure.registration.nudging import NudgesStatus, NudgeStep
-from server.procedure.registration.points import PointsStep, TargetError, target_errors
+from server.procedure.registration.points import PointsStep, TargetError, target_errors, touched_points
 from server.procedure.registration.session import PointsSession, PointsStatus, residuals_mm
 from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
 from server.procedure.registration.steps import RegistrationSteps
@@ -28,4 +28,5 @@ __all__ = [
     "TouchStatus",
     "residuals_mm",
     "target_errors",
+    "touched_points",
 ]

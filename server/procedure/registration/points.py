@@ -15,8 +15,11 @@ from server.procedure.registration.session import PointsSession, PointsStatus, r
 from server.procedure.registration.shelf import RegistrationShelf
 from server.store import Document
 from tracker.errors import RegistrationError
+from tracker.registration.needles import TouchedPoint
 from tracker.registration.points import PointGate, PointRegistration
 
+# How well a landmark is marked on the CT and found on bone, along each axis.
+LANDMARK_SD_MM = 0.7
 # From the entry point to the end of a channel.
 ALONG = (0.0, 0.25, 0.5, 0.75, 1.0)
 
@@ -154,6 +157,33 @@ class PointsStep:
             "tre_at_entry_mm": max((error.stated_mm for error in entries), default=None),
             "most_tre_mm": self._gate.most_tre_mm,
         }
+
+
+def touched_points(step: PointsStep) -> tuple[TouchedPoint, ...]:
+    """What was touched so far before the camera, as it tells the depth of needles.
+
+    Raises:
+        SetupOrderError: COLLECTION_MISSING.
+        RegistrationError: TOUCHED_BESIDE_REFERENCE, the points are not in the camera's frame.
+    """
+    status = step.session.status
+    if status.ground.reference:
+        raise RegistrationError(
+            "TOUCHED_BESIDE_REFERENCE",
+            f"the landmarks were touched beside the marker '{status.ground.reference}'",
+            "Register by these points alone, or by the needles alone.",
+            {"reference": status.ground.reference},
+        )
+    return tuple(
+        TouchedPoint(
+            name=one.name,
+            point_lps_mm=one.point_lps_mm,
+            point_in_camera_mm=one.touched.tip_in_anchor_mm,
+            covariance_mm2=one.touched.covariance_mm2 + LANDMARK_SD_MM**2 * np.eye(3),
+        )
+        for one in status.used
+        if one.touched is not None
+    )
 
 
 def strays(fit: PointRegistration, *, most_mm: float) -> tuple[RegistrationError, ...]:

@@ -7,6 +7,7 @@ from server.live import LiveHub
 from server.procedure.plan import PlanShelf
 from server.procedure.registration.check import CheckStep
 from server.procedure.registration.ground import GroundFinder
+from server.procedure.registration.needles import NeedleStep
 from server.procedure.registration.nudging import NudgeStep
 from server.procedure.registration.points import PointsStep
 from server.procedure.registration.shelf import RegistrationShelf
@@ -23,6 +24,7 @@ class RegistrationSteps:
         shelf: where registrations lie.
         points: by landmarks that are touched.
         check: on a landmark that was not used.
+        needles: by three needles in the image.
         nudge: by hand, in small steps.
         watch: withdraws a registration when camera or reference were moved.
     """
@@ -30,6 +32,7 @@ class RegistrationSteps:
     shelf: RegistrationShelf
     points: PointsStep
     check: CheckStep
+    needles: NeedleStep
     nudge: NudgeStep
     watch: MoveWatch
 
@@ -53,6 +56,7 @@ class RegistrationSteps:
             check=CheckStep(
                 hub=hub, store=store, grounds=grounds, shelf=shelf, procedure=procedure, gate=gate
             ),
+            needles=NeedleStep(hub=hub, grounds=grounds, shelf=shelf),
             nudge=NudgeStep(grounds=grounds, shelf=shelf, gate=gate),
             watch=MoveWatch(hub, store=store, procedure=procedure, after_s=gate.moved_after_s),
         )

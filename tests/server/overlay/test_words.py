@@ -8,7 +8,8 @@ import pytest
 from server.live import Instant
 from server.overlay import panel_of
 from server.shown import NOT_KNOWN, shown_number
-from server.stream.messages import DeviationMessage, live_message
+from server.stream.judgement_messages import DeviationMessage
+from server.stream.messages import live_message
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
 from tracker.pose import Unseen, UnseenReason
 
