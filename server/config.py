@@ -162,6 +162,8 @@ class RegistrationConfig(Section):
     """How long they last at least, so that a hand's tremor is in them."""
     most_capture_sd_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 0.4
     """Standard deviation of the tip in them, along its worst axis."""
+    most_surface_rms_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0
+    """RMS distance of a sweep from the bone's surface."""
     most_nudge_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
     """How far all nudges by hand together may lead, between the entry points."""
     most_nudge_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0

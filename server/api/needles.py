@@ -65,6 +65,13 @@ def needles_router(steps: RegistrationSteps, opened: OpenedCt) -> APIRouter:
         laid, way = fitted(asked)
         return document_message(step.keep(laid, way=way, made_by=asked.made_by), Current())
 
+    _add_picture(router, steps, opened)
+    return router
+
+
+def _add_picture(router: APIRouter, steps: RegistrationSteps, opened: OpenedCt) -> None:
+    step = steps.needles
+
     @router.get("/overlay.jpg", response_class=Response, responses={200: {"content": {JPEG: {}}}, **SEEN})
     def overlay_jpg(
         vertical_mm: Annotated[Measured, Query()],
@@ -82,7 +89,7 @@ def needles_router(steps: RegistrationSteps, opened: OpenedCt) -> APIRouter:
         view = ViewMessage(
             vertical_mm=vertical_mm, horizontal_mm=horizontal_mm, azimuth_deg=azimuth_deg, standing=standing
         )
-        scene = scene_of(NeedlesRequest(view=view, vertebra=vertebra))
+        scene = step.scene(NeedlesRequest(view=view, vertebra=vertebra).order)
         first = step.lay(scene, None).overlay
         laid = step.lay(
             scene,
@@ -101,5 +108,3 @@ def needles_router(steps: RegistrationSteps, opened: OpenedCt) -> APIRouter:
         if not encoded:
             raise RuntimeError("a picture could not be encoded")
         return Response(content.tobytes(), media_type=JPEG, headers={"Cache-Control": "no-store"})
-
-    return router

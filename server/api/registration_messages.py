@@ -27,10 +27,15 @@ LandmarkName: TypeAlias = Annotated[str, Field(min_length=1, max_length=60)]
 VertebraName: TypeAlias = Annotated[str, Field(min_length=1, max_length=60)]
 
 
-class PointsRequest(Message):
-    """Which tool touches which vertebra."""
+class ToolRequest(Message):
+    """Which tool touches."""
 
     tool: Name
+
+
+class PointsRequest(ToolRequest):
+    """Which tool touches which vertebra."""
+
     vertebra: VertebraName | None = None
     """Its name in the plan; the one that is to be drilled if left out."""
 

@@ -82,6 +82,7 @@ class Steps:
         # A case that was open when the server stopped is open again.
         in_use.refresh()
         opened_ct = OpenedCt(store)
+        surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
             camera=CameraStep(
@@ -101,12 +102,13 @@ class Steps:
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
             plan=plan,
-            surface=SurfaceStep(store=store, jobs=jobs, opened=opened_ct),
+            surface=surface,
             procedure=procedure,
             registration=RegistrationSteps.of(
                 hub=hub,
                 store=store,
                 plans=plan.shelf,
+                surfaces=surface,
                 procedure=procedure,
                 brought=brought,
                 gate=config.registration,

@@ -7,6 +7,7 @@ from server.procedure.registration.points import PointsStep, TargetError, target
 from server.procedure.registration.session import PointsSession, PointsStatus, residuals_mm
 from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
 from server.procedure.registration.steps import RegistrationSteps
+from server.procedure.registration.sweep import SweepStep
 from server.procedure.registration.touching import TouchState, TouchStatus
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "RegistrationShelf",
     "RegistrationSteps",
     "ShelvedRegistration",
+    "SweepStep",
     "TargetError",
     "TouchState",
     "TouchStatus",
