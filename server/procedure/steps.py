@@ -74,31 +74,26 @@ class Steps:
             know: told what the alarms shall know of the procedure.
         """
         brought = brought_by(config)
-        source = brought.source
         procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
-        guiding = Guiding(store=store, jobs=jobs)
-        in_use = CaseInUse(store, adopt, procedure=procedure, guiding=guiding, brought=brought, know=know)
-        store.call_after_writing(in_use.refresh)
-        # A case that was open when the server stopped is open again.
-        in_use.refresh()
+        _keep_in_use(
+            CaseInUse(
+                store,
+                adopt,
+                procedure=procedure,
+                guiding=Guiding(store=store, jobs=jobs),
+                brought=brought,
+                know=know,
+            ),
+            store,
+        )
         opened_ct = OpenedCt(store)
         surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
             camera=CameraStep(
-                hub=hub,
-                store=store,
-                jobs=jobs,
-                gate=config.calibration,
-                source=source,
+                hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source
             ),
-            tool=ToolStep(
-                hub=hub,
-                store=store,
-                gate=ToolGate(**config.tool_calibration.model_dump()),
-                side_mm_from_marker=side_mm_from_marker,
-                tools=config.tools,
-            ),
+            tool=_tool_step(hub, store, config, side_mm_from_marker),
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
             plan=plan,
@@ -120,6 +115,24 @@ class Steps:
         self.camera.end()
         self.tool.end()
         self.registration.close()
+
+
+def _tool_step(
+    hub: LiveHub, store: CaseStore, config: Config, side_mm_from_marker: Mapping[str, float]
+) -> ToolStep:
+    return ToolStep(
+        hub=hub,
+        store=store,
+        gate=ToolGate(**config.tool_calibration.model_dump()),
+        side_mm_from_marker=side_mm_from_marker,
+        tools=config.tools,
+    )
+
+
+def _keep_in_use(in_use: CaseInUse, store: CaseStore) -> None:
+    """Hand on each change of the store, and what is there already: a case that was open is open again."""
+    store.call_after_writing(in_use.refresh)
+    in_use.refresh()
 
 
 def brought_by(config: Config) -> Brought:

@@ -1,23 +1,30 @@
-"""A registration that was made before the camera, fixed to the marker on the patient instead."""
+"""A registration that was made in the camera's image, fixed to the marker on the patient."""
 
-from tracker.geometry import Anchor, Camera, Marker, Rigid, Vertebra, chained_covariance, inverse_covariance
+from tracker.geometry import Anchor, Reference, Rigid, Vertebra, chained_covariance, inverse_covariance
 from tracker.pose import Seen
 from tracker.registration.record import AnchoredTo, Registration
 
 
 def fixed_to_reference(registration: Registration, reference: Seen) -> Registration:
-    """The same registration beside the marker on the patient, which is seen in the same image."""
-    pose: Rigid[Camera, Marker] = reference.camera_from_marker
-    of_back = inverse_covariance(pose, reference.pose_covariance)
-    before = registration.anchor_from_vertebra
-    camera_from_vertebra: Rigid[Camera, Vertebra] = Rigid(
-        rotation=before.rotation, translation_mm=before.translation_mm
-    )
-    beside = pose.inverse @ camera_from_vertebra
-    fixed: Rigid[Anchor, Vertebra] = Rigid(rotation=beside.rotation, translation_mm=beside.translation_mm)
+    """The same registration as seen from the reference, which was seen in the same image.
+
+    From then on patient and camera may move together or alone; the reference's own uncertainty is in it.
+    """
+    if registration.anchored_to is AnchoredTo.REFERENCE:
+        return registration
+    marker = reference.camera_from_marker
+    back: Rigid[Reference, Anchor] = Rigid(
+        rotation=marker.rotation, translation_mm=marker.translation_mm
+    ).inverse
+    fixed: Rigid[Reference, Vertebra] = back @ registration.anchor_from_vertebra
     return Registration(
         method=registration.method,
         anchored_to=AnchoredTo.REFERENCE,
-        anchor_from_vertebra=fixed,
-        covariance=chained_covariance(pose.inverse, of_back, camera_from_vertebra, registration.covariance),
+        anchor_from_vertebra=Rigid(rotation=fixed.rotation, translation_mm=fixed.translation_mm),
+        covariance=chained_covariance(
+            back,
+            inverse_covariance(marker, reference.pose_covariance),
+            registration.anchor_from_vertebra,
+            registration.covariance,
+        ),
     )
