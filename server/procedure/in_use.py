@@ -1,19 +1,34 @@
 """What the open case knows, kept in use: each change of it reaches the tracking process at once."""
 
 import threading
+import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import structlog
 
+from server.alarms import ProcedureFacts
 from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.facts import facts_of
+from server.procedure.guiding import Guiding
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
+from server.procedure.registered import (
+    KeptCheck,
+    KeptRegistration,
+    check_name,
+    kept_check,
+    kept_registration,
+)
+from server.procedure.state import Brought, Procedure
 from server.procedure.tool import kept_tool
 from server.setup import CaseSetup
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.camera import CameraModel
 from tracker.errors import NavigationError
+from tracker.navigation import AbsentReason, Guide
 from tracker.plan import Channel
 from tracker.pose import ToolModel
+from tracker.registration import AnchoredTo
 
 log = structlog.get_logger(__name__)
 
@@ -21,29 +36,51 @@ log = structlog.get_logger(__name__)
 class CaseInUse:
     """Hands what the open case knows to whatever tracks.
 
-    What is out of date, withdrawn, unreadable or of another camera is not used: it is then unknown.
+    What is out of date, withdrawn, unreadable or of another camera is not used: it is then unknown. Of the
+    registrations the one of the vertebra that is to be drilled counts, and numbers against it are withheld
+    until it was checked.
 
     Args:
         store: where cases are kept.
         adopt: told what the open case knows, whenever that has changed.
-        source: of the camera, in words; a calibration of another one is not used.
+        procedure: its state, which says whether numbers are withheld.
+        guiding: what the drill is held against.
+        brought: by the settings: a calibration of another camera's source, or what is fixed to another
+            reference, is not used.
+        know: told what the alarms shall know of the procedure, whenever the case has changed.
     """
 
-    def __init__(self, store: CaseStore, adopt: Callable[[CaseSetup], None], *, source: str) -> None:
+    def __init__(
+        self,
+        store: CaseStore,
+        adopt: Callable[[CaseSetup], None],
+        *,
+        procedure: Procedure,
+        guiding: Guiding,
+        brought: Brought,
+        know: Callable[[ProcedureFacts], None],
+    ) -> None:
         self._store = store
         self._adopt = adopt
-        self._source = source
+        self._procedure = procedure
+        self._brought = brought
         self._lock = threading.Lock()
-        self._in_use: tuple[str, ...] = ()
+        self._guiding = guiding
+        self._know = know
+        self._in_use: tuple[tuple[str, ...], Guide | None] = ((), None)
+        guiding.tell = self.refresh
 
     def refresh(self) -> None:
         """Look what the open case knows now, and hand it on if it is not what is in use."""
         with self._lock:
             documents = self._documents()
             ids = tuple(document.id for document in documents)
-            if ids != self._in_use:
-                self._adopt(self._setup_of(documents))
-                self._in_use = ids
+            active = [document for document in documents if document.kind is DocumentKind.PLAN]
+            guide = self._guiding.guide_for(active[0]) if active else None
+            if ids != self._in_use[0] or guide is not self._in_use[1]:
+                self._adopt(replace(self._setup_of(documents), guide=guide))
+                self._in_use = (ids, guide)
+                self._know(facts_of(self._procedure.state(), now_s=time.monotonic()))
 
     def _documents(self) -> list[Document]:
         """What of the open case holds and says something of the set-up."""
@@ -53,24 +90,56 @@ class CaseInUse:
         kinds = (DocumentKind.CAMERA, DocumentKind.TOOL)
         newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
         active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
-        newest += [] if active is None else [active]
+        vertebra = self._procedure.active_vertebra(case.id)
+        registered = (
+            []
+            if vertebra is None
+            else [
+                self._store.latest(case.id, DocumentKind.REGISTRATION, vertebra),
+                self._store.latest(case.id, DocumentKind.CHECK, check_name(vertebra)),
+            ]
+        )
+        newest += [document for document in (active, *registered) if document is not None]
         return [document for document in newest if isinstance(self._store.standing(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
         cameras: dict[str, CameraModel] = {}
         tools: dict[str, ToolModel] = {}
         channel: Channel | None = None
+        registered: KeptRegistration | None = None
+        check: KeptCheck | None = None
         for document in documents:
             try:
                 if document.kind is DocumentKind.CAMERA:
-                    cameras[document.name] = kept_camera(document, source=self._source)
+                    cameras[document.name] = kept_camera(document, source=self._brought.source)
                 elif document.kind is DocumentKind.PLAN:
                     channel = kept_channel(document).channel
+                elif document.kind is DocumentKind.REGISTRATION:
+                    registered = kept_registration(document, reference=self._brought.reference)
+                elif document.kind is DocumentKind.CHECK:
+                    check = kept_check(document)
                 else:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        return CaseSetup(camera=cameras.get(MAIN_CAMERA), tools=tools, channel=channel)
+        is_withheld = registered is not None and self._procedure.state().waits_for_check
+        return CaseSetup(
+            camera=cameras.get(MAIN_CAMERA),
+            tools=tools,
+            channel=channel,
+            registration=None if registered is None else registered.registration,
+            registered_from_s=None if registered is None else self._from_s(registered, check),
+            withheld=AbsentReason.NOT_CHECKED if is_withheld else None,
+        )
+
+    def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:
+        """Since when it stands, by the images' clock: touched, or checked since; None before this run."""
+        run = self._procedure.run
+        is_fixed = registered.registration.anchored_to is AnchoredTo.REFERENCE
+        # Of a camera that was moved a check on one landmark takes nothing back: its turn is not seen there.
+        if is_fixed and check is not None and check.passed and check.run == run:
+            return check.from_s
+        return registered.from_s if registered.run == run else None
 
 
 def _named(name: str, tool: ToolModel | None) -> Mapping[str, ToolModel]:

@@ -1,21 +1,29 @@
 """All steps of the set-up, made for one server."""
 
+import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from server.capture.address import source_from_text
+from server.alarms import ProcedureFacts
+from server.capture.address import SourceKind, source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
 from server.procedure.ct import CtStep, OpenedCt
+from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
 from server.procedure.plan import PlanStep
+from server.procedure.registration import RegistrationSteps
+from server.procedure.state import Brought, Procedure
 from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
 from server.store import CaseStore
 from tracker.pose.tool import ToolGate
+
+# As the rehearsal's theatre calls them; to load the theatre for a name takes time.
+REHEARSED_TOOL, REHEARSED_REFERENCE = "drill", "reference"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +37,8 @@ class Steps:
         opened_ct: the CT that the others look at and plan on.
         plan: measures pedicles, lays channels, chooses screws.
         surface: makes the surface of the bone.
+        procedure: what may follow what.
+        registration: finds the vertebra on the patient.
     """
 
     camera: CameraStep
@@ -37,6 +47,8 @@ class Steps:
     opened_ct: OpenedCt
     plan: PlanStep
     surface: SurfaceStep
+    procedure: Procedure
+    registration: RegistrationSteps
 
     @classmethod
     def of(
@@ -48,6 +60,7 @@ class Steps:
         config: Config,
         side_mm_from_marker: Mapping[str, float],
         adopt: Callable[[CaseSetup], None],
+        know: Callable[[ProcedureFacts], None] = lambda _: None,
     ) -> "Steps":
         """The steps; from here on `adopt` is told whenever the open case knows something else.
 
@@ -58,35 +71,84 @@ class Steps:
             config: the gates, and the tools as the settings have them.
             side_mm_from_marker: the markers that are looked for.
             adopt: has the tracking process work with what a case knows.
+            know: told what the alarms shall know of the procedure.
         """
-        source = source_from_text(config.camera.source).name
-        in_use = CaseInUse(store, adopt, source=source)
-        store.call_after_writing(in_use.refresh)
-        # A case that was open when the server stopped is open again.
-        in_use.refresh()
+        brought = brought_by(config)
+        procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
+        _keep_in_use(
+            CaseInUse(
+                store,
+                adopt,
+                procedure=procedure,
+                guiding=Guiding(store=store, jobs=jobs),
+                brought=brought,
+                know=know,
+            ),
+            store,
+        )
         opened_ct = OpenedCt(store)
+        surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
+        plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
             camera=CameraStep(
-                hub=hub,
-                store=store,
-                jobs=jobs,
-                gate=config.calibration,
-                source=source,
+                hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source
             ),
-            tool=ToolStep(
-                hub=hub,
-                store=store,
-                gate=ToolGate(**config.tool_calibration.model_dump()),
-                side_mm_from_marker=side_mm_from_marker,
-                tools=config.tools,
-            ),
+            tool=_tool_step(hub, store, config, side_mm_from_marker),
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
-            plan=PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan),
-            surface=SurfaceStep(store=store, jobs=jobs, opened=opened_ct),
+            plan=plan,
+            surface=surface,
+            procedure=procedure,
+            registration=RegistrationSteps.of(
+                hub=hub,
+                store=store,
+                plans=plan.shelf,
+                surfaces=surface,
+                procedure=procedure,
+                brought=brought,
+                gate=config.registration,
+            ),
         )
 
     def close(self) -> None:
         """Collect no more."""
         self.camera.end()
         self.tool.end()
+        self.registration.close()
+
+
+def _tool_step(
+    hub: LiveHub, store: CaseStore, config: Config, side_mm_from_marker: Mapping[str, float]
+) -> ToolStep:
+    return ToolStep(
+        hub=hub,
+        store=store,
+        gate=ToolGate(**config.tool_calibration.model_dump()),
+        side_mm_from_marker=side_mm_from_marker,
+        tools=config.tools,
+    )
+
+
+def _keep_in_use(in_use: CaseInUse, store: CaseStore) -> None:
+    """Hand on each change of the store, and what is there already: a case that was open is open again."""
+    store.call_after_writing(in_use.refresh)
+    in_use.refresh()
+
+
+def brought_by(config: Config) -> Brought:
+    """What the settings bring, whatever the case has."""
+    source = source_from_text(config.camera.source)
+    is_rehearsal = source.kind is SourceKind.REHEARSAL
+    knows_itself = is_rehearsal and config.rehearsal.brings_setup
+    rehearsed = REHEARSED_REFERENCE if is_rehearsal and config.rehearsal.reference else ""
+    return Brought(
+        source=source.name,
+        reference=config.reference.marker or rehearsed,
+        has_camera=config.camera.calibration is not None or knows_itself,
+        tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),
+    )
+
+
+def new_run() -> str:
+    """A name of this run of the server that no other run has."""
+    return secrets.token_hex(8)

@@ -1,7 +1,8 @@
 """A server with a store, jobs and the steps of the set-up, and images that a test shows to it."""
 
+import dataclasses
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,7 +21,7 @@ from server.procedure import Steps
 from server.setup import CaseSetup, Preparation, build_setup
 from server.store import CaseStore, Home
 from tracker.geometry import Rigid, rotation_from_vector
-from tracker.navigation import navigate
+from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, navigate
 from tracker.pose import Seen, Unseen, UnseenReason
 from tracker.rehearsal import Theatre
 
@@ -51,21 +52,31 @@ class Server:
         over: dict[str, Any] = self.ask("GET", f"/api/jobs/{job['id']}", 200)
         return over
 
-    def show(self, *, at_s: float, image: np.ndarray | None = None, seen: Seen | None = None) -> None:
-        """Publish an image, or a marker seen in it, as the tracking process would."""
+    def show(
+        self,
+        *,
+        at_s: float,
+        image: np.ndarray | None = None,
+        seen: Seen | None = None,
+        beside: Mapping[str, Seen] | None = None,
+        moved: AbsentReason | None = None,
+    ) -> NavigationSnapshot:
+        """Publish an image, or markers seen in it, as the tracking process would; what it says."""
         self.number += 1
         preparation = self.preparation.with_case(self.adopted[-1]) if self.adopted else self.preparation
         setup = preparation.setup or preparation.uncalibrated_setup_for((1280, 720))
         unseen = Unseen(reason=UnseenReason.NO_CANDIDATE)
         snapshot = navigate(
             setup=setup,
-            sightings={"drill": seen or unseen},
+            sightings={"drill": seen or unseen, **(beside or {})},
             image_number=self.number,
             captured_at_s=at_s,
             size_wh_px=setup.camera.size_wh_px,
             stage_ms={},
             skipped_images=0,
         )
+        if moved is not None:
+            snapshot = dataclasses.replace(snapshot, vertebra=Absent(reason=moved))
         self.hub.publish(
             Instant(
                 sequence=self.number,
@@ -75,6 +86,7 @@ class Server:
                 image=image,
             )
         )
+        return snapshot
 
     def until(self, true: Callable[[], bool]) -> None:
         """Returns when this is true."""
@@ -85,9 +97,11 @@ class Server:
 
 
 @contextmanager
-def serving(home_folder: Path) -> Iterator[Server]:
+def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> Iterator[Server]:
     """The whole inside of a server that keeps its things in this folder."""
-    config = Config.model_validate({"rehearsal": {"brings_setup": False}})
+    # Few images to a capture: a test has no half second for each landmark.
+    few = {"rehearsal": {"brings_setup": False}, "registration": {"capture_images": 4, "capture_s": 0.06}}
+    config = Config.model_validate({**few, **(settings or {})})
     hub, adopted = LiveHub(), list[CaseSetup]()
     jobs = Jobs(log=LogSettings(as_json=True))
     preparation = build_setup(config)

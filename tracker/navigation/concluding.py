@@ -80,6 +80,8 @@ def placed_vertebra(
         return PlacedVertebra(
             camera_from_vertebra=Rigid(rotation=fixed.rotation, translation_mm=fixed.translation_mm),
             covariance=registration.covariance,
+            tip_slope=registration.tip_slope,
+            tool=registration.tool,
         )
     seen = sightings.get(setup.reference)
     if not isinstance(seen, Seen):
@@ -100,7 +102,21 @@ def placed_vertebra(
             registration.anchor_from_vertebra,
             registration.covariance,
         ),
+        tip_slope=np.vstack(
+            [marker.rotation @ registration.tip_slope[:3], marker.rotation @ registration.tip_slope[3:]]
+        ),
+        tool=registration.tool,
     )
+
+
+def _while_placed(vertebra: PlacedVertebra | Absent, tool: ToolInView | Absent) -> ToolInView | Absent:
+    """The tool; once plan and patient are registered, only while it is known where the plan lies on them.
+
+    A drill's line over a patient whose place was lost looks like navigation, and is none.
+    """
+    if isinstance(tool, Absent) or not isinstance(vertebra, Absent):
+        return tool
+    return tool if vertebra.reason is AbsentReason.NOT_REGISTERED else vertebra
 
 
 def tool_deviation(
@@ -146,6 +162,7 @@ def _judged(
         Placed(pose=vertebra.camera_from_vertebra, covariance=vertebra.covariance),
         Placed(pose=pose, covariance=covariance),
         tool,
+        tip_slope=vertebra.tip_slope_for(tool),
     )
     return guide.judged(placed, tool, setup.channel)
 
@@ -171,7 +188,9 @@ def navigate(
     steady = steadied or {}
     vertebra = placed_vertebra(setup, sightings, watched)
     tools = {
-        name: tool_in_view(setup, tool, sightings[tool.marker], steady.get(name), watched)
+        name: _while_placed(
+            vertebra, tool_in_view(setup, tool, sightings[tool.marker], steady.get(name), watched)
+        )
         for name, tool in setup.tools.items()
     }
     deviations = {name: tool_deviation(setup, tool, vertebra) for name, tool in tools.items()}

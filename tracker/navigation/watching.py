@@ -18,7 +18,9 @@ from tracker.navigation.watch import (
 )
 from tracker.pose import Seen, Sighting
 
-SCENE_EVERY_S = 0.4
+SCENE_EVERY_S = 0.2
+# While the reference is elsewhere, the scene alone tells what moved: it is asked soon.
+SCENE_SOON_S = 0.1
 # Around a marker's outline, in sides of it: the hand and the handpiece move with it.
 ROOM_SIDES = 3.0
 
@@ -38,6 +40,8 @@ class Watching:
         self._scene_state = SceneState.UNSURE
         self._looked_at_s = -np.inf
         self._reference: ReferenceWatch | None = None
+        self._in_place_at_s = -np.inf
+        self._reference_is_elsewhere = False
         self._camera_moved_at_s = -np.inf
         self._reference_moved_at_s = -np.inf
         self._holds_from_s = -np.inf
@@ -67,7 +71,8 @@ class Watching:
             if isinstance(seen, Seen) and not self._believed(name, seen, at_s)
         )
         self._sight = self._sight.after(sightings, at_s=at_s)
-        if at_s - self._looked_at_s >= SCENE_EVERY_S:
+        every_s = SCENE_SOON_S if self._reference_is_elsewhere else SCENE_EVERY_S
+        if at_s - self._looked_at_s >= every_s:
             self._looked_at_s = at_s
             self._look_at_scene(image, sightings, at_s)
         reference = sightings.get(setup.reference)
@@ -92,12 +97,17 @@ class Watching:
         if self._scene is None:
             self._keep_scene(grey, sightings)
             return
-        self._scene_state = self._scene.check(grey).state
+        check = self._scene.check(grey)
+        self._scene_state = check.state
+        if check.state is SceneState.UNSURE and check.moved_px > self._scene.most_px:
+            # It moved, or seems to: the next image says which, while wrong numbers may be shown.
+            self._looked_at_s = -np.inf
         if self._scene_state is SceneState.MOVED:
             self._camera_moved_at_s = at_s
             # From here on it is watched where it stands now; what stood on the old place is lost already.
             self._keep_scene(grey, sightings)
-            self._scene_state = SceneState.MOVED
+            # Or the reference, elsewhere in a scene that is still from now on, would seem to have moved.
+            self._reference = None
 
     def _keep_scene(self, grey: npt.NDArray[np.uint8], sightings: Mapping[str, Sighting]) -> None:
         moving = [_roomy(seen.corners_px) for seen in sightings.values() if isinstance(seen, Seen)]
@@ -106,12 +116,23 @@ class Watching:
     def _look_at_reference(self, seen: Seen, at_s: float) -> None:
         if self._reference is None:
             self._reference = ReferenceWatch(seen.camera_from_marker)
+            self._reference_is_elsewhere = False
+            self._in_place_at_s = at_s
             return
-        state = self._reference.check(seen.camera_from_marker, self._scene_state).state
-        if state is ReferenceState.MOVED:
+        # What the scene said before the reference was elsewhere says nothing of what moved it.
+        is_new = self._looked_at_s > self._in_place_at_s
+        check = self._reference.check(
+            seen.camera_from_marker, self._scene_state if is_new else SceneState.UNSURE
+        )
+        self._reference_is_elsewhere = check.images > 0
+        if not self._reference_is_elsewhere:
+            self._in_place_at_s = at_s
+        if check.state is ReferenceState.MOVED:
             self._reference_moved_at_s = at_s
-        if state in {ReferenceState.MOVED, ReferenceState.WITH_CAMERA}:
+        if check.state in {ReferenceState.MOVED, ReferenceState.WITH_CAMERA}:
             self._reference = ReferenceWatch(seen.camera_from_marker)
+            self._reference_is_elsewhere = False
+            self._in_place_at_s = at_s
 
 
 def _roomy(corners_px: Array) -> Array:

@@ -54,10 +54,7 @@ def spread_of(tool: Placed[Vertebra, Tool], channel: Channel) -> Spread:
     ellipsoid = ELLIPSOID_95 * sds[:, None] * vectors.T[::-1]
     for array in (covariance, ellipsoid):
         array.setflags(write=False)
-    swing = -skew(tool.pose.rotation[:, 2])
-    larger, smaller = _plane_sds(
-        tool.pose.rotation[:, :2].T @ (swing @ tool.covariance[3:, 3:] @ swing.T) @ tool.pose.rotation[:, :2]
-    )
+    larger, smaller = _plane_sds(axis_covariance_rad2(tool))
     axis = directions_of(channel).axis
     return Spread(
         tip_covariance_mm2=covariance,
@@ -70,25 +67,37 @@ def spread_of(tool: Placed[Vertebra, Tool], channel: Channel) -> Spread:
     )
 
 
+def axis_covariance_rad2(tool: Placed[Vertebra, Tool]) -> Array:
+    """Covariance (2, 2) of the drilling direction, along the tool's own x and y."""
+    swing = -tool.pose.rotation[:, :2].T @ skew(tool.pose.rotation[:, 2])
+    return np.asarray(swing @ tool.covariance[3:, 3:] @ swing.T)
+
+
 def crossing_sds_mm(
     tool: Placed[Vertebra, Tool], channel: Channel, *, depth_mm: float
 ) -> tuple[float, float]:
-    """Larger and smaller sd of where the drill's line meets the plane at a depth of the channel.
+    """Larger and smaller sd of where the drill's line meets the plane at a depth of the channel."""
+    return _plane_sds(crossing_covariance_mm2(tool, channel, depth_mm=depth_mm))
 
-    Tip and axis err together: a marker behind the tip swings the tip by its angle.
+
+def crossing_covariance_mm2(tool: Placed[Vertebra, Tool], channel: Channel, *, depth_mm: float) -> Array:
+    """Covariance (2, 2) of where the drill's line meets the plane at a depth: to the middle, to the head.
+
+    Tip and axis err together: a marker behind the tip swings the tip by its angle. Infinite where the drill
+    is across the channel.
     """
     across = directions_of(channel)
     direction = tool.pose.rotation[:, 2]
     along = float(direction @ across.axis)
     if abs(along) < LEAST_ALONG:
-        return np.inf, np.inf
+        return np.diag([np.inf, np.inf])
     tip_depth = float((tool.pose.translation_mm - channel.entry_in_vertebra_mm) @ across.axis)
     ahead = (depth_mm - tip_depth) / along
     onto = np.stack([across.medial, across.cranial])
     # Whatever moves the line along itself moves the crossing not at all.
     onto = onto @ (np.eye(3) - np.outer(direction, across.axis) / along)
     jacobian = onto @ np.hstack([np.eye(3), -ahead * skew(direction)])
-    return _plane_sds(jacobian @ tool.covariance @ jacobian.T)
+    return np.asarray(jacobian @ tool.covariance @ jacobian.T)
 
 
 def radius_95(larger_sd: float, smaller_sd: float) -> float:
@@ -101,6 +110,8 @@ def radius_95(larger_sd: float, smaller_sd: float) -> float:
 
 
 def _plane_sds(covariance: Array) -> tuple[float, float]:
+    if not np.isfinite(covariance[0, 0]):
+        return np.inf, np.inf
     a, b, c = float(covariance[0, 0]), float(covariance[0, 1]), float(covariance[1, 1])
     middle, half = 0.5 * (a + c), float(np.hypot(0.5 * (a - c), b))
     return float(np.sqrt(max(middle + half, 0.0))), float(np.sqrt(max(middle - half, 0.0)))

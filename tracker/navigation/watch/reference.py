@@ -45,11 +45,13 @@ class ReferenceCheck:
         state: what it means.
         moved_mm: from where it was in the camera's frame, at the registration or the last check on anatomy.
         turned_deg: likewise.
+        images: how many in a row have it elsewhere.
     """
 
     state: ReferenceState
     moved_mm: float
     turned_deg: float
+    images: int
 
 
 class ReferenceWatch:
@@ -64,7 +66,7 @@ class ReferenceWatch:
         self._images = 0
 
     def check(self, camera_from_reference: Rigid[Camera, Marker], scene: SceneState) -> ReferenceCheck:
-        """Judge the reference in an image, by what the scene said last.
+        """Judge the reference in an image, by what the scene said since it is elsewhere.
 
         After `MOVED` or `WITH_CAMERA` a new watch belongs to the new place, with a new `SceneWatch`: after a
         check on anatomy in the first case, at once in the second.
@@ -80,4 +82,4 @@ class ReferenceWatch:
                 SceneState.STILL: ReferenceState.MOVED,
                 SceneState.MOVED: ReferenceState.WITH_CAMERA,
             }.get(scene, ReferenceState.CANNOT_TELL)
-        return ReferenceCheck(state=state, moved_mm=moved_mm, turned_deg=turned_deg)
+        return ReferenceCheck(state=state, moved_mm=moved_mm, turned_deg=turned_deg, images=self._images)

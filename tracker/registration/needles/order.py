@@ -45,6 +45,6 @@ def refuse_swapped(
         "NEEDLES_SWAPPED",
         f"needles {' and '.join(swapped)} seem to be marked for one another: the other order fits better by "
         f"{-lead:.1f} in chi squared, allowed {gate.most_lead_of_swapped:g}",
-        "Mark each needle again under its own name.",
+        "Mark each needle again under its own name, or touch one where it goes in with the tool's tip.",
         {"lead": lead},
     )

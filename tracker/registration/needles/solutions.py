@@ -46,7 +46,7 @@ def solutions(task: Task) -> list[Solution]:
 
 def nearest_solution(task: Task) -> Solution:
     """The pose found from the measured view alone: to compare many tasks by."""
-    return _settled(task, _placed(task, task.view.rotation), rounds=1)
+    return _settled(task, _placed(task, task.view.rotation), rounds=3)
 
 
 def linear_cost(task: Task) -> float:

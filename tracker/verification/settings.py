@@ -1,0 +1,37 @@
+"""How well the people of a verified theatre work, and how often they are looked at."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerificationSettings:
+    """Spreads that errors are drawn with; each is what the software is told, or takes by itself.
+
+    Attributes:
+        tip_sd_mm: of the tool's calibrated tip, along each axis.
+        axis_sd_deg: of its calibrated axis, to each of two sides.
+        marking_sd_mm: how well a landmark is marked on the CT, along each axis. With a hand that lands
+            0.15 mm beside it, that is the error of a landmark that registration takes for the least.
+        placing_sd_mm: how well a needle is put on its landmark, along each axis.
+        click_sd_px: how well a needle is marked in the image.
+        image_hz: how fast images come.
+        capture_images: with the tip on one landmark.
+        looks: how often the operation is looked at, spread over what it takes.
+        burst_images: looked at in a row each time; the last one counts.
+        moves_at_s: when the camera is moved.
+        watched_s: for how long after that every image is looked at.
+        noticed_within_s: a move must be noticed within this.
+    """
+
+    tip_sd_mm: float = 0.15
+    axis_sd_deg: float = 0.15
+    marking_sd_mm: float = 0.25
+    placing_sd_mm: float = 0.7
+    click_sd_px: float = 1.0
+    image_hz: float = 30.0
+    capture_images: int = 14
+    looks: int = 12
+    burst_images: int = 3
+    moves_at_s: float = 17.0
+    watched_s: float = 1.4
+    noticed_within_s: float = 1.2
