@@ -82,6 +82,11 @@ class DrillNodes:
             self._frame.position = vector(now.world_from_tool.translation_mm)
             self._frame.wxyz = quaternion(now.world_from_tool.rotation)
 
+    @property
+    def visible(self) -> bool:
+        """Whether any part of it is to be seen."""
+        return any(node.visible for node in (self._frame, self._cone, self._ellipsoid, self._line))
+
     def _show_spread(self, now: DrillNow | None) -> None:
         spread = None if now is None else now.spread
         self._ellipsoid.visible = self._cone.visible = spread is not None

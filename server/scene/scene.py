@@ -62,7 +62,7 @@ class Scene:
     ) -> None:
         self._hub = hub
         self._setup = setup
-        self._surface = self._own_surface = surface
+        self._surface = surface
         self._loop: asyncio.AbstractEventLoop | None = None
         self._stale_after_s = stale_after_ms / 1000
         self._page = make_page(
@@ -90,8 +90,8 @@ class Scene:
         self._follower.add_done_callback(_say_why)
 
     def show_surface(self, surface: Surface | None) -> None:
-        """Show this bone; with None, the one that was there from the beginning. From any thread."""
-        self._surface = self._own_surface if surface is None else surface
+        """Show this bone from now on, or none. From any thread."""
+        self._surface = surface
         if self._loop is not None and not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._take_surface)
 
