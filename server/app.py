@@ -19,6 +19,7 @@ from server.api.health import health_router
 from server.api.jobs import jobs_router
 from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
+from server.api.needles import needles_router
 from server.api.page import mount_page, page_folder
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
@@ -27,6 +28,7 @@ from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
+from server.api.sweep import sweep_router
 from server.api.tools import tools_router
 from server.config import Config
 from server.jobs import Jobs
@@ -139,4 +141,6 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
         app.include_router(procedure_router(parts.steps.procedure))
         app.include_router(registration_router(parts.steps.registration))
+        app.include_router(sweep_router(parts.steps.registration.sweep))
+        app.include_router(needles_router(parts.steps.registration, parts.steps.opened_ct))
         app.include_router(surface_router(parts.steps.surface, parts.store, parts.store.home))

@@ -154,10 +154,19 @@ class RegistrationConfig(Section):
     """RMS distance of the landmarks from where the fit lays them."""
     most_tre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
     """The stated error (3-D RMS) at the entry point of every channel of the vertebra."""
-    capture_images: Annotated[int, Field(ge=3, le=300)] = 15
+    most_left_out_mm: Annotated[float, Field(gt=0.0, le=50.0)] = 5.0
+    """Distance of any landmark from where all the others have it; known of four and more."""
+    capture_images: Annotated[int, Field(ge=3, le=300)] = 12
     """Images in a row in which the tip rests on a landmark, and is seen in all of them."""
-    most_capture_spread_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0
-    """RMS distance of the tip from its mean in these images."""
+    capture_s: Annotated[float, Field(ge=0.05, le=10.0)] = 0.4
+    """How long they last at least, so that a hand's tremor is in them."""
+    most_capture_sd_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 0.4
+    """Standard deviation of the tip in them, along its worst axis."""
+    most_surface_rms_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0
+    """RMS distance of a sweep from the bone's surface."""
+    most_nudge_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
+    """How far all nudges by hand together may lead, between the entry points."""
+    most_nudge_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
     check_required: bool = True
     """false: navigate by a registration that was not checked on a landmark."""
     most_check_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
@@ -223,8 +232,6 @@ class AlarmsConfig(Section):
     reference_unseen_after_ms: Annotated[float, Field(ge=100.0, le=60_000.0)] = 1000
     put_away_after_s: Annotated[float, Field(ge=5.0, le=3600.0)] = 120
     """A drill unseen for longer lies somewhere on purpose, and is no longer missed."""
-    check_due_after_min: Annotated[float, Field(ge=1.0, le=1440.0)] = 30
-    """Since the last check on anatomy."""
     screen_lost_after_s: Annotated[float, Field(ge=3.0, le=600.0)] = 6
     """A screen with armed sound that says nothing for this long is lost."""
     least_free_disk_mb: Annotated[float, Field(ge=0.0, le=1e7)] = 2000

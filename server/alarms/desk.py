@@ -58,7 +58,7 @@ def alarm_limits(config: Config) -> AlarmLimits:
         drill_unseen_after_s=alarms.drill_unseen_after_ms / 1000.0,
         reference_unseen_after_s=alarms.reference_unseen_after_ms / 1000.0,
         camera_silent_after_s=config.limits.video_stale_after_ms / 1000.0,
-        check_due_after_s=alarms.check_due_after_min * 60.0,
+        check_due_after_s=config.registration.check_again_after_min * 60.0,
         least_free_disk_mb=alarms.least_free_disk_mb,
     )
 
@@ -130,6 +130,10 @@ class AlarmDesk:
     def know(self, facts: ProcedureFacts) -> None:
         """What the procedure knows from now on."""
         with self._lock:
+            is_current = facts.registration_current and facts.calibration_current
+            if self._memory.navigating and not is_current:
+                # What goes out of date under the hand takes the numbers away; that ends nothing by itself.
+                facts = replace(facts, navigating=True)
             self._facts = facts
         self.tell()
 

@@ -4,27 +4,37 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from server.api.case_messages import DocumentMessage, document_message
+from server.api.case_messages import DocumentMessage, MadeBy, document_message
 from server.api.errors import refusals
 from server.api.registration_messages import (
     ByRequest,
     CheckMessage,
     CheckRequest,
     LandmarkRequest,
+    NudgeRequest,
+    NudgesMessage,
     PointsMessage,
     PointsRequest,
     RegistrationMessage,
     UseRequest,
     VertebraName,
     check_message,
+    nudges_message,
     points_message,
     registration_message,
 )
 from server.live import Trouble
-from server.procedure.registration import CheckStep, PointsStep, RegistrationShelf, RegistrationSteps
+from server.procedure.registration import (
+    CheckStep,
+    NudgeStep,
+    PointsStep,
+    RegistrationShelf,
+    RegistrationSteps,
+)
 from server.store import Current
 from server.stream.messages import TroubleMessage
 from tracker.errors import RegistrationError
+from tracker.registration.nudge import Nudge
 
 KEPT = refusals(409, 422, 503, 507)
 
@@ -35,6 +45,7 @@ def registration_router(steps: RegistrationSteps) -> APIRouter:
     _add_whole(router, steps.shelf)
     _add_points(router, steps.points)
     _add_check(router, steps.check)
+    _add_nudges(router, steps.nudge)
     return router
 
 
@@ -110,6 +121,25 @@ def _add_check(router: APIRouter, step: CheckStep) -> None:
     def conclude(asked: ByRequest) -> DocumentMessage:
         """Keep the check, passed or failed: its distance decides whether anybody may navigate."""
         return document_message(step.conclude(made_by=asked.made_by), Current())
+
+
+def _add_nudges(router: APIRouter, step: NudgeStep) -> None:
+    @router.get("/nudges", responses=refusals(409, 422, 503))
+    def nudges() -> NudgesMessage:
+        """What was nudged by hand, by whom and when, and how far all of it leads."""
+        return nudges_message(step.status())
+
+    @router.post("/nudges", status_code=201, responses=KEPT)
+    def apply(asked: NudgeRequest) -> NudgesMessage:
+        """Nudge the vertebra that is drawn on the patient; it has to be checked again then."""
+        step.apply(Nudge(kind=asked.kind, axis=asked.axis, amount=asked.amount), made_by=asked.made_by)
+        return nudges_message(step.status())
+
+    @router.delete("/nudges/last", responses=KEPT)
+    def undo(made_by: Annotated[MadeBy, Query()]) -> NudgesMessage:
+        """Take the last nudge back; undone, its uncertainty is gone too."""
+        step.undo(made_by=made_by)
+        return nudges_message(step.status())
 
 
 def _points(step: PointsStep) -> PointsMessage:

@@ -5,12 +5,12 @@ from typing import Annotated, TypeAlias
 import numpy as np
 from pydantic import Field
 
-from server.api.case_messages import HeadingMessage, heading_message
-from server.api.ct_messages import MadeBy
+from server.api.case_messages import HeadingMessage, MadeBy, heading_message
 from server.config import Name
-from server.procedure.registered import KeptCheck, KeptRegistration, Value
+from server.procedure.registered import KeptCheck, KeptNudge, KeptRegistration, Value
 from server.procedure.registration import (
     CheckStatus,
+    NudgesStatus,
     PointsStatus,
     ShelvedRegistration,
     TouchState,
@@ -21,15 +21,21 @@ from server.procedure.registration import (
 from server.stream.messages import Message, TroubleMessage, trouble_message
 from tracker.plan.remark import Remark
 from tracker.registration import AnchoredTo, Method
+from tracker.registration.nudge import NudgeAxis, NudgeKind
 
 LandmarkName: TypeAlias = Annotated[str, Field(min_length=1, max_length=60)]
 VertebraName: TypeAlias = Annotated[str, Field(min_length=1, max_length=60)]
 
 
-class PointsRequest(Message):
-    """Which tool touches which vertebra."""
+class ToolRequest(Message):
+    """Which tool touches."""
 
     tool: Name
+
+
+class PointsRequest(ToolRequest):
+    """Which tool touches which vertebra."""
+
     vertebra: VertebraName | None = None
     """Its name in the plan; the one that is to be drilled if left out."""
 
@@ -58,6 +64,33 @@ class ByRequest(Message):
     made_by: MadeBy
 
 
+class NudgeRequest(Message):
+    """One small step by hand."""
+
+    made_by: MadeBy
+    kind: NudgeKind
+    """shift: along the axis, in mm; turn: about it, in degrees, right-handed."""
+    axis: NudgeAxis
+    """Of the patient, named for the way that is positive."""
+    amount: Annotated[float, Field(ge=-1.0, le=1.0)]
+    """0.1, 0.5 or 1, or the same with a minus."""
+
+
+class NudgesMessage(Message):
+    """The nudges that hold."""
+
+    vertebra: str
+    version: int
+    """Of the registration with them."""
+    nudges: list[KeptNudge]
+    """The oldest first."""
+    shift_mm: float
+    """How far all of them lead, between the entry points."""
+    turn_deg: float
+    most_mm: float
+    most_deg: float
+
+
 class TouchMessage(Message):
     """A capture of the tip on a landmark."""
 
@@ -66,8 +99,8 @@ class TouchMessage(Message):
     images: int
     """In which the tip was seen so far."""
     wanted: int
-    spread_mm: float | None
-    """RMS distance of the tip from its mean; null until it is taken."""
+    spread_mm: list[float] | None
+    """Standard deviation of the tip along the anchor's axes; null until it is taken."""
     trouble: TroubleMessage | None
     """Why it was refused."""
 
@@ -80,7 +113,7 @@ class TouchedLandmarkMessage(Message):
     touched: bool
     used: bool
     tip_in_anchor_mm: list[float] | None
-    spread_mm: float | None
+    spread_mm: list[float] | None
     tip_sd_mm: float | None
     """How sure the tip is (root of the sum of variances)."""
     residual_mm: float | None
@@ -167,8 +200,8 @@ def points_message(status: PointsStatus, missing: list[TroubleMessage]) -> Point
                 point_lps_mm=one.point_lps_mm.tolist(),
                 touched=one.touched is not None,
                 used=one.touched is not None and one.used,
-                tip_in_anchor_mm=None if one.touched is None else one.touched.point_mm.tolist(),
-                spread_mm=None if one.touched is None else one.touched.spread_mm,
+                tip_in_anchor_mm=None if one.touched is None else one.touched.tip_in_anchor_mm.tolist(),
+                spread_mm=None if one.touched is None else one.touched.spread_mm.tolist(),
                 tip_sd_mm=None
                 if one.touched is None
                 else float(np.sqrt(np.trace(one.touched.covariance_mm2))),
@@ -207,7 +240,7 @@ def touch_message(status: TouchStatus) -> TouchMessage:
         state=status.state,
         images=status.images,
         wanted=status.wanted,
-        spread_mm=None if status.touched is None else status.touched.spread_mm,
+        spread_mm=None if status.touched is None else status.touched.spread_mm.tolist(),
         trouble=trouble_message(status.trouble),
     )
 
@@ -219,6 +252,19 @@ def check_message(status: CheckStatus) -> CheckMessage:
         tool=status.tool,
         capture=touch_message(status.capture),
         outcome=status.outcome,
+    )
+
+
+def nudges_message(status: NudgesStatus) -> NudgesMessage:
+    """The nudges, as they are told."""
+    return NudgesMessage(
+        vertebra=status.shelved.kept.vertebra,
+        version=status.shelved.document.version,
+        nudges=list(status.nudges),
+        shift_mm=status.shift_mm,
+        turn_deg=status.turn_deg,
+        most_mm=status.limits.most_mm,
+        most_deg=status.limits.most_deg,
     )
 
 

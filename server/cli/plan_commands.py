@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 plan_app = typer.Typer(
-    help="Plan on a CT: measure a pedicle.",
+    help="Plan on a CT: list its series, measure a pedicle.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -14,7 +14,7 @@ plan_app = typer.Typer(
 
 @plan_app.callback()
 def plan() -> None:
-    """Plan on a CT: measure a pedicle."""
+    """Plan on a CT: list its series, measure a pedicle."""
 
 
 @plan_app.command()
@@ -48,3 +48,16 @@ def measure(
 
     order = MeasureOrder(ct=ct, side=side, seed_lps_mm=seed_lps_mm, series=series, config=config)
     measure_in_file(order, as_json=json)
+
+
+@plan_app.command()
+def series(
+    ct: Annotated[Path, typer.Argument(help="Folder or zip of DICOM slices, or a NIfTI file.", metavar="CT")],
+    json: Annotated[
+        bool, typer.Option("--json", help="Write the series as JSON.", show_default=False)
+    ] = False,
+) -> None:
+    """List the series of a CT: slices, size and spacing; the first word of a line is what --series takes."""
+    from server.cli.plan_series import tell_series  # noqa: PLC0415  loaded when needed
+
+    tell_series(ct, as_json=json)

@@ -61,6 +61,10 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
         from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
+        alarm_log = StoredAlarmLog(kept.store)
+        ending.callback(alarm_log.stop)
+        alarms = AlarmDesk(config, log=alarm_log)
+        alarms.tell = tracked.wake
         steps = Steps.of(
             hub=tracked.hub,
             store=kept.store,
@@ -68,11 +72,8 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
             config=config,
             side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
             adopt=tracked.adopt,
+            know=alarms.know,
         )
-        alarm_log = StoredAlarmLog(kept.store)
-        ending.callback(alarm_log.stop)
-        alarms = AlarmDesk(config, log=alarm_log)
-        alarms.tell = tracked.wake
         app = create_app(
             AppParts(
                 hub=tracked.hub,

@@ -10,8 +10,9 @@ from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.ink import Image
 from server.overlay.panel import MARGIN_PX, WIDTH_PX, draw_panel, draw_small_print
+from server.overlay.verdict import draw_verdict
 from server.overlay.view import View
-from server.overlay.words import panel_of
+from server.overlay.words import Panel, panel_of
 from tracker.errors import InvalidInput
 from tracker.navigation import Absent, Deviation, NavigationSnapshot, seen_along
 from tracker.navigation.alarms import QUIET, AlarmPicture
@@ -59,7 +60,8 @@ def draw_overlay(
             draw_marker(drawn, name, sighting, scale=scale)
     panel = panel_of(snapshot)
     top_px = draw_panel(drawn, panel, scale=scale)
-    _draw_inset(drawn, snapshot, panel.tool, below_px=top_px, scale=scale)
+    top_px = _draw_inset(drawn, snapshot, panel.tool, below_px=top_px, scale=scale)
+    _draw_verdict(drawn, panel, below_px=top_px, scale=scale)
     draw_small_print(drawn, snapshot, scale=scale)
     draw_alarm_band(drawn, alarms, scale=scale)
     return drawn
@@ -79,29 +81,51 @@ def _draw_theatre(image: Image, snapshot: NavigationSnapshot, scale: float) -> N
 
 def _draw_inset(
     image: Image, snapshot: NavigationSnapshot, tool: str, *, below_px: float, scale: float
-) -> None:
-    """Draw the view along the channel above the panel, for the tool whose numbers stand there."""
+) -> float:
+    """Draw the view along the channel above the panel, for the tool whose numbers stand there.
+
+    Answers the top in px of what is drawn by now.
+    """
     channel = snapshot.setup.channel
     if not tool or isinstance(channel, Absent):
-        return
+        return below_px
     placed = snapshot.vertebra_from_tool(tool)
     if isinstance(placed, Absent):
-        return
+        return below_px
     side = WIDTH_PX * scale
+    top_px = below_px - GAP_PX * scale - side
+    seen, judged = seen_along(placed, channel), snapshot.judgements[tool]
     draw_bullseye(
         image,
         Inset(
             left_px=MARGIN_PX * scale,
-            top_px=below_px - GAP_PX * scale - side,
+            top_px=top_px,
             side_px=side,
             reach_mm=max(LEAST_REACH_MM, 2.0 * channel.radius_mm),
             scale=scale,
         ),
         Target(
-            seen=seen_along(placed, channel),
+            seen=seen,
             channel_radius_mm=channel.radius_mm,
             drill_radius_mm=snapshot.setup.tools[tool].radius_mm,
+            tip_covariance_mm2=None
+            if isinstance(judged, Absent)
+            else seen.across_mm2(judged.spread.tip_covariance_mm2),
         ),
+    )
+    return top_px
+
+
+def _draw_verdict(image: Image, panel: Panel, *, below_px: float, scale: float) -> None:
+    if panel.verdict is None:
+        return
+    draw_verdict(
+        image,
+        panel.verdict,
+        left_px=MARGIN_PX * scale,
+        bottom_px=below_px - GAP_PX * scale,
+        width_px=WIDTH_PX * scale,
+        scale=scale,
     )
 
 

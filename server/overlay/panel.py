@@ -16,16 +16,18 @@ from tracker.navigation import Absent, NavigationSnapshot
 
 # For an image 720 px high; all of it grows with the image.
 MARGIN_PX = 16.0
-WIDTH_PX = 214.0
-ROW_PX = 82.0
-NUMBER_PX = 56.0
-UNIT_PX = 26.0
+WIDTH_PX = 240.0
+ROW_PX = 57.0
+NUMBER_PX = 49.0
+UNIT_PX = 22.0
 LABEL_PX = 19.0
 STATE_PX = 40.0
 DETAIL_PX = 24.0
 SMALL_PX = 17.0
 PADDING_PX = 14.0
 NOTE_PX = 24.0
+# What a label takes beside its number; a longer number is written smaller.
+LEAST_LABEL_PX = 62.0
 
 
 def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
@@ -58,21 +60,26 @@ def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
 
 
 def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale: float) -> None:
-    label_room = (WIDTH_PX - 1.5 * PADDING_PX) * scale
-    label_width = text_width_px(reading.label, size_px=LABEL_PX * scale, weight=SEMIBOLD)
-    label_size = LABEL_PX * scale * min(1.0, label_room / max(label_width, 1.0))
-    text(image, reading.label, (left, top + 25.0 * scale), QUIET, size_px=label_size, weight=SEMIBOLD)
-    # A degree sign belongs high, and close to its number.
+    """Draw one row: the label on the left, what is meant under it, and the number on the right."""
+    right = left + (WIDTH_PX - 1.6 * PADDING_PX) * scale
+    # A degree sign belongs high, and close to its number; the numbers stand in one column all the same.
     is_degree = reading.unit == "°"
-    unit_size, gap = (NUMBER_PX * scale, scale) if is_degree else (UNIT_PX * scale, 6.0 * scale)
-    unit_width = text_width_px(reading.unit, size_px=unit_size, weight=REGULAR) + gap
+    unit_size, gap = (NUMBER_PX * scale, scale) if is_degree else (UNIT_PX * scale, 5.0 * scale)
+    unit_width = text_width_px("mm", size_px=UNIT_PX * scale, weight=REGULAR) + 5.0 * scale
     width = text_width_px(reading.value, size_px=NUMBER_PX * scale, weight=SEMIBOLD)
     # A number too long for its place is written smaller, never cut.
-    room = (WIDTH_PX - 1.5 * PADDING_PX) * scale - unit_width
+    room = right - left - unit_width - LEAST_LABEL_PX * scale
     number_size = NUMBER_PX * scale * min(1.0, room / max(width, 1.0))
-    base = top + 76.0 * scale
-    end = text(image, reading.value, (left, base), WHITE, size_px=number_size, weight=SEMIBOLD)
+    start = right - unit_width - min(width, room)
+    base = top + 46.0 * scale
+    end = text(image, reading.value, (start, base), WHITE, size_px=number_size, weight=SEMIBOLD)
     text(image, reading.unit, (end + gap, base), QUIET, size_px=unit_size, weight=REGULAR)
+    lines = [(reading.label, LABEL_PX, SEMIBOLD), (reading.hint, SMALL_PX, REGULAR)]
+    for (words, size, weight), raised in zip(lines, (20.0 if reading.hint else 0.0, 0.0), strict=True):
+        if words:
+            wide = text_width_px(words, size_px=size * scale, weight=weight)
+            fitting = size * scale * min(1.0, (start - left - 6.0 * scale) / max(wide, 1.0))
+            text(image, words, (left, base - raised * scale), QUIET, size_px=fitting, weight=weight)
 
 
 def draw_small_print(image: Image, snapshot: NavigationSnapshot, *, scale: float) -> None:

@@ -2,8 +2,19 @@
 
 from dataclasses import dataclass
 
-from server.shown import shown_number
-from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot, ToolInView
+from server.shown import NOT_KNOWN, shown_number
+from tracker.navigation import (
+    Absent,
+    AbsentReason,
+    Deviation,
+    NavigationSnapshot,
+    ToolInView,
+    Verdict,
+    verdict_of,
+)
+from tracker.navigation.certainty import Judged
+from tracker.navigation.clearance import Closest, DrillClearance, Nearest
+from tracker.plan.screw import GertzbeinRobbins
 from tracker.pose import Seen, Unseen, UnseenReason
 
 RESEARCH_SOFTWARE = "research software, not a medical device"
@@ -34,6 +45,12 @@ STATE_DETAILS = {
     AbsentReason.POSE_JUMPED: "farther than a hand moves between two images",
     AbsentReason.NOT_CHECKED: "touch a landmark to check the registration",
 }
+VERDICT_WORDS = {
+    Verdict.ON: "ON PATH",
+    Verdict.OFF: "OFF PATH",
+    Verdict.UNSURE: "UNSURE",
+    Verdict.THROUGH: "THROUGH",
+}
 UNSEEN_WORDS = {
     UnseenReason.NO_CANDIDATE: "nothing looks like it",
     UnseenReason.SCORE_TOO_LOW: "too few of its edges",
@@ -49,6 +66,16 @@ class Reading:
     label: str
     value: str
     unit: str
+    hint: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerdictSaid:
+    """What one image says of the drill, and what is to be known of it; empty where the word says all."""
+
+    verdict: Verdict
+    word: str
+    detail: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +85,7 @@ class Panel:
     tool: str = ""
     readings: tuple[Reading, ...] = ()
     note: str = ""
+    verdict: VerdictSaid | None = None
     state: str = ""
     details: tuple[str, ...] = ()
 
@@ -69,20 +97,64 @@ def panel_of(snapshot: NavigationSnapshot) -> Panel:
     """
     for name, deviation in snapshot.deviations.items():
         if isinstance(deviation, Deviation):
+            judged = snapshot.judgements[name]
             readings = _readings(deviation, tool=name if len(snapshot.tools) > 1 else "")
-            return Panel(tool=name, readings=readings, note=_note(snapshot.tools[name]))
+            return Panel(
+                tool=name,
+                readings=(*readings, _wall_reading(judged)),
+                note=_note(snapshot.tools[name]),
+                verdict=None if isinstance(judged, Absent) else _verdict(judged),
+            )
     reason, marker = _reason(snapshot)
     return Panel(state=STATE_WORDS[reason], details=_details(snapshot, reason, marker))
 
 
 def _readings(deviation: Deviation, *, tool: str) -> tuple[Reading, ...]:
-    owner = f" · {tool}" if tool else ""
     return (
-        Reading(label=f"ENTRY{owner}", value=shown_number(deviation.entry_offset_mm), unit="mm"),
+        Reading(label="ENTRY", value=shown_number(deviation.entry_offset_mm), unit="mm", hint=tool),
         Reading(label="ANGLE", value=shown_number(deviation.angle_deg), unit="°"),
         Reading(label="DEPTH", value=shown_number(deviation.depth_mm), unit="mm"),
         Reading(label="TO GO", value=shown_number(deviation.remaining_mm), unit="mm"),
     )
+
+
+def _wall_reading(judged: Judged | Absent) -> Reading:
+    """The least clearance of the whole drill, and which wall that is."""
+    now = None if isinstance(judged, Absent) else judged.clearance.now
+    if not isinstance(now, Nearest):
+        return Reading(label="WALL", value=NOT_KNOWN, unit="mm")
+    return Reading(label="WALL", value=shown_number(now.clearance_mm), unit="mm", hint=now.wall)
+
+
+def _verdict(judged: Judged) -> VerdictSaid:
+    verdict = verdict_of(judged)
+    return VerdictSaid(verdict=verdict, word=VERDICT_WORDS[verdict], detail=_verdict_detail(verdict, judged))
+
+
+def _verdict_detail(verdict: Verdict, judged: Judged) -> str:
+    clearance, certain = judged.clearance, judged.certain
+    if verdict is Verdict.UNSURE:
+        widest_mm = max(certain.entry_95_mm, certain.isthmus_95_mm)
+        return f"±{shown_number(widest_mm)} of {shown_number(certain.room_mm)} mm"
+    if verdict is Verdict.THROUGH:
+        return _through_detail(clearance)
+    if verdict is Verdict.OFF:
+        return _ahead_detail(clearance.at_end)
+    return ""
+
+
+def _through_detail(clearance: DrillClearance) -> str:
+    now = clearance.now
+    if isinstance(now, Nearest) and now.clearance_mm < 0.0:
+        return f"{now.wall} wall, {shown_number(now.breach_mm)} mm"
+    return f"{shown_number(clearance.past_planned_mm)} mm past the end"
+
+
+def _ahead_detail(at_end: Closest) -> str:
+    """What the present direction would give; where that is harmless, it is the channel that is left."""
+    if at_end.grade is GertzbeinRobbins.A or not isinstance(at_end, Nearest):
+        return "leaves the channel"
+    return f"ahead: {at_end.wall}, class {at_end.grade}"
 
 
 def _note(tool: ToolInView | Absent) -> str:

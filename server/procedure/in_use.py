@@ -1,23 +1,34 @@
 """What the open case knows, kept in use: each change of it reaches the tracking process at once."""
 
 import threading
+import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import structlog
 
+from server.alarms import ProcedureFacts
 from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.facts import facts_of
+from server.procedure.guiding import Guiding
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
-from server.procedure.registered import check_name, kept_registration
+from server.procedure.registered import (
+    KeptCheck,
+    KeptRegistration,
+    check_name,
+    kept_check,
+    kept_registration,
+)
 from server.procedure.state import Brought, Procedure
 from server.procedure.tool import kept_tool
 from server.setup import CaseSetup
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.camera import CameraModel
 from tracker.errors import NavigationError
-from tracker.navigation import AbsentReason
+from tracker.navigation import AbsentReason, Guide
 from tracker.plan import Channel
 from tracker.pose import ToolModel
-from tracker.registration import Registration
+from tracker.registration import AnchoredTo
 
 log = structlog.get_logger(__name__)
 
@@ -33,8 +44,10 @@ class CaseInUse:
         store: where cases are kept.
         adopt: told what the open case knows, whenever that has changed.
         procedure: its state, which says whether numbers are withheld.
+        guiding: what the drill is held against.
         brought: by the settings: a calibration of another camera's source, or what is fixed to another
             reference, is not used.
+        know: told what the alarms shall know of the procedure, whenever the case has changed.
     """
 
     def __init__(
@@ -43,23 +56,31 @@ class CaseInUse:
         adopt: Callable[[CaseSetup], None],
         *,
         procedure: Procedure,
+        guiding: Guiding,
         brought: Brought,
+        know: Callable[[ProcedureFacts], None],
     ) -> None:
         self._store = store
         self._adopt = adopt
         self._procedure = procedure
         self._brought = brought
         self._lock = threading.Lock()
-        self._in_use: tuple[str, ...] = ()
+        self._guiding = guiding
+        self._know = know
+        self._in_use: tuple[tuple[str, ...], Guide | None] = ((), None)
+        guiding.tell = self.refresh
 
     def refresh(self) -> None:
         """Look what the open case knows now, and hand it on if it is not what is in use."""
         with self._lock:
             documents = self._documents()
             ids = tuple(document.id for document in documents)
-            if ids != self._in_use:
-                self._adopt(self._setup_of(documents))
-                self._in_use = ids
+            active = [document for document in documents if document.kind is DocumentKind.PLAN]
+            guide = self._guiding.guide_for(active[0]) if active else None
+            if ids != self._in_use[0] or guide is not self._in_use[1]:
+                self._adopt(replace(self._setup_of(documents), guide=guide))
+                self._in_use = (ids, guide)
+                self._know(facts_of(self._procedure.state(), now_s=time.monotonic()))
 
     def _documents(self) -> list[Document]:
         """What of the open case holds and says something of the set-up."""
@@ -85,7 +106,8 @@ class CaseInUse:
         cameras: dict[str, CameraModel] = {}
         tools: dict[str, ToolModel] = {}
         channel: Channel | None = None
-        registration: Registration | None = None
+        registered: KeptRegistration | None = None
+        check: KeptCheck | None = None
         for document in documents:
             try:
                 if document.kind is DocumentKind.CAMERA:
@@ -93,20 +115,31 @@ class CaseInUse:
                 elif document.kind is DocumentKind.PLAN:
                     channel = kept_channel(document).channel
                 elif document.kind is DocumentKind.REGISTRATION:
-                    kept = kept_registration(document, reference=self._brought.reference)
-                    registration = kept.registration
-                elif document.kind is DocumentKind.TOOL:
+                    registered = kept_registration(document, reference=self._brought.reference)
+                elif document.kind is DocumentKind.CHECK:
+                    check = kept_check(document)
+                else:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        is_withheld = registration is not None and self._procedure.state().waits_for_check
+        is_withheld = registered is not None and self._procedure.state().waits_for_check
         return CaseSetup(
             camera=cameras.get(MAIN_CAMERA),
             tools=tools,
             channel=channel,
-            registration=registration,
+            registration=None if registered is None else registered.registration,
+            registered_from_s=None if registered is None else self._from_s(registered, check),
             withheld=AbsentReason.NOT_CHECKED if is_withheld else None,
         )
+
+    def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:
+        """Since when it stands, by the images' clock: touched, or checked since; None before this run."""
+        run = self._procedure.run
+        is_fixed = registered.registration.anchored_to is AnchoredTo.REFERENCE
+        # Of a camera that was moved a check on one landmark takes nothing back: its turn is not seen there.
+        if is_fixed and check is not None and check.passed and check.run == run:
+            return check.from_s
+        return registered.from_s if registered.run == run else None
 
 
 def _named(name: str, tool: ToolModel | None) -> Mapping[str, ToolModel]:

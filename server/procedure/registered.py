@@ -1,5 +1,6 @@
 """A registration, and its check on anatomy, as a case keeps them."""
 
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -10,10 +11,42 @@ from server.store import Document
 from tracker.errors import InvalidInput, NavigationError, RegistrationError
 from tracker.geometry import Rigid
 from tracker.registration import AnchoredTo, Method, Registration
+from tracker.registration.nudge import NudgeAxis, NudgeKind
 
 Row4 = Annotated[list[float], Field(min_length=4, max_length=4)]
 Row6 = Annotated[list[float], Field(min_length=6, max_length=6)]
 Value = float | int | bool | str | None
+
+
+class KeptNudge(Section):
+    """One nudge by hand."""
+
+    kind: NudgeKind
+    axis: NudgeAxis
+    amount: float
+    """mm or degrees, with its sign."""
+    made_by: str
+    made_at: str
+    """UTC, ISO 8601 with milliseconds."""
+
+
+class KeptNudges(Section):
+    """A registration before it was nudged, and what was nudged since."""
+
+    anchor_from_vertebra: Annotated[list[Row4], Field(min_length=4, max_length=4)]
+    covariance: Annotated[list[Row6], Field(min_length=6, max_length=6)]
+    pivot_lps_mm: Annotated[list[float], Field(min_length=3, max_length=3)]
+    """About which it is turned: between the entry points."""
+    nudges: list[KeptNudge]
+    """The oldest first."""
+
+    def made(self, nudged: Registration) -> Registration:
+        """The registration as it was before."""
+        return replace(
+            nudged,
+            anchor_from_vertebra=Rigid.from_matrix(self.anchor_from_vertebra),
+            covariance=np.array(self.covariance),
+        )
 
 
 class KeptRegistration(Section):
@@ -29,10 +62,14 @@ class KeptRegistration(Section):
     covariance: Annotated[list[Row6], Field(min_length=6, max_length=6)]
     run: str
     """Which run of the server it was made in: past its end nobody knows whether a camera was moved."""
+    from_s: float | None = None
+    """When its first point was touched, by the clock of that run's images; null where no tip touched."""
     numbers: dict[str, Value]
     """Of its gates."""
     made_from: dict[str, object]
     """The points, needles or sweep behind it."""
+    nudged: KeptNudges | None = None
+    """What was nudged by hand since; null where nothing was."""
 
     @classmethod
     def of(
@@ -44,6 +81,7 @@ class KeptRegistration(Section):
         run: str,
         numbers: dict[str, Value],
         made_from: dict[str, object],
+        from_s: float | None,
     ) -> "KeptRegistration":
         """As it is kept."""
         return cls(
@@ -56,6 +94,7 @@ class KeptRegistration(Section):
             run=run,
             numbers=numbers,
             made_from=made_from,
+            from_s=from_s,
         )
 
     @property
@@ -86,10 +125,12 @@ class KeptCheck(Section):
     passed: bool
     run: str
     """Which run of the server it was made in."""
-    found_in_vertebra_mm: list[float]
-    """Where the registration says that the tip was, LPS."""
-    expected_sd_mm: float
-    """The distance that the stated uncertainty makes likely (root of the sum of variances)."""
+    from_s: float
+    """When the tip was first seen on the landmark, by the clock of that run's images."""
+    off_lps_mm: list[float]
+    """Where the registration has the tip, minus the landmark: to the left, the back, the head."""
+    sd_mm: float
+    """How unsure that distance is (3-D RMS), by what registration and tip state."""
     images: int
 
 

@@ -4,12 +4,14 @@ import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from server.alarms import ProcedureFacts
 from server.capture.address import SourceKind, source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
 from server.procedure.ct import CtStep, OpenedCt
+from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
 from server.procedure.plan import PlanStep
 from server.procedure.registration import RegistrationSteps
@@ -20,8 +22,8 @@ from server.setup import CaseSetup
 from server.store import CaseStore
 from tracker.pose.tool import ToolGate
 
-# As the rehearsal's theatre calls it; to load the theatre for a name takes time.
-REHEARSED_TOOL = "drill"
+# As the rehearsal's theatre calls them; to load the theatre for a name takes time.
+REHEARSED_TOOL, REHEARSED_REFERENCE = "drill", "reference"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +60,7 @@ class Steps:
         config: Config,
         side_mm_from_marker: Mapping[str, float],
         adopt: Callable[[CaseSetup], None],
+        know: Callable[[ProcedureFacts], None] = lambda _: None,
     ) -> "Steps":
         """The steps; from here on `adopt` is told whenever the open case knows something else.
 
@@ -68,40 +71,39 @@ class Steps:
             config: the gates, and the tools as the settings have them.
             side_mm_from_marker: the markers that are looked for.
             adopt: has the tracking process work with what a case knows.
+            know: told what the alarms shall know of the procedure.
         """
         brought = brought_by(config)
-        source = brought.source
         procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
-        in_use = CaseInUse(store, adopt, procedure=procedure, brought=brought)
-        store.call_after_writing(in_use.refresh)
-        # A case that was open when the server stopped is open again.
-        in_use.refresh()
+        _keep_in_use(
+            CaseInUse(
+                store,
+                adopt,
+                procedure=procedure,
+                guiding=Guiding(store=store, jobs=jobs),
+                brought=brought,
+                know=know,
+            ),
+            store,
+        )
         opened_ct = OpenedCt(store)
+        surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
             camera=CameraStep(
-                hub=hub,
-                store=store,
-                jobs=jobs,
-                gate=config.calibration,
-                source=source,
+                hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source
             ),
-            tool=ToolStep(
-                hub=hub,
-                store=store,
-                gate=ToolGate(**config.tool_calibration.model_dump()),
-                side_mm_from_marker=side_mm_from_marker,
-                tools=config.tools,
-            ),
+            tool=_tool_step(hub, store, config, side_mm_from_marker),
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
             plan=plan,
-            surface=SurfaceStep(store=store, jobs=jobs, opened=opened_ct),
+            surface=surface,
             procedure=procedure,
             registration=RegistrationSteps.of(
                 hub=hub,
                 store=store,
                 plans=plan.shelf,
+                surfaces=surface,
                 procedure=procedure,
                 brought=brought,
                 gate=config.registration,
@@ -115,13 +117,33 @@ class Steps:
         self.registration.close()
 
 
+def _tool_step(
+    hub: LiveHub, store: CaseStore, config: Config, side_mm_from_marker: Mapping[str, float]
+) -> ToolStep:
+    return ToolStep(
+        hub=hub,
+        store=store,
+        gate=ToolGate(**config.tool_calibration.model_dump()),
+        side_mm_from_marker=side_mm_from_marker,
+        tools=config.tools,
+    )
+
+
+def _keep_in_use(in_use: CaseInUse, store: CaseStore) -> None:
+    """Hand on each change of the store, and what is there already: a case that was open is open again."""
+    store.call_after_writing(in_use.refresh)
+    in_use.refresh()
+
+
 def brought_by(config: Config) -> Brought:
     """What the settings bring, whatever the case has."""
     source = source_from_text(config.camera.source)
-    knows_itself = source.kind is SourceKind.REHEARSAL and config.rehearsal.brings_setup
+    is_rehearsal = source.kind is SourceKind.REHEARSAL
+    knows_itself = is_rehearsal and config.rehearsal.brings_setup
+    rehearsed = REHEARSED_REFERENCE if is_rehearsal and config.rehearsal.reference else ""
     return Brought(
         source=source.name,
-        reference=config.reference.marker or "",
+        reference=config.reference.marker or rehearsed,
         has_camera=config.camera.calibration is not None or knows_itself,
         tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),
     )

@@ -8,15 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from websockets.sync.client import connect
 
-from server.stream.messages import (
-    AbsentMessage,
-    DeviationMessage,
-    LiveMessage,
-    MarkerSeenMessage,
-    MarkerUnseenMessage,
-    SnapshotMessage,
-    ToolMessage,
-)
+from server.stream.judgement_messages import DeviationMessage
+from server.stream.messages import LiveMessage
+from server.stream.place_messages import AbsentMessage, MarkerSeenMessage, MarkerUnseenMessage, ToolMessage
+from server.stream.snapshot_messages import SnapshotMessage
 from tests.benchmarks.claims import Claim, Judgement, judge
 from tests.benchmarks.running_server import PATIENCE_S, RunningServer
 from tests.benchmarks.tables import Table, number, pair

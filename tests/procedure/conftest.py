@@ -100,7 +100,7 @@ class Server:
 def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> Iterator[Server]:
     """The whole inside of a server that keeps its things in this folder."""
     # Few images to a capture: a test has no half second for each landmark.
-    few = {"rehearsal": {"brings_setup": False}, "registration": {"capture_images": 4}}
+    few = {"rehearsal": {"brings_setup": False}, "registration": {"capture_images": 4, "capture_s": 0.06}}
     config = Config.model_validate({**few, **(settings or {})})
     hub, adopted = LiveHub(), list[CaseSetup]()
     jobs = Jobs(log=LogSettings(as_json=True))

@@ -9,9 +9,12 @@ from server.store import DocumentKind
 from tests.procedure.conftest import Server
 from tests.procedure.test_tool_step import calibrated
 from tracker.geometry import Array, Camera, Marker, Rigid, Vertebra, rotation_from_vector
-from tracker.plan import Channel, Landmark, PlanDocument, plan_to_mapping
+from tracker.navigation import AbsentReason
+from tracker.plan import Channel, Landmark, PlanDocument, ReferenceSlice, plan_to_mapping
 from tracker.plan.document import PlannedChannel, VertebraPlan
+from tracker.plan.pedicle import Side
 from tracker.pose import Seen
+from tracker.registration import Registration
 
 BY = {"made_by": "ito"}
 DRILL = {"tool": "drill"}
@@ -26,6 +29,7 @@ LANDMARKS = {
 USED = list(LANDMARKS)[:4]
 SPARE = list(LANDMARKS)[4]
 CAMERA_FROM_VERTEBRA: Rigid[Camera, Vertebra] = Rigid.from_vector([1.3, 0.2, -0.1], [12.0, -20.0, 460.0])
+SIDES: tuple[tuple[Side, float], ...] = (("left", 1.0), ("right", -1.0))
 # Facing the camera, with its tool hanging down from it.
 FACING = rotation_from_vector([np.pi, 0.0, 0.0])
 
@@ -70,13 +74,16 @@ def tool_content(tip_in_marker_mm: Array = TIP_IN_MARKER) -> dict[str, Any]:
     }
 
 
-def plan_content(*vertebrae: str, shift_mm: float = 0.0) -> dict[str, Any]:
+def plan_content(
+    *vertebrae: str, shift_mm: float = 0.0, references: tuple[ReferenceSlice, ...] = ()
+) -> dict[str, Any]:
     """A plan of these vertebrae, each with both channels and all landmarks."""
     return plan_to_mapping(
         PlanDocument(
             vertebrae=tuple(
                 VertebraPlan(
                     name=name,
+                    references=references,
                     channels=tuple(
                         PlannedChannel(
                             side=side,
@@ -87,7 +94,7 @@ def plan_content(*vertebrae: str, shift_mm: float = 0.0) -> dict[str, Any]:
                                 radius_mm=3.0,
                             ),
                         )
-                        for side, way in (("left", 1.0), ("right", -1.0))
+                        for side, way in SIDES
                     ),
                     landmarks=tuple(
                         Landmark(name=one, point_lps_mm=np.array(point)) for one, point in LANDMARKS.items()
@@ -181,6 +188,16 @@ def ready(server: Server, *vertebrae: str) -> str:
     with_plan(server, case_id, *vertebrae)
     activate(server)
     return case_id
+
+
+def withheld(server: Server) -> AbsentReason | None:
+    """Why the tracking process gives no numbers."""
+    return server.adopted[-1].withheld
+
+
+def registered(server: Server) -> Registration | None:
+    """What the tracking process navigates by."""
+    return server.adopted[-1].registration
 
 
 def states(server: Server) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from datetime import UTC, datetime, timedelta
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import pytest
 
@@ -142,8 +142,9 @@ def test_a_check_holds_for_its_time_and_its_run(
             most_mm=2.0,
             passed=passed,
             run=run,
-            found_in_vertebra_mm=[0.0, 0.0, 0.0],
-            expected_sd_mm=0.5,
+            from_s=1.0,
+            off_lps_mm=[0.0, 0.0, 0.0],
+            sd_mm=0.5,
             images=15,
         )
         document = Document(
@@ -207,8 +208,8 @@ def inaccurate(server: Server) -> None:
 
 def other_source(server: Server) -> None:
     case_id = calibrated(server)
-    now = server.store.current(case_id, DocumentKind.CAMERA, "main")
-    values = {"camera": {**dict(now.content["camera"]), "source": "another"}}  # type: ignore[call-overload]  JSON
+    camera: Any = server.store.current(case_id, DocumentKind.CAMERA, "main").content["camera"]
+    values = {"camera": {**camera, "source": "another"}}
     server.store.put(case_id, DocumentKind.CAMERA, "main", values, made_by="test")
 
 

@@ -4,6 +4,7 @@ import dataclasses
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from functools import cache
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from server.live import Instant, ProcessState, ProcessStatus, SourceState, Sourc
 from server.stream.connection import uvicorn_config
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
-from tracker.navigation import Absent, AbsentReason, NavigationSnapshot, Setup, navigate
+from tracker.navigation import Absent, AbsentReason, Guide, NavigationSnapshot, Setup, Watched, navigate
 from tracker.plan import Channel
 from tracker.registration import Registration
 
@@ -69,6 +70,13 @@ def _whole_setup(size_wh_px: tuple[int, int], place: Rigid[Camera, Vertebra]) ->
     )
 
 
+@cache
+def _guide() -> Guide:
+    setup = _whole_setup((640, 360), Rigid[Camera, Vertebra].identity())
+    assert isinstance(setup.channel, Channel)
+    return Guide.of_channel(setup.channel)
+
+
 def make_snapshot(
     *,
     size_wh_px: tuple[int, int] = (640, 360),
@@ -79,6 +87,9 @@ def make_snapshot(
     registered: bool = True,
     planned: bool = True,
     with_tool: bool = True,
+    pose_variance: float = 1e-4,
+    watched: Watched | None = None,
+    judged: bool = False,
     camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
     image_number: int = 0,
     captured_at_s: float = 0.0,
@@ -95,14 +106,19 @@ def make_snapshot(
     )
     truth = Rigid[Vertebra, Tool].from_vector([tilt_rad, 0.04, 0.0], list(tip_in_vertebra_mm))
     unseen = Unseen(reason=UnseenReason.SCORE_TOO_LOW, best_score_ratio=0.4)
+    seen_drill = dataclasses.replace(
+        _seen(whole, place, truth), pose_covariance=np.diag([1.0] * 3 + [1e-4] * 3) * pose_variance
+    )
     return navigate(
         setup=setup,
-        sightings={"drill": _seen(whole, place, truth) if seen else unseen},
+        sightings={"drill": seen_drill if seen else unseen},
         image_number=image_number,
         captured_at_s=captured_at_s,
         size_wh_px=size_wh_px,
         stage_ms={"edges": 3.0, "pose": 1.0},
         skipped_images=0,
+        guide=_guide() if judged else None,
+        watched=watched or Watched(),
     )
 
 

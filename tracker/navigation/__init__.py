@@ -4,6 +4,7 @@ from tracker.navigation.along import AlongChannel, seen_along
 from tracker.navigation.concluding import navigate
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.navigation.guide import Guide, Verdict, verdict_of
+from tracker.navigation.moves import MovesSeen, moves_seen_by
 from tracker.navigation.snapshot import (
     Absent,
     AbsentReason,
@@ -22,6 +23,7 @@ __all__ = [
     "AlongChannel",
     "Deviation",
     "Guide",
+    "MovesSeen",
     "NavigationSnapshot",
     "PlacedVertebra",
     "Setup",
@@ -31,6 +33,7 @@ __all__ = [
     "Watched",
     "Watching",
     "deviation_from_channel",
+    "moves_seen_by",
     "navigate",
     "seen_along",
     "verdict_of",

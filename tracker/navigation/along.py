@@ -33,6 +33,10 @@ class AlongChannel:
     medial_is_right: bool
     view_from_vertebra: Array
 
+    def across_mm2(self, covariance_mm2: Array) -> Array:
+        """A covariance (3, 3) of the vertebra's frame as it is seen in this view, (2, 2)."""
+        return np.asarray(self.view_from_vertebra @ covariance_mm2 @ self.view_from_vertebra.T)
+
 
 def seen_along(vertebra_from_tool: Rigid[Vertebra, Tool], channel: Channel) -> AlongChannel:
     """The drill in the view along the channel."""

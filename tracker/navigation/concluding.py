@@ -109,6 +109,16 @@ def placed_vertebra(
     )
 
 
+def _while_placed(vertebra: PlacedVertebra | Absent, tool: ToolInView | Absent) -> ToolInView | Absent:
+    """The tool; once plan and patient are registered, only while it is known where the plan lies on them.
+
+    A drill's line over a patient whose place was lost looks like navigation, and is none.
+    """
+    if isinstance(tool, Absent) or not isinstance(vertebra, Absent):
+        return tool
+    return tool if vertebra.reason is AbsentReason.NOT_REGISTERED else vertebra
+
+
 def tool_deviation(
     setup: Setup, tool: ToolInView | Absent, vertebra: PlacedVertebra | Absent
 ) -> Deviation | Absent:
@@ -178,7 +188,9 @@ def navigate(
     steady = steadied or {}
     vertebra = placed_vertebra(setup, sightings, watched)
     tools = {
-        name: tool_in_view(setup, tool, sightings[tool.marker], steady.get(name), watched)
+        name: _while_placed(
+            vertebra, tool_in_view(setup, tool, sightings[tool.marker], steady.get(name), watched)
+        )
         for name, tool in setup.tools.items()
     }
     deviations = {name: tool_deviation(setup, tool, vertebra) for name, tool in tools.items()}

@@ -18,7 +18,7 @@ from tracker.navigation.watch import (
 )
 from tracker.pose import Seen, Sighting
 
-SCENE_EVERY_S = 0.4
+SCENE_EVERY_S = 0.2
 # While the reference is elsewhere, the scene alone tells what moved: it is asked soon.
 SCENE_SOON_S = 0.1
 # Around a marker's outline, in sides of it: the hand and the handpiece move with it.
@@ -97,7 +97,11 @@ class Watching:
         if self._scene is None:
             self._keep_scene(grey, sightings)
             return
-        self._scene_state = self._scene.check(grey).state
+        check = self._scene.check(grey)
+        self._scene_state = check.state
+        if check.state is SceneState.UNSURE and check.moved_px > self._scene.most_px:
+            # It moved, or seems to: the next image says which, while wrong numbers may be shown.
+            self._looked_at_s = -np.inf
         if self._scene_state is SceneState.MOVED:
             self._camera_moved_at_s = at_s
             # From here on it is watched where it stands now; what stood on the old place is lost already.

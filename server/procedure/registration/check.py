@@ -6,13 +6,16 @@ from server.config import RegistrationConfig
 from server.live import LiveHub
 from server.procedure.held import Held
 from server.procedure.registered import KeptCheck, check_name
+from server.procedure.registration.gates import capture_settings
 from server.procedure.registration.ground import Ground, GroundFinder
 from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
 from server.procedure.registration.touching import Touch, TouchStatus
 from server.procedure.state import Procedure, StepName
 from server.store import CaseStore, Document, DocumentKind, OutOfDateError
 from tracker.errors import RegistrationError
-from tracker.registration.touch import Touched, TouchGate, distance_from_landmark
+from tracker.plan import Landmark
+from tracker.registration.capture import CapturedLandmark
+from tracker.registration.check import LandmarkCheck, check_landmark
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,7 +50,7 @@ class CheckSession:
     ) -> None:
         self.ground = ground
         self.shelved = shelved
-        self._point_lps_mm = ground.landmark(landmark).point_lps_mm
+        self._landmark = ground.landmark(landmark)
         self._gate = gate
         self._run = run
         self._touch = Touch(
@@ -55,7 +58,7 @@ class CheckSession:
             landmark=landmark,
             tool=ground.tool,
             reference=shelved.kept.reference,
-            gate=TouchGate(images=gate.capture_images, most_spread_mm=gate.most_capture_spread_mm),
+            gate=capture_settings(gate),
         )
 
     @property
@@ -66,26 +69,38 @@ class CheckSession:
             vertebra=self.ground.vertebra.name,
             tool=self.ground.tool,
             capture=capture,
-            outcome=None if capture.touched is None else self._outcome(capture.landmark, capture.touched),
+            outcome=None if capture.touched is None else self._outcome(capture, capture.touched),
         )
 
     def stop(self) -> None:
         """Look no more."""
         self._touch.stop()
 
-    def _outcome(self, landmark: str, touched: Touched) -> KeptCheck:
-        held = distance_from_landmark(self.shelved.kept.registration, touched, self._point_lps_mm)
+    def _outcome(self, capture: TouchStatus, touched: CapturedLandmark) -> KeptCheck:
+        held = self._held_against(touched)
         return KeptCheck(
             vertebra=self.ground.vertebra.name,
-            landmark=landmark,
+            landmark=capture.landmark,
             tool=self.ground.tool,
             distance_mm=held.distance_mm,
-            most_mm=self._gate.most_check_mm,
-            passed=held.distance_mm <= self._gate.most_check_mm,
+            most_mm=held.most_mm,
+            passed=held.passed,
             run=self._run,
-            found_in_vertebra_mm=held.found_in_vertebra_mm.tolist(),
-            expected_sd_mm=held.expected_sd_mm,
+            from_s=capture.from_s or 0.0,
+            off_lps_mm=held.off_mm.tolist(),
+            sd_mm=held.sd_mm,
             images=touched.images,
+        )
+
+    def _held_against(self, touched: CapturedLandmark) -> LandmarkCheck:
+        return check_landmark(
+            self.shelved.kept.registration,
+            self._landmark.name,
+            self._landmark.point_lps_mm,
+            touched.tip_in_anchor_mm,
+            used_mm=used_mm(self.shelved),
+            tip_covariance_mm2=touched.covariance_mm2,
+            most_mm=self._gate.most_check_mm,
         )
 
 
@@ -128,12 +143,11 @@ class CheckStep:
             SetupOrderError: NO_CASE_OPEN, or what it waits for.
             PlanError: LANDMARK_UNKNOWN.
             InvalidInput: TOOL_UNKNOWN.
-            RegistrationError: LANDMARK_USED.
+            RegistrationError: LANDMARK_WAS_USED.
         """
         ground = self._grounds.find(vertebra=None, tool=tool, step=StepName.CHECK)
         shelved = self._shelf.current(ground.vertebra.name)
-        ground.landmark(landmark)
-        _refuse_used(shelved, landmark)
+        _refuse_used(shelved, ground.landmark(landmark))
         return self._held.begin(
             lambda: CheckSession(
                 self._hub,
@@ -198,18 +212,23 @@ class CheckStep:
         return kept
 
 
-def _refuse_used(shelved: ShelvedRegistration, landmark: str) -> None:
+def used_mm(shelved: ShelvedRegistration) -> dict[str, list[float]]:
+    """The landmarks on the CT that a registration was fitted to, by name."""
     points = shelved.kept.made_from.get("points")
-    used = [
-        one.get("landmark")
+    return {
+        str(one["landmark"]): [float(mm) for mm in one["point_lps_mm"]]
         for one in (points if isinstance(points, list) else [])
         if isinstance(one, dict) and one.get("used") is True
-    ]
-    if landmark in used:
-        raise RegistrationError(
-            "LANDMARK_USED",
-            f"'{landmark}' is one of the {len(used)} landmarks that the registration was fitted to, so it "
-            "says nothing of it",
-            "Check on another landmark; mark one on the CT that is left out of the registration.",
-            {"landmark": landmark},
-        )
+    }
+
+
+def _refuse_used(shelved: ShelvedRegistration, landmark: Landmark) -> None:
+    """Before the tip is held on it: as if it were found exactly where it belongs."""
+    registration = shelved.kept.registration
+    check_landmark(
+        registration,
+        landmark.name,
+        landmark.point_lps_mm,
+        registration.anchor_from_vertebra.move_points(landmark.point_lps_mm),
+        used_mm=used_mm(shelved),
+    )

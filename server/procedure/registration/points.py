@@ -9,14 +9,17 @@ from server.config import RegistrationConfig
 from server.live import LiveHub
 from server.procedure.held import Held
 from server.procedure.registered import Value
+from server.procedure.registration.gates import capture_settings
 from server.procedure.registration.ground import Ground, GroundFinder
 from server.procedure.registration.session import PointsSession, PointsStatus, residuals_mm
 from server.procedure.registration.shelf import RegistrationShelf
 from server.store import Document
 from tracker.errors import RegistrationError
+from tracker.registration.needles import TouchedPoint
 from tracker.registration.points import PointGate, PointRegistration
-from tracker.registration.touch import TouchGate
 
+# How well a landmark is marked on the CT and found on bone, along each axis.
+LANDMARK_SD_MM = 0.7
 # From the entry point to the end of a channel.
 ALONG = (0.0, 0.25, 0.5, 0.75, 1.0)
 
@@ -55,7 +58,7 @@ class PointsStep:
         self._grounds = grounds
         self._shelf = shelf
         self._gate = gate
-        self._touch_gate = TouchGate(images=gate.capture_images, most_spread_mm=gate.most_capture_spread_mm)
+        self._captures = capture_settings(gate)
         self._held: Held[PointsSession] = Held(
             "landmarks are",
             remedy="Begin with POST /api/registration/points, which says with which tool.",
@@ -80,7 +83,7 @@ class PointsStep:
                 "the check.",
                 {"landmarks": there, "needed": needed},
             )
-        return self._held.begin(lambda: PointsSession(self._hub, ground, self._touch_gate))
+        return self._held.begin(lambda: PointsSession(self._hub, ground, self._captures))
 
     @property
     def session(self) -> PointsSession:
@@ -112,7 +115,10 @@ class PointsStep:
                 raise RuntimeError("neither a fit nor a trouble")
             return (RegistrationError(trouble.code, trouble.message, trouble.remedy, trouble.context),)
         gate = PointGate(most_fre_mm=self._gate.most_fre_mm, most_tre_mm=self._gate.most_tre_mm)
-        return status.fit.failures(gate, list(status.ground.entries_mm))
+        return (
+            *status.fit.failures(gate, list(status.ground.entries_mm)),
+            *strays(status.fit, most_mm=self._gate.most_left_out_mm),
+        )
 
     def conclude(self, *, made_by: str) -> Document:
         """Keep the registration in the open case, if it passes its gate; the session ends.
@@ -134,6 +140,7 @@ class PointsStep:
             numbers=self.numbers(status, status.fit),
             made_from=made_from(status),
             made_by=made_by,
+            from_s=status.from_s,
         )
         self.end()
         return document
@@ -145,9 +152,57 @@ class PointsStep:
             "points": int(fit.used.sum()),
             "fre_rms_mm": fit.fre_rms_mm,
             "most_fre_mm": self._gate.most_fre_mm,
+            "left_out_mm": max(fit.left_out_mm.values(), default=None),
+            "most_left_out_mm": self._gate.most_left_out_mm,
             "tre_at_entry_mm": max((error.stated_mm for error in entries), default=None),
             "most_tre_mm": self._gate.most_tre_mm,
         }
+
+
+def touched_points(step: PointsStep) -> tuple[TouchedPoint, ...]:
+    """What was touched so far before the camera, as it tells the depth of needles.
+
+    Raises:
+        SetupOrderError: COLLECTION_MISSING.
+        RegistrationError: TOUCHED_BESIDE_REFERENCE, the points are not in the camera's frame.
+    """
+    status = step.session.status
+    if status.ground.reference:
+        raise RegistrationError(
+            "TOUCHED_BESIDE_REFERENCE",
+            f"the landmarks were touched beside the marker '{status.ground.reference}'",
+            "Register by these points alone, or by the needles alone.",
+            {"reference": status.ground.reference},
+        )
+    return tuple(
+        TouchedPoint(
+            name=one.name,
+            point_lps_mm=one.point_lps_mm,
+            point_in_camera_mm=one.touched.tip_in_anchor_mm,
+            covariance_mm2=one.touched.covariance_mm2 + LANDMARK_SD_MM**2 * np.eye(3),
+        )
+        for one in status.used
+        if one.touched is not None
+    )
+
+
+def strays(fit: PointRegistration, *, most_mm: float) -> tuple[RegistrationError, ...]:
+    """The landmark that lies farthest from where all others have it, if that is too far.
+
+    One mistaken landmark among five draws the fit to itself, and the RMS of all hides it.
+    """
+    worst = max(fit.left_out_mm, key=lambda index: fit.left_out_mm[index], default=None)
+    if worst is None or fit.left_out_mm[worst] <= most_mm:
+        return ()
+    name, far_mm = fit.pairs.labels[worst], fit.left_out_mm[worst]
+    return (
+        RegistrationError(
+            "POINT_STRAYS",
+            f"'{name}' lies {far_mm:.2f} mm from where all other landmarks have it, allowed {most_mm:.2f} mm",
+            "Touch that landmark again, or leave it out.",
+            {"landmark": name, "left_out_mm": far_mm, "allowed_mm": most_mm},
+        ),
+    )
 
 
 def target_errors(ground: Ground, fit: PointRegistration) -> tuple[TargetError, ...]:
@@ -177,9 +232,9 @@ def made_from(status: PointsStatus) -> dict[str, object]:
         {
             "landmark": one.name,
             "point_lps_mm": one.point_lps_mm.tolist(),
-            "tip_in_anchor_mm": one.touched.point_mm.tolist(),
+            "tip_in_anchor_mm": one.touched.tip_in_anchor_mm.tolist(),
             "tip_covariance_mm2": one.touched.covariance_mm2.tolist(),
-            "spread_mm": one.touched.spread_mm,
+            "spread_mm": one.touched.spread_mm.tolist(),
             "images": one.touched.images,
             "used": one.used,
             "residual_mm": off.get(one.name),

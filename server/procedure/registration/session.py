@@ -11,8 +11,8 @@ from server.procedure.registration.ground import Ground
 from server.procedure.registration.touching import Touch, TouchState, TouchStatus
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
+from tracker.registration.capture import CapturedLandmark, CaptureSettings
 from tracker.registration.points import PairedPoints, PointRegistration, register_points
-from tracker.registration.touch import Touched, TouchGate
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +28,7 @@ class TouchedLandmark:
 
     name: str
     point_lps_mm: Array
-    touched: Touched | None
+    touched: CapturedLandmark | None
     used: bool
 
 
@@ -42,6 +42,7 @@ class PointsStatus:
         capture: the one that runs, or was last refused or taken; None before the first.
         fit: of the points that are used.
         trouble: why they give no fit yet.
+        from_s: when the first of the points was touched, by the clock of the images; None before.
     """
 
     ground: Ground
@@ -49,6 +50,7 @@ class PointsStatus:
     capture: TouchStatus | None
     fit: PointRegistration | None
     trouble: Trouble | None
+    from_s: float | None
 
     @property
     def used(self) -> tuple[TouchedLandmark, ...]:
@@ -59,12 +61,13 @@ class PointsStatus:
 class PointsSession:
     """Holds what was touched until it is concluded or thrown away; may be asked from any thread."""
 
-    def __init__(self, hub: LiveHub, ground: Ground, gate: TouchGate) -> None:
+    def __init__(self, hub: LiveHub, ground: Ground, gate: CaptureSettings) -> None:
         self.ground = ground
         self._hub = hub
         self._gate = gate
         self._lock = threading.Lock()
-        self._touched: dict[str, Touched] = {}
+        self._touched: dict[str, CapturedLandmark] = {}
+        self._from_s: dict[str, float] = {}
         self._left_out: set[str] = set()
         self._touch: Touch | None = None
 
@@ -112,6 +115,7 @@ class PointsSession:
             self._take_over()
             self._refuse_untouched(landmark)
             del self._touched[landmark]
+            self._from_s.pop(landmark, None)
             self._left_out.discard(landmark)
             if self._touch is not None and self._touch.landmark == landmark:
                 self._touch.stop()
@@ -124,6 +128,7 @@ class PointsSession:
             self._take_over()
             touched, left_out = dict(self._touched), set(self._left_out)
             capture = None if self._touch is None else self._touch.status
+            from_s = min(self._from_s.values(), default=None)
         landmarks = tuple(
             TouchedLandmark(
                 name=one.name,
@@ -139,7 +144,12 @@ class PointsSession:
         except RegistrationError as error:
             trouble = Trouble.from_error(error)
         return PointsStatus(
-            ground=self.ground, landmarks=landmarks, capture=capture, fit=fit, trouble=trouble
+            ground=self.ground,
+            landmarks=landmarks,
+            capture=capture,
+            fit=fit,
+            trouble=trouble,
+            from_s=from_s,
         )
 
     def stop(self) -> None:
@@ -157,6 +167,8 @@ class PointsSession:
             self._touch.stop()
         if status.touched is not None and self._touched.get(status.landmark) is not status.touched:
             self._touched[status.landmark] = status.touched
+            if status.from_s is not None:
+                self._from_s[status.landmark] = status.from_s
 
     def _refuse_untouched(self, landmark: str) -> None:
         if landmark not in self._touched:
@@ -178,7 +190,7 @@ def fit_of(landmarks: tuple[TouchedLandmark, ...]) -> PointRegistration:
     return register_points(
         PairedPoints(
             fixed_mm=np.array([one.point_lps_mm for one, _ in pairs]).reshape(-1, 3),
-            moving_mm=np.array([touched.point_mm for _, touched in pairs]).reshape(-1, 3),
+            moving_mm=np.array([touched.tip_in_anchor_mm for _, touched in pairs]).reshape(-1, 3),
             moving_covariances_mm2=np.array([touched.covariance_mm2 for _, touched in pairs]).reshape(
                 -1, 3, 3
             ),

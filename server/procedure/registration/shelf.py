@@ -1,5 +1,6 @@
 """Registrations as the open case keeps them, version by version, each of one vertebra."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from server.errors import SetupOrderError
@@ -84,9 +85,15 @@ class RegistrationShelf:
         numbers: dict[str, Value],
         made_from: dict[str, object],
         made_by: str,
+        from_s: float | None,
+        also_on: Sequence[str] = (),
         expected_version: int | None = None,
     ) -> Document:
-        """Keep a registration that passed its gate, as the next version of its vertebra's."""
+        """Keep a registration that passed its gate, as the next version of its vertebra's.
+
+        Raises:
+            StoreConflict: VERSION_CONFLICT.
+        """
         kept = KeptRegistration.of(
             registration,
             vertebra=ground.vertebra.name,
@@ -94,6 +101,7 @@ class RegistrationShelf:
             run=self._procedure.run,
             numbers=numbers,
             made_from=made_from,
+            from_s=from_s,
         )
         return self._store.put(
             ground.case_id,
@@ -101,7 +109,7 @@ class RegistrationShelf:
             ground.vertebra.name,
             kept.model_dump(mode="json"),
             made_by=made_by,
-            stands_on=ground.documents,
+            stands_on=[*ground.documents, *also_on],
             expected_version=expected_version,
         )
 

@@ -7,10 +7,14 @@ from server.live import LiveHub
 from server.procedure.plan import PlanShelf
 from server.procedure.registration.check import CheckStep
 from server.procedure.registration.ground import GroundFinder
+from server.procedure.registration.needles import NeedleStep
+from server.procedure.registration.nudging import NudgeStep
 from server.procedure.registration.points import PointsStep
 from server.procedure.registration.shelf import RegistrationShelf
+from server.procedure.registration.sweep import SweepStep
 from server.procedure.registration.watch import MoveWatch
 from server.procedure.state import Brought, Procedure
+from server.procedure.surface import SurfaceStep
 from server.store import CaseStore
 
 
@@ -22,12 +26,18 @@ class RegistrationSteps:
         shelf: where registrations lie.
         points: by landmarks that are touched.
         check: on a landmark that was not used.
+        needles: by three needles in the image.
+        sweep: refines it on the bone's surface.
+        nudge: by hand, in small steps.
         watch: withdraws a registration when camera or reference were moved.
     """
 
     shelf: RegistrationShelf
     points: PointsStep
     check: CheckStep
+    needles: NeedleStep
+    sweep: SweepStep
+    nudge: NudgeStep
     watch: MoveWatch
 
     @classmethod
@@ -37,6 +47,7 @@ class RegistrationSteps:
         hub: LiveHub,
         store: CaseStore,
         plans: PlanShelf,
+        surfaces: SurfaceStep,
         procedure: Procedure,
         brought: Brought,
         gate: RegistrationConfig,
@@ -50,6 +61,11 @@ class RegistrationSteps:
             check=CheckStep(
                 hub=hub, store=store, grounds=grounds, shelf=shelf, procedure=procedure, gate=gate
             ),
+            needles=NeedleStep(hub=hub, grounds=grounds, shelf=shelf),
+            sweep=SweepStep(
+                hub=hub, grounds=grounds, shelf=shelf, procedure=procedure, surfaces=surfaces, gate=gate
+            ),
+            nudge=NudgeStep(grounds=grounds, shelf=shelf, gate=gate),
             watch=MoveWatch(hub, store=store, procedure=procedure, after_s=gate.moved_after_s),
         )
 
@@ -57,4 +73,5 @@ class RegistrationSteps:
         """Look no more."""
         self.points.end()
         self.check.end()
+        self.sweep.end()
         self.watch.stop()

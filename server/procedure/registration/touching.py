@@ -8,20 +8,20 @@ from server.live import Instant, LiveHub, Trouble
 from server.procedure.following import Follower
 from tracker.errors import CalibrationError, InvalidInput, RegistrationError
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
-from tracker.navigation.snapshot import tool_in_view
+from tracker.navigation.concluding import tool_in_view
 from tracker.pose import Seen
-from tracker.registration.touch import (
-    HOLD_STILL,
-    TipInAnchor,
-    Touched,
-    TouchGate,
-    tip_in_anchor,
-    touched,
+from tracker.registration.capture import (
+    CapturedLandmark,
+    CaptureSettings,
+    LandmarkCollector,
+    TipSample,
+    UnseenSample,
 )
+from tracker.registration.tip import tip_in_anchor
 
 UNSEEN = {
-    AbsentReason.MARKER_UNSEEN: "its marker is not seen",
-    AbsentReason.POSE_UNCERTAIN: "its tip could be millimetres away from where it seems",
+    AbsentReason.MARKER_UNSEEN: "the tool's marker is not seen",
+    AbsentReason.POSE_UNCERTAIN: "the tip could be millimetres away from where it seems",
     AbsentReason.CAMERA_NOT_CALIBRATED: "the camera is not calibrated",
 }
 
@@ -43,6 +43,7 @@ class TouchStatus:
         state: whether more images are looked at.
         images: in which it was seen so far.
         wanted: how many there must be.
+        from_s: when the tip was first looked for, by the clock of the images; None before the first image.
         touched: the point; None until it is taken.
         trouble: why it was refused.
     """
@@ -51,7 +52,8 @@ class TouchStatus:
     state: TouchState
     images: int
     wanted: int
-    touched: Touched | None
+    from_s: float | None
+    touched: CapturedLandmark | None
     trouble: Trouble | None
 
 
@@ -66,15 +68,19 @@ class Touch:
         gate: when the tip counts as at rest.
     """
 
-    def __init__(self, hub: LiveHub, *, landmark: str, tool: str, reference: str, gate: TouchGate) -> None:
+    def __init__(
+        self, hub: LiveHub, *, landmark: str, tool: str, reference: str, gate: CaptureSettings
+    ) -> None:
         self.landmark = landmark
         self._tool = tool
         self._reference = reference
         self._gate = gate
         self._lock = threading.Lock()
-        self._tips: list[TipInAnchor] = []
+        self._collector = LandmarkCollector(gate)
+        self._images = 0
+        self._from_s: float | None = None
         self._image_number = -1
-        self._touched: Touched | None = None
+        self._touched: CapturedLandmark | None = None
         self._follower = Follower(hub, self._look, name=f"capturing {landmark}")
 
     @property
@@ -86,8 +92,9 @@ class Touch:
             return TouchStatus(
                 landmark=self.landmark,
                 state=TouchState.REFUSED if trouble is not None else state,
-                images=len(self._tips),
-                wanted=self._gate.images,
+                images=self._images,
+                wanted=self._gate.least_images,
+                from_s=self._from_s,
                 touched=self._touched,
                 trouble=trouble,
             )
@@ -109,18 +116,19 @@ class Touch:
         tip = tip_of(snapshot, self._tool, self._reference)
         with self._lock:
             self._image_number = snapshot.image_number
-            self._tips.append(tip)
-            if len(self._tips) >= self._gate.images:
-                self._touched = touched(self._tips, self._gate)
+            self._from_s = tip.at_s if self._from_s is None else self._from_s
+            self._collector.take(tip)
+            self._images += isinstance(tip, TipSample)
+            if self._collector.is_over:
+                self._touched = self._collector.result()
 
 
-def tip_of(snapshot: NavigationSnapshot, name: str, reference: str) -> TipInAnchor:
+def tip_of(snapshot: NavigationSnapshot, name: str, reference: str) -> TipSample | UnseenSample:
     """The tip in one image, in the frame of the reference, or of the camera where there is none.
 
     Raises:
         InvalidInput: TOOL_UNKNOWN.
         CalibrationError: CAMERA_NOT_CALIBRATED.
-        RegistrationError: TIP_UNSEEN, REFERENCE_UNSEEN.
     """
     setup = snapshot.setup
     if not setup.camera_calibrated:
@@ -140,21 +148,13 @@ def tip_of(snapshot: NavigationSnapshot, name: str, reference: str) -> TipInAnch
     # As the image has it, not steadied: at rest the mean does the same, and a move must show.
     sighting = snapshot.sightings[tool.marker]
     view = tool_in_view(setup, tool, sighting)
+    at_s = snapshot.captured_at_s
     if isinstance(view, Absent) or not isinstance(sighting, Seen):
         reason = view.reason if isinstance(view, Absent) else AbsentReason.MARKER_UNSEEN
-        raise RegistrationError(
-            "TIP_UNSEEN",
-            f"in image {snapshot.image_number} the tip of '{name}' is not known: "
-            f"{UNSEEN.get(reason, reason.value)}",
-            HOLD_STILL,
-            {"tool": name, "reason": reason.value, "image_number": snapshot.image_number},
-        )
-    beside = snapshot.sightings.get(reference) if reference else None
-    if reference and not isinstance(beside, Seen):
-        raise RegistrationError(
-            "REFERENCE_UNSEEN",
-            f"in image {snapshot.image_number} the marker '{reference}' on the patient is not seen",
-            "Clear the view to the marker on the patient, and capture again.",
-            {"reference": reference, "image_number": snapshot.image_number},
-        )
-    return tip_in_anchor(tool, sighting, beside if isinstance(beside, Seen) else None)
+        return UnseenSample(at_s=at_s, reason=UNSEEN.get(reason, reason.value))
+    if not reference:
+        return tip_in_anchor(tool, sighting, None, at_s=at_s)
+    beside = snapshot.sightings.get(reference)
+    if not isinstance(beside, Seen):
+        return UnseenSample(at_s=at_s, reason=f"the marker '{reference}' on the patient is not seen")
+    return tip_in_anchor(tool, sighting, beside, at_s=at_s)

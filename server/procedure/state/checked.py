@@ -2,7 +2,7 @@
 
 from datetime import UTC, datetime
 
-from server.procedure.registered import KeptRegistration, kept_check
+from server.procedure.registered import KeptCheck, KeptRegistration, kept_check
 from server.procedure.state.records import Finding, Number, StepState
 from server.store import Document
 from tracker.errors import NavigationError
@@ -44,39 +44,32 @@ def check_finding(
         kept = kept_check(check)
     except NavigationError as error:
         return Finding(state=StepState.MISSING, said=error.message, remedy=error.remedy)
+    if kept.passed and is_loose and kept.run != run:
+        return _after_start(registration.vertebra, check.id)
+    return _of(kept, check, again_after_min=again_after_min, minutes=_minutes(check.made_at, now))
+
+
+def _of(kept: KeptCheck, check: Document, *, again_after_min: float, minutes: float) -> Finding:
+    """Whether it passed, and is still young enough."""
     numbers: dict[str, Number] = {
         "distance_mm": kept.distance_mm,
         "most_mm": kept.most_mm,
         "landmark": kept.landmark,
+        "age_min": minutes,
     }
+    told = f"the tip on {kept.landmark} was {kept.distance_mm:.2f} mm from where the plan has it, allowed "
+    told += f"{kept.most_mm:.2f} mm"
     if not kept.passed:
-        return Finding(
-            state=StepState.FAILED,
-            said=f"the tip on {kept.landmark} was {kept.distance_mm:.2f} mm from where the plan has it, "
-            f"allowed {kept.most_mm:.2f} mm",
-            remedy="Register again, or nudge it and check again.",
-            numbers=numbers,
-            document_id=check.id,
-        )
-    if is_loose and kept.run != run:
-        return _after_start(registration.vertebra, check.id)
-    minutes = _minutes(check.made_at, now)
+        state, remedy = StepState.FAILED, "Check again, nudge the registration, or register again."
     # A clock that was set back says nothing of the age.
-    if not 0.0 <= minutes < again_after_min:
-        return Finding(
-            state=StepState.DUE,
-            said=f"the check on {kept.landmark} is {minutes:.0f} min old, asked for every "
-            f"{again_after_min:g} min",
-            remedy=CHECK,
-            numbers={**numbers, "age_min": minutes},
-            document_id=check.id,
+    elif not 0.0 <= minutes < again_after_min:
+        state, remedy = StepState.DUE, CHECK
+        told = (
+            f"the check on {kept.landmark} is {minutes:.0f} min old, asked for every {again_after_min:g} min"
         )
-    return Finding(
-        state=StepState.DONE,
-        said=f"the tip on {kept.landmark} was {kept.distance_mm:.2f} mm off, allowed {kept.most_mm:.2f} mm",
-        numbers={**numbers, "age_min": minutes},
-        document_id=check.id,
-    )
+    else:
+        state, remedy = StepState.DONE, ""
+    return Finding(state=state, said=told, remedy=remedy, numbers=numbers, document_id=check.id)
 
 
 def _after_start(vertebra: str, document_id: str) -> Finding:

@@ -9,7 +9,7 @@ from server.procedure.camera import ACCURACY, MAIN_CAMERA, kept_camera
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.plan.kept import MAIN_PLAN
 from server.procedure.registered import check_name, kept_registration
-from server.procedure.state.checked import check_finding
+from server.procedure.state.checked import CHECK, check_finding
 from server.procedure.state.judged import ProcedureState, judged, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import kept_tool
@@ -202,6 +202,15 @@ class Procedure:
             kept = kept_registration(registration, reference=self._brought.reference)
         except NavigationError as error:
             return _unusable(registration, error)
+        history = self._store.history(case_id, DocumentKind.CHECK, check_name(vertebra))
+        withdrawn = history[-1].withdrawn if history else None
+        if withdrawn is not None and registration.id in history[-1].stands_on:
+            return Finding(
+                state=StepState.OUT_OF_DATE,
+                said=f"the check was withdrawn by {withdrawn.by}: {withdrawn.reason}",
+                remedy=CHECK,
+                document_id=history[-1].id,
+            )
         return check_finding(
             registration=kept,
             title=registration.title,

@@ -244,3 +244,18 @@ def test_a_change_that_no_image_brought_is_told(room: Room) -> None:
     room.desk.pause(10.0, by="x")
     room.desk.acknowledge([1], by="x")
     assert len(told) == 3
+
+
+def test_a_registration_that_goes_out_of_date_under_the_hand_is_an_alarm_though_the_numbers_are_gone(
+    room: Room,
+) -> None:
+    room.images(1.0)
+    room.desk.know(ProcedureFacts(registration_current=False))
+    picture = room.images(2.0, registered=False)
+    assert Condition.REGISTRATION_OUT_OF_DATE in conditions(picture)
+    # Registered again, it is over; what was never navigated raises nothing.
+    room.desk.know(ProcedureFacts())
+    room.desk.acknowledge([one.number for one in picture.alarms], by="ito")
+    assert room.images(2.0, registered=False).alarms == ()
+    room.desk.know(ProcedureFacts(registration_current=False))
+    assert room.images(2.0, registered=False).alarms == ()

@@ -52,6 +52,17 @@ def test_a_pedicle_is_measured_as_json(ct: Path) -> None:
     assert told["screw"]["diameter_mm"] in {6.5, 7.0}
 
 
+def test_the_series_of_a_ct_are_listed(ct: Path) -> None:
+    said = CliRunner().invoke(app, ["plan", "series", str(ct), "--json"])
+    assert said.exit_code == 0, said.output
+    (one,) = json.loads(said.output)["series"]
+    assert (one["series"], one["images"]) == ("nifti", 40)
+    assert one["pixel_mm"] == pytest.approx([0.8, 0.8])
+    words = CliRunner().invoke(app, ["plan", "series", str(ct)]).output
+    assert words.startswith("nifti, ")
+    assert "40 slices" in words
+
+
 def test_and_in_words(ct: Path) -> None:
     status, text = typed(ct, "--side", "left", "--seed-lps-mm", "0,0,0")
     assert status == 0, text

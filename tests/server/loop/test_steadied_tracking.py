@@ -11,7 +11,8 @@ from server.live import Instant
 from server.loop.tracking import Tracking
 from server.overlay import draw_overlay, panel_of
 from server.setup import build_setup
-from server.stream.messages import ToolMessage, live_message
+from server.stream.messages import live_message
+from server.stream.place_messages import ToolMessage
 from tracker.navigation import NavigationSnapshot, ToolInView
 
 

@@ -21,7 +21,7 @@ SnapshotOf = Callable[..., NavigationSnapshot]
 Picture = npt.NDArray[np.uint8]
 GOLDEN = Path(__file__).parent / "golden"
 # Where the panel is in a picture of 640x360: with its numbers, and with its words.
-PANELS_PX = (np.s_[180:, :120], np.s_[285:, :310])
+PANELS_PX = (np.s_[20:, :132], np.s_[285:, :310])
 
 
 def grey(size_wh_px: tuple[int, int] = (640, 360)) -> Picture:

@@ -8,7 +8,8 @@ import pytest
 from server.live import Instant
 from server.overlay import panel_of
 from server.shown import NOT_KNOWN, shown_number
-from server.stream.messages import DeviationMessage, live_message
+from server.stream.judgement_messages import DeviationMessage, JudgementMessage, NearestMessage
+from server.stream.messages import live_message
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
 from tracker.pose import Unseen, UnseenReason
 
@@ -64,8 +65,10 @@ def test_the_burned_in_numbers_are_the_numbers_of_the_message(
     snapshot = snapshot_of()
     message = live_message(instant_of(1, snapshot=snapshot), now_s=1.0)
     assert message.snapshot is not None
-    sent = message.snapshot.tools[0].deviation
+    sent, judged = message.snapshot.tools[0].deviation, message.snapshot.tools[0].judgement
     assert isinstance(sent, DeviationMessage)
+    assert isinstance(judged, JudgementMessage)
+    assert isinstance(judged.clearance.now, NearestMessage)
     assert sent.entry_offset_mm is not None
     panel = panel_of(snapshot)
     assert panel.state == ""
@@ -74,7 +77,11 @@ def test_the_burned_in_numbers_are_the_numbers_of_the_message(
         (shown_number(sent.angle_deg), "°"),
         (shown_number(sent.depth_mm), "mm"),
         (shown_number(sent.remaining_mm), "mm"),
+        (shown_number(judged.clearance.now.clearance_mm), "mm"),
     ]
+    assert panel.readings[-1].hint == judged.clearance.now.wall
+    assert panel.verdict is not None
+    assert panel.verdict.verdict is judged.verdict
 
 
 def test_a_drill_across_the_channel_has_no_entry_offset(snapshot_of: SnapshotOf) -> None:

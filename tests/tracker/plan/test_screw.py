@@ -109,6 +109,23 @@ def test_tolerance_is_what_keeps_the_cylinder_within_the_walls() -> None:
         assert (room.grade == "A") is inside
 
 
+def test_a_longer_pedicle_leaves_less_angle() -> None:
+    long = dataclasses.replace(pedicle(), opens_ahead_mm=9.0)
+    left = tolerance_of(shifted(0.0), long, diameter_mm=5.0)
+    assert left.most_offset_mm == pytest.approx(1.5, abs=0.02)
+    assert left.most_angle_deg == pytest.approx(np.degrees(np.arctan(1.5 / 24.0)), abs=0.1)
+    assert left.deg_at_offset[-1] == pytest.approx(0.0, abs=1e-9)
+    # What turns out of the longer pedicle is a breach, which the isthmus alone would not show.
+    tilted = channel_from_points(
+        "tilted",
+        entry_lps_mm=(0.0, 15.0, 0.0),
+        target_lps_mm=(45.0 * 1.7 / 21.0, -30.0, 0.0),
+        diameter_mm=4.0,
+    )
+    assert clearance_of(tilted, pedicle(), diameter_mm=5.0, length_mm=40.0).grade == "A"
+    assert clearance_of(tilted, long, diameter_mm=5.0, length_mm=40.0).grade == "B"
+
+
 def test_a_plan_without_room_leaves_no_tolerance() -> None:
     left = tolerance_of(shifted(3.0), pedicle(), diameter_mm=5.0)
     assert (left.most_offset_mm, left.most_angle_deg) == (0.0, 0.0)

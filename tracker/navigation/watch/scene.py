@@ -92,6 +92,11 @@ class SceneWatch:
         self._points = _corners(self._picture, [self._scale * outline for outline in leave_out_px])
         self._moved = 0
 
+    @property
+    def most_px(self) -> float:
+        """From which motion on it counts as moved."""
+        return self._settings.most_px
+
     def check(self, image: Picture) -> SceneCheck:
         """Look for the patches in a later image (h, w) grey of the same size."""
         count = len(self._points)

@@ -12,6 +12,7 @@ from tracker.plan.pedicle.fit import FittedBar, fit_bar
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.record import (
+    LEAST_AHEAD_MM,
     PedicleMeasure,
     PedicleSpread,
     Side,
@@ -29,7 +30,7 @@ from tracker.plan.volume import Volume
 WALL_SD_VOXELS = 0.3
 USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
-LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
+LEAST_FACED, LEAST_FACED_SD, ENDPLATE_RATIO = 0.5, 0.15, 0.7
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
 BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
@@ -111,7 +112,8 @@ def _along_course(
     own_weight = 1.0 / np.square(isthmus.slope_sd_deg)
     course_weight = 1.0 / np.square([course.transverse_sd_deg, course.sagittal_sd_deg])
     both = (own_weight * own + course_weight * expected) / (own_weight + course_weight)
-    spread = 1.0 / np.sqrt(own_weight + course_weight)
+    own_share = own_weight / (own_weight + course_weight)
+    spread = np.hypot(1.0 / np.sqrt(own_weight + course_weight), own_share * isthmus.bent_sd_deg)
     axis = axis_from_angles(side, transverse_deg=float(both[0]), sagittal_deg=float(both[1]))
     turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
     if turned_deg >= TURNED_DEG:
@@ -181,8 +183,15 @@ def _record(
             length_mm=_length_sd_mm(front, back, isthmus, WALL_SD_VOXELS * voxel),
             isthmus_mm=isthmus.centre_sd_mm,
         ),
+        opens_ahead_mm=_opens_ahead_mm(bar, isthmus),
         warnings=tuple(warnings),
     )
+
+
+def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
+    """From the isthmus to where the bar opens, or as far as it was followed."""
+    ahead = float((bar.centre_mm - isthmus.centre_mm) @ isthmus.axis) + bar.ahead_mm
+    return max(ahead, LEAST_AHEAD_MM)
 
 
 def _voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
@@ -233,10 +242,12 @@ def _fit_warnings(
 
 
 def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
-    """Each wall's own spread, and what the axis's spread makes of it where the wall is met aslant."""
-    parts = [wall_sd_mm, wall_sd_mm]
+    """Each wall's own spread and the axis's, and what they make along the axis of a wall met aslant."""
+    parts = []
     for wall in (front, back):
-        aslant = np.sqrt(max(1.0 - wall.faced_ratio**2, 0.0)) / max(wall.faced_ratio, LEAST_FACED)
+        faced = max(abs(wall.faced_ratio), LEAST_FACED_SD)
+        aslant = np.sqrt(1.0 - min(faced, 1.0) ** 2) / max(faced, LEAST_FACED)
+        parts.append(wall_sd_mm / faced)
         parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
         parts.append(wall.sd_mm)
     return float(np.linalg.norm(parts))

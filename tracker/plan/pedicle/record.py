@@ -10,6 +10,8 @@ from tracker.geometry import Array
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, ...] = ("left", "right")
+# Of a pedicle, what is surely no wider than the isthmus.
+LEAST_AHEAD_MM = 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,15 +41,18 @@ class PedicleMeasure:
             to the middle.
         sagittal_deg: angle of the axis from straight forwards in the sagittal plane, positive where it runs
             to the head.
-        length_mm: along the axis from the entry to the front wall of the body.
+        length_mm: along the axis from the entry to the outer side of the body's front wall; a screw keeps
+            its own margin before that.
         isthmus_lps_mm: (3,), centre of the section.
         axis_lps: unit (3,), forwards.
-        entry_lps_mm: (3,), where the axis enters the bone from behind.
+        entry_lps_mm: (3,), where the axis enters the arch from behind; of a process that it runs through
+            lengthwise, the base.
         front_lps_mm: (3,), where it leaves the body in front.
         outline_lps_mm: (n, 3), the section's outer wall.
         seed_lps_mm: (3,), the click.
         cortex_mm: mean thickness of the wall, where voxels are fine enough to tell.
         sd: standard deviations.
+        opens_ahead_mm: how far in front of the isthmus the pedicle opens into the body.
         warnings: sentences that belong to these numbers.
     """
 
@@ -65,6 +70,7 @@ class PedicleMeasure:
     seed_lps_mm: Array
     cortex_mm: float
     sd: PedicleSpread
+    opens_ahead_mm: float = LEAST_AHEAD_MM
     warnings: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

@@ -14,6 +14,9 @@ MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
 # Bone that is unlike a bar by this share of its contrast may lead elsewhere by so much, over a short window.
 UNLIKE_RATIO, UNLIKE_DEG, UNLIKE_HALF_MM, MOST_UNLIKE_DEG = 0.1, 10.0, 3.0, 20.0
 
+# A bar without a waist is measured in its middle; that may be off by this share of half its window.
+MOST_PLACE_SHARE = 0.5
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Isthmus:
@@ -26,6 +29,7 @@ class Isthmus:
         outline_mm: (n, 3).
         width_sd_mm: and height_sd_mm, centre_sd_mm: standard deviations.
         slope_sd_deg: of the axis's direction, to the left and up.
+        bent_sd_deg: what is added where the bar bends and hardly narrows, so that its place is unsure.
     """
 
     centre_mm: Array
@@ -37,6 +41,7 @@ class Isthmus:
     height_sd_mm: float
     centre_sd_mm: float
     slope_sd_deg: tuple[float, float]
+    bent_sd_deg: tuple[float, float]
 
 
 def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
@@ -59,6 +64,7 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
         + points[:, 1:] * fitted.up
     )
     floor = MODEL_VOXELS * voxel_mm
+    bent = np.degrees(_bend_per_mm(fitted)) * _place_sd_mm(fitted)
     slopes = np.degrees(spread[4:6])
     unlike = UNLIKE_DEG * (fitted.misfit_ratio / UNLIKE_RATIO) ** 3 * UNLIKE_HALF_MM / fitted.half_mm
     model_deg = float(np.hypot(MODEL_DEG, min(unlike, MOST_UNLIKE_DEG)))
@@ -72,7 +78,23 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
         height_sd_mm=float(np.hypot(spread[1], floor)),
         centre_sd_mm=float(np.linalg.norm([spread[2], spread[3], floor])),
         slope_sd_deg=(float(np.hypot(slopes[0], model_deg)), float(np.hypot(slopes[1], model_deg))),
+        bent_sd_deg=(float(bent[0]), float(bent[1])),
     )
+
+
+def _bend_per_mm(fitted: FittedBar) -> Array:
+    """How the axis turns along the bar, to the left and up, in rad per mm."""
+    c = fitted.parameters[tube.CENTRE]
+    return np.asarray(np.abs([c[2], c[5]]) * 2.0 / fitted.half_mm**2)
+
+
+def _place_sd_mm(fitted: FittedBar) -> float:
+    """How unsure it is where along the bar it is narrowest; where it bends, so is its axis."""
+    slope, bend = fitted.parameters[tube.GROWTH][:2]
+    slope_sd, bend_sd = np.sqrt(np.diag(fitted.covariance)[tube.GROWTH][:2])
+    waist = max(float(bend), float(bend_sd), 1e-6)
+    place = np.hypot(slope_sd / (2.0 * waist), slope * bend_sd / (2.0 * waist**2))
+    return float(min(place, MOST_PLACE_SHARE) * fitted.half_mm)
 
 
 def _numbers(parameters: Array, at: float, half_mm: float) -> Array:

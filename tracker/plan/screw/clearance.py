@@ -9,8 +9,8 @@ from tracker.geometry import Array
 from tracker.plan.channel import Channel
 from tracker.plan.pedicle import PedicleMeasure
 
-# The pedicle's walls are known around its isthmus; beyond, body and arch are wider.
-HALF_LENGTH_MM = 3.0
+# Behind, the arch is soon wider than the isthmus.
+HALF_LENGTH_MM, PLACES = 3.0, 7
 WALLS = ("medial", "lateral", "superior", "inferior")
 
 
@@ -64,8 +64,8 @@ def clearance_of(
 ) -> Clearance:
     """Clearance of a screw that lies on the channel's axis and begins at its entry.
 
-    The screw's cylinder is held against the isthmus's outline, taken as it is over 3 mm before and behind; in
-    front against the plane of the front wall, across the pedicle's axis.
+    The screw's cylinder is held against the isthmus's outline, taken as it is from 3 mm behind it to where
+    the pedicle opens into the body; in front against the plane of the front wall, across its axis.
     """
     gaps = wall_gaps_mm(channel, measure) - 0.5 * diameter_mm
     towards = _towards(measure)
@@ -89,22 +89,32 @@ def clearance_of(
 
 
 def wall_gaps_mm(channel: Channel, measure: PedicleMeasure) -> Array:
-    """From the channel's axis outwards to each point (n,) of the outline: the least of three planes.
+    """From the channel's axis outwards to each point (n,) of the outline: the least within the pedicle.
 
     Negative where the axis itself lies outside the pedicle.
     """
+    return np.asarray(gaps_along_mm(channel, measure)[1].min(axis=0))
+
+
+def gaps_along_mm(channel: Channel, measure: PedicleMeasure) -> tuple[Array, Array]:
+    """Places within the pedicle (m,), from the isthmus forwards, and gaps (m, n) to the outline there.
+
+    The isthmus's outline stands for each section, from 3 mm behind it to where the pedicle opens into the
+    body; each of them is wider than that.
+    """
+    places = np.linspace(-HALF_LENGTH_MM, max(measure.opens_ahead_mm, HALF_LENGTH_MM), PLACES)
+    slope = float(channel.axis_in_vertebra @ measure.axis_lps)
+    normal = _outward_normals(measure.outline_lps_mm, measure)
     gaps = []
-    for along in (-HALF_LENGTH_MM, 0.0, HALF_LENGTH_MM):
+    for along in places:
         centre = measure.isthmus_lps_mm + along * measure.axis_lps
         wall = measure.outline_lps_mm + along * measure.axis_lps
-        slope = float(channel.axis_in_vertebra @ measure.axis_lps)
         reach = float((centre - channel.entry_in_vertebra_mm) @ measure.axis_lps) / (
             slope if abs(slope) > 0.1 else 0.1
         )
         crossing = channel.entry_in_vertebra_mm + reach * channel.axis_in_vertebra
-        normal = _outward_normals(wall, measure)
         gaps.append(((wall - crossing) * normal).sum(axis=1))
-    return np.asarray(np.min(gaps, axis=0))
+    return places, np.array(gaps)
 
 
 def _outward_normals(wall: Array, measure: PedicleMeasure) -> Array:

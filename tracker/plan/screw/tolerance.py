@@ -7,7 +7,7 @@ import numpy as np
 from tracker.geometry import Array
 from tracker.plan.channel import Channel
 from tracker.plan.pedicle import PedicleMeasure
-from tracker.plan.screw.clearance import HALF_LENGTH_MM, wall_gaps_mm
+from tracker.plan.screw.clearance import HALF_LENGTH_MM, gaps_along_mm
 
 STEPS = 16
 
@@ -24,7 +24,7 @@ class Tolerance:
         deg_at_offset: (n,), the angle that may come on top of it in the worst direction; falls to 0.
         most_offset_mm: the largest offset with a true angle.
         most_angle_deg: the largest angle with a true entry.
-        both_mm: and both_deg: half of each, which may come together.
+        both_mm: and both_deg: half of that offset and the angle that is left, which may come together.
     """
 
     offset_mm: Array
@@ -38,21 +38,26 @@ class Tolerance:
 def tolerance_of(channel: Channel, measure: PedicleMeasure, *, diameter_mm: float) -> Tolerance:
     """The tolerance of one pedicle for one screw; all zero where the plan itself has no room.
 
-    The screw turns about its entry; the far end of the isthmus moves by the offset and by the lever times the
-    tangent of the angle, in the worst case both towards the nearest wall.
+    The screw is held against the walls from 3 mm behind the isthmus to where the pedicle opens into the body.
+    It turns about its entry: each place of it moves by the offset and by the lever times the tangent of the
+    angle, in the worst case both towards the nearest wall there.
     """
-    room = max(float(wall_gaps_mm(channel, measure).min()) - 0.5 * diameter_mm, 0.0)
+    places, gaps = gaps_along_mm(channel, measure)
+    room = np.maximum(gaps.min(axis=1) - 0.5 * diameter_mm, 0.0)
     to_isthmus = float((measure.isthmus_lps_mm - channel.entry_in_vertebra_mm) @ channel.axis_in_vertebra)
-    lever = max(to_isthmus + HALF_LENGTH_MM, HALF_LENGTH_MM)
-    offset = np.linspace(0.0, room, STEPS)
-    angle = np.degrees(np.arctan((room - offset) / lever))
+    lever = np.maximum(to_isthmus + places, HALF_LENGTH_MM)
+    most = float(room.min())
+    offset = np.linspace(0.0, most, STEPS)
+    # Which place leaves least depends on the offset: far ahead the same angle moves the screw more.
+    angle = np.degrees(np.arctan(((room - offset[:, None]) / lever).min(axis=1)))
+    both = float(np.degrees(np.arctan(((room - 0.5 * most) / lever).min())))
     for array in (offset, angle):
         array.setflags(write=False)
     return Tolerance(
         offset_mm=offset,
         deg_at_offset=angle,
-        most_offset_mm=room,
+        most_offset_mm=most,
         most_angle_deg=float(angle[0]),
-        both_mm=0.5 * room,
-        both_deg=float(np.degrees(np.arctan(0.5 * room / lever))),
+        both_mm=0.5 * most,
+        both_deg=both,
     )

@@ -9,6 +9,7 @@ from tracker.geometry import Array
 from tracker.rehearsal.ct.parts import Block, ContrastTube, Drum, EllipticTube, Part, Rod
 
 NOWHERE_MM = 1e3
+TOUCH_MM = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,16 +79,22 @@ class VertebraPhantom:
         pedicle = self.pedicles[side]
         isthmus = self.rotation @ pedicle.waist_mm + self.place_mm
         axis = self.rotation @ pedicle.axis
-        steps = np.arange(0.0, 80.0, 0.01)
-        ahead = self.bone_distance_mm(isthmus + steps[:, None] * axis) > 0.0
-        behind = self.bone_distance_mm(isthmus - steps[:, None] * axis) > 0.0
+        ahead_mm, behind_mm = self._leaves_mm(isthmus, axis), self._leaves_mm(isthmus, -axis)
         return PedicleTruth(
             width_mm=pedicle.width_mm,
             height_mm=pedicle.height_mm,
             isthmus_lps_mm=isthmus,
             axis_lps=axis,
-            length_mm=float(steps[np.argmax(ahead)] + steps[np.argmax(behind)]),
+            length_mm=ahead_mm + behind_mm,
         )
+
+    def _leaves_mm(self, start_mm: Array, direction: Array) -> float:
+        """How far it is to where a line leaves the vertebra, two parts that only touch being one."""
+        steps = np.arange(0.0, 80.0, 0.01)
+        distance = self.bone_distance_mm(start_mm + steps[:, None] * direction)
+        left = int(np.argmax(distance > TOUCH_MM))
+        inside = np.flatnonzero(distance[:left] <= 0.0)
+        return float(steps[inside[-1]])
 
     def seed_lps_mm(self, side: str, offset_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Array:
         """A click in the pedicle: `offset_mm` along its axis, its width and its height from the isthmus."""

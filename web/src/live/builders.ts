@@ -1,6 +1,6 @@
 // Truth for tests: messages as the server sends them.
 import type { Situation, Taken } from "./assess";
-import type { AlarmsMessage, LiveMessage, SnapshotMessage } from "./messages";
+import type { AlarmsMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
 
 export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessage {
   return {
@@ -11,9 +11,17 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
     height_px: 720,
     camera_calibrated: true,
     registered_by: "rehearsal",
+    anchored_to: "camera",
+    reference: null,
     channel_name: "L3 left",
+    vertebra: { kind: "absent", reason: "NOT_REGISTERED" },
+    watched: { moves_seen_by: "not-at-all", camera_moved: false, reference_moved: false, scene: "unsure" },
     markers: [
-      { name: "drill", sighting: { kind: "unseen", reason: "SCORE_TOO_LOW", best_score_ratio: 0.4 } },
+      {
+        name: "drill",
+        unseen_s: 0.2,
+        sighting: { kind: "unseen", reason: "SCORE_TOO_LOW", best_score_ratio: 0.4 },
+      },
     ],
     tools: [
       {
@@ -27,11 +35,58 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
           depth_mm: 3,
           remaining_mm: 4,
           tip_offset_mm: 5,
+          entry_lateral_mm: 0.6,
+          entry_cranial_mm: 0.8,
+          transverse_deg: 1.5,
+          sagittal_deg: -1.5,
         },
+        judgement: judgement(),
       },
     ],
     stage_ms: {},
     skipped_images: 0,
+    ...changes,
+  };
+}
+
+/** On its way: 1.8 mm from the medial wall, and a class worse at the end. */
+export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMessage {
+  const place = {
+    kind: "nearest" as const,
+    wall: "medial" as const,
+    point_in_vertebra_mm: [0, 0, 0],
+  };
+  return {
+    kind: "judgement",
+    verdict: "on",
+    clearance: {
+      against: "bone",
+      now: { ...place, clearance_mm: 1.8, grade: "A" },
+      soon: { ...place, clearance_mm: 0.9, grade: "A" },
+      at_end: { ...place, clearance_mm: -0.4, grade: "B" },
+      channel: { ...place, clearance_mm: 0.2, grade: "A" },
+      past_planned_mm: -4,
+    },
+    chance: {
+      now_ratio: 0,
+      soon_ratio: 0.03,
+      at_end_ratio: 0.12,
+      at_end_grade_ratio: { A: 0.88, B: 0.12, C: 0, D: 0, E: 0 },
+      past_planned_ratio: 0,
+    },
+    spread: {
+      tip_ellipsoid_mm: [
+        [1, 0, 0],
+        [0, 0.5, 0],
+        [0, 0, 0.5],
+      ],
+      cone_95_deg: 1,
+      tip_sd_mm: 0.35,
+      sd_angle_deg: 0.4,
+      sd_depth_mm: 0.2,
+      sd_at_entry_mm: 0.3,
+    },
+    certain: { enough: true, entry_95_mm: 0.7, isthmus_95_mm: 0.8, room_mm: 2 },
     ...changes,
   };
 }

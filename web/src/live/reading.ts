@@ -3,6 +3,7 @@
 import type {
   AbsentReason,
   DeviationMessage,
+  JudgementMessage,
   MarkerMessage,
   SnapshotMessage,
   ToolStateMessage,
@@ -13,6 +14,7 @@ export interface Reading {
   known: true;
   tool: string;
   deviation: DeviationMessage;
+  judgement: JudgementMessage | null;
   tipSdMm: number | null;
   lagMs: number;
 }
@@ -31,6 +33,7 @@ export function readingOf(snapshot: SnapshotMessage): Reading | Unread {
         known: true,
         tool: tool.name,
         deviation: tool.deviation,
+        judgement: tool.judgement.kind === "judgement" ? tool.judgement : null,
         tipSdMm: tipSdMm(tool),
         lagMs: tool.pose.kind === "tool" ? tool.pose.lag_ms : 0,
       };

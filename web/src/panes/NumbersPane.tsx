@@ -1,14 +1,16 @@
 import { useRef, type ReactNode, type RefObject } from "react";
 import type { NumbersVerdict } from "../live/assess";
 import { usePainter, useLive } from "../live/LiveContext";
+import type { Reading } from "../live/reading";
 import type { DeviationMessage } from "../live/messages";
 import { shownDuration, shownFigure, shownNumber } from "../live/rounding";
 import type { Words } from "../words/en";
 import { useWords } from "../words/WordsContext";
 import { Pane } from "./Pane";
 import { setData, setText } from "./setText";
+import { VERDICT_SYMBOL, aheadText, clearanceMm, verdictText, wallHint } from "./verdictText";
 
-const READINGS = ["entry", "angle", "depth", "toGo"] as const;
+const READINGS = ["entry", "angle", "depth", "toGo", "wall"] as const;
 type ReadingName = (typeof READINGS)[number];
 
 const REMOVED = "—";
@@ -20,12 +22,16 @@ export function NumbersPane(): ReactNode {
   const pane = useRef<HTMLDivElement>(null);
   const since = useRef<HTMLSpanElement>(null);
   const tip = useRef<HTMLSpanElement>(null);
+  const verdict = useRef<HTMLParagraphElement>(null);
+  const ahead = useRef<HTMLParagraphElement>(null);
   const difference = useRef<HTMLParagraphElement>(null);
 
   usePainter(({ numbers, video, untrackedMs }) => {
     setData(pane.current, "live", String(numbers.live));
-    const deviation = numbers.live ? numbers.reading.deviation : null;
-    for (const name of READINGS) paintReading(pane.current, name, deviation, words);
+    const reading = numbers.live ? numbers.reading : null;
+    for (const name of READINGS) paintReading(pane.current, name, reading, words);
+    paintVerdict(verdict.current, reading, words);
+    setText(ahead.current, reading?.judgement ? aheadText(reading.judgement, words) : "");
     setText(since.current, untrackedMs === null ? "" : shownDuration(untrackedMs));
     setText(tip.current, tipText(numbers, words));
     const differ = numbers.live && video.live && numbers.imageNumber !== video.imageNumber;
@@ -42,9 +48,7 @@ export function NumbersPane(): ReactNode {
       <div className="numbers" data-testid="numbers" data-live="false" ref={pane}>
         <div className="numbers-state">
           {view.numbers.live ? (
-            <p className="state-good">
-              <span aria-hidden="true">●</span> {words.numbers.tracking} · {view.numbers.reading.tool}
-            </p>
+            <p className="state-verdict" data-testid="verdict" ref={verdict} />
           ) : (
             <p className="state-bad" data-testid="no-tracking">
               <span aria-hidden="true">▲▲</span>{" "}
@@ -55,6 +59,7 @@ export function NumbersPane(): ReactNode {
             {whyWords(view.numbers, words)}
             <span data-testid="tip" ref={tip} />
           </p>
+          <p className="state-ahead" data-testid="ahead" ref={ahead} />
         </div>
         {READINGS.map((name) => (
           <div className="reading" data-reading={name} key={name}>
@@ -103,9 +108,10 @@ function whyWords(numbers: NumbersVerdict, words: Words): string {
 
 function tipText(numbers: NumbersVerdict, words: Words): string {
   if (!numbers.live) return "";
-  const { tipSdMm, lagMs } = numbers.reading;
-  const tip =
+  const { tool, tipSdMm, lagMs } = numbers.reading;
+  const sd =
     tipSdMm === null ? words.numbers.tipUnknown : `${words.numbers.tip} ${shownNumber(tipSdMm, 2)} mm`;
+  const tip = `${tool} · ${sd}`;
   // The age of the image does not hold this delay: it is said beside the numbers that have it.
   return lagMs > 0 ? `${tip} · ${words.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : tip;
 }
@@ -113,21 +119,37 @@ function tipText(numbers: NumbersVerdict, words: Words): string {
 function paintReading(
   pane: HTMLElement | null,
   name: ReadingName,
-  deviation: DeviationMessage | null,
+  reading: Reading | null,
   words: Words,
 ): void {
   const tile = pane?.querySelector<HTMLElement>(`[data-reading=${name}]`);
   if (!tile) return;
-  setText(
-    tile.querySelector("[data-part=value]"),
-    deviation ? shownFigure(valueOf(deviation, name)) : REMOVED,
-  );
-  setText(tile.querySelector("[data-part=hint]"), hintOf(deviation, name, words));
-  setData(tile, "past", String(name === "toGo" && deviation !== null && deviation.remaining_mm < 0));
+  setText(tile.querySelector("[data-part=value]"), reading ? shownFigure(valueOf(reading, name)) : REMOVED);
+  setText(tile.querySelector("[data-part=hint]"), hintOf(reading, name, words));
+  setData(tile, "past", String(reading !== null && isPast(reading, name)));
 }
 
-function valueOf(deviation: DeviationMessage, name: ReadingName): number | null {
+/** Before a judgement is there, nothing is praised: the word is "tracking", and it is not green. */
+function paintVerdict(line: HTMLElement | null, reading: Reading | null, words: Words): void {
+  const judgement = reading?.judgement ?? null;
+  setData(line, "verdict", judgement?.verdict ?? "none");
+  setText(
+    line,
+    judgement === null
+      ? words.numbers.tracking
+      : `${VERDICT_SYMBOL[judgement.verdict]} ${verdictText(judgement, words)}`,
+  );
+}
+
+function isPast({ deviation, judgement }: Reading, name: ReadingName): boolean {
+  if (name === "wall") return judgement !== null && (clearanceMm(judgement.clearance.now) ?? 0) < 0;
+  return name === "toGo" && deviation.remaining_mm < 0;
+}
+
+function valueOf({ deviation, judgement }: Reading, name: ReadingName): number | null {
   switch (name) {
+    case "wall":
+      return judgement === null ? null : clearanceMm(judgement.clearance.now);
     case "entry":
       return deviation.entry_offset_mm;
     case "angle":
@@ -139,9 +161,13 @@ function valueOf(deviation: DeviationMessage, name: ReadingName): number | null 
   }
 }
 
-function hintOf(deviation: DeviationMessage | null, name: ReadingName, words: Words): string {
+function hintOf(reading: Reading | null, name: ReadingName, words: Words): string {
   const { depthWords } = words;
-  if (deviation === null) return words.reading[name].hint;
+  if (reading === null) return words.reading[name].hint;
+  const deviation: DeviationMessage = reading.deviation;
+  if (name === "wall") {
+    return reading.judgement === null ? words.reading.wall.hint : wallHint(reading.judgement, words);
+  }
   if (name === "entry" && deviation.entry_offset_mm === null) return depthWords.across;
   if (name === "depth") return deviation.depth_mm < 0 ? depthWords.before : depthWords.inside;
   if (name === "toGo" && deviation.remaining_mm < 0) return `▲▲▲ ${depthWords.past}`;

@@ -31,6 +31,31 @@ export const de: Words = {
     angle: { name: "Winkel", hint: "zur Kanalachse", unit: "°" },
     depth: { name: "Tiefe", hint: "hinter der Eintrittsebene", unit: "mm" },
     toGo: { name: "Rest", hint: "bis zum geplanten Ende", unit: "mm" },
+    wall: { name: "Wand", hint: "kleinster Abstand des Bohrers", unit: "mm" },
+  },
+  verdict: { on: "AUF KURS", off: "NEBEN KURS", unsure: "UNSICHER", through: "DURCH" },
+  wall: {
+    notEntered: "nicht im Knochen",
+    now: "jetzt",
+    soon: "in 2 mm",
+    atEnd: "am Ende",
+    grade: "Klasse",
+    of: "von",
+    through: "Durch die Wand",
+    side: {
+      medial: "medial",
+      lateral: "lateral",
+      superior: "oben",
+      inferior: "unten",
+      anterior: "vorn",
+    },
+    against: { bone: "zum Knochen", pedicle: "zum Umriss des Pedikels", channel: "zum Kanal" },
+  },
+  moves: {
+    reference: "Der Marker am Patienten zeigt, wenn Patient oder Kamera sich bewegen.",
+    "fixed-scene":
+      "Kein Marker am Patienten: bewegt er sich, wird es nicht gesehen, bei der Kamera nur an der festen Szene.",
+    "not-at-all": "Kein Marker am Patienten: bewegt sich Patient oder Kamera, wird es nicht gesehen.",
   },
   depthWords: {
     before: "vor der Eintrittsebene",
@@ -44,6 +69,8 @@ export const de: Words = {
     loadingHint: "Die Szene erscheint mit ihrem ersten Bild.",
     stale: "SZENE VERALTET",
     staleHint: "Die Szene folgt dem Bohrer nicht. Sie kommt von selbst wieder.",
+    views: "Blick",
+    view: { behind: "Von hinten", channel: "Kanalachse", camera: "Von der Kamera" },
   },
   markers: {
     title: "Marker",

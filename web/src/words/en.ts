@@ -33,6 +33,31 @@ export const en: Words = {
     angle: { name: "Angle", hint: "to the channel's axis", unit: "°" },
     depth: { name: "Depth", hint: "past the entry plane", unit: "mm" },
     toGo: { name: "To go", hint: "to the planned end", unit: "mm" },
+    wall: { name: "Wall", hint: "least clearance of the drill", unit: "mm" },
+  },
+  verdict: { on: "ON PATH", off: "OFF PATH", unsure: "UNSURE", through: "THROUGH" },
+  wall: {
+    notEntered: "not in the bone",
+    now: "now",
+    soon: "in 2 mm",
+    atEnd: "at the end",
+    grade: "class",
+    of: "of",
+    through: "Through the wall",
+    side: {
+      medial: "medial",
+      lateral: "lateral",
+      superior: "superior",
+      inferior: "inferior",
+      anterior: "anterior",
+    },
+    against: { bone: "to the bone", pedicle: "to the pedicle's outline", channel: "to the channel" },
+  },
+  moves: {
+    reference: "The marker on the patient shows a move of patient or camera.",
+    "fixed-scene":
+      "No marker on the patient: a move of the patient is not seen, one of the camera only by the fixed scene.",
+    "not-at-all": "No marker on the patient: a move of patient or camera is not seen.",
   },
   depthWords: {
     before: "before the entry plane",
@@ -46,6 +71,8 @@ export const en: Words = {
     loadingHint: "The scene appears when its first image is drawn.",
     stale: "SCENE STALE",
     staleHint: "The scene does not follow the drill now. It comes back by itself.",
+    views: "View",
+    view: { behind: "From behind", channel: "Along channel", camera: "From camera" },
   },
   markers: {
     title: "Markers",

@@ -1,6 +1,15 @@
 // What there is to say, in every language.
 import type { Cause } from "../live/assess";
-import type { AbsentReason, Condition, Priority, UnseenReason } from "../live/messages";
+import type {
+  AbsentReason,
+  Condition,
+  MeasuredAgainst,
+  MovesSeen,
+  Priority,
+  UnseenReason,
+  Verdict,
+  Wall,
+} from "../live/messages";
 
 /** A short state in big words, and a sentence that says what it means or what to do. */
 export interface Saying {
@@ -30,7 +39,16 @@ export interface Words {
     numbersOf: string;
     pictureOf: string;
   };
-  reading: Record<"entry" | "angle" | "depth" | "toGo", { name: string; hint: string; unit: string }>;
+  reading: Record<
+    "entry" | "angle" | "depth" | "toGo" | "wall",
+    { name: string; hint: string; unit: string }
+  >;
+  verdict: Record<Verdict, string>;
+  wall: Record<"notEntered" | "now" | "soon" | "atEnd" | "grade" | "of" | "through", string> & {
+    side: Record<Wall, string>;
+    against: Record<MeasuredAgainst, string>;
+  };
+  moves: Record<MovesSeen, string>;
   depthWords: { before: string; inside: string; past: string; across: string };
   scene: {
     title: string;
@@ -38,6 +56,8 @@ export interface Words {
     loadingHint: string;
     stale: string;
     staleHint: string;
+    views: string;
+    view: Record<"behind" | "channel" | "camera", string>;
   };
   markers: Record<
     "title" | "none" | "name" | "state" | "seen" | "unseen" | "score" | "target" | "unknown",

@@ -1,4 +1,4 @@
-"""Where a screw enters: the back of the arch around the axis, and not the tip of a process beyond it."""
+"""Where a screw enters: the back of the arch around the axis, not the tip of a process that it runs into."""
 
 import numpy as np
 from scipy import ndimage

@@ -20,10 +20,11 @@ LOOK_BEYOND_MM, LOOK_ACROSS_MM, LOOK_RAYS, ENCLOSED_RATIO = 4.0, 32.0, 16, 0.85
 # Where the solid ends, the wall is the fall of the profile that is so near to it.
 NEAR_EXIT_MM = 4.0
 NO_FRONT_FROM_MM = 24.0
-# Deeper outside than this the line has left the bone, and not only passed a gap in its wall.
-LEFT_MM = 1.0
+# So long outside, or so deep, and the line has left the bone, and not only passed a gap in its wall.
+LEFT_DEPTH_MM, LEFT_FROM_MM, LEFT_FOR_MM = 1.0, 0.3, 2.0
 # A process is what reaches so far behind the arch around it; where that ends is not known to the voxel.
 PROCESS_MM, ARCH_SD_MM = 2.5, 1.5
+BESIDE_SHARE = 0.4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,7 +110,11 @@ def _wall(
         distance = min([one for one in some if one >= NO_FRONT_FROM_MM], default=distance)
     outwards = solid.outwards_at(isthmus_mm + distance * direction) if found else direction
     return WallAhead(
-        distance_mm=distance, found=found, outwards=outwards, faced_ratio=float(outwards @ direction)
+        distance_mm=distance,
+        found=found,
+        outwards=outwards,
+        faced_ratio=float(outwards @ direction),
+        sd_mm=_skimming_sd_mm(solid, isthmus_mm, direction, from_mm),
     )
 
 
@@ -118,9 +123,19 @@ def _exit_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) 
     along = np.arange(from_mm, FARTHEST_MM, STEP_MM)
     line = isthmus_mm + along[:, None] * direction
     depth = solid.depth_at(line)[solid.holds(line)]
-    left = np.flatnonzero(depth < -LEFT_MM)
+    steps = int(LEFT_FOR_MM / STEP_MM)
+    shallow = np.convolve(depth < -LEFT_FROM_MM, np.ones(steps))[steps - 1 :] > steps - 0.5
+    left = np.flatnonzero((depth < -LEFT_DEPTH_MM) | shallow)
     inside = np.flatnonzero(depth[: left[0]] > 0.0) if len(left) else left
     return float(along[inside[-1]]) if len(inside) else None
+
+
+def _skimming_sd_mm(solid: Solid, isthmus_mm: Array, direction: Array, from_mm: float) -> float:
+    """How much lines beside this one differ in where they end: by much where it skims a surface."""
+    (across,), (up,) = planes_across(direction[None])
+    beside = [_exit_mm(solid, isthmus_mm + way, direction, from_mm) for way in (across, -across, up, -up)]
+    ends = [one for one in beside if one is not None]
+    return BESIDE_SHARE * float(np.std(ends)) if len(ends) > 1 else 0.0
 
 
 def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm: float) -> float:

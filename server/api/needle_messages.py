@@ -1,0 +1,198 @@
+"""What is asked and answered about registration by needles."""
+
+from typing import Annotated, Self, TypeAlias
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from server.api.case_messages import MadeBy
+from server.api.registration_messages import LandmarkName, VertebraName
+from server.procedure.registered import Value
+from server.procedure.registration.needles import LaidSlice, NeedleOrder, numbers_of
+from server.stream.messages import Message
+from tracker.registration.needles import MeasuredView, NeedleSeen, SliceOverlay, Standing, clicked_needle
+
+Pixel: TypeAlias = Annotated[float, Field(ge=-20_000.0, le=20_000.0, allow_inf_nan=False)]
+PixelPoint: TypeAlias = Annotated[list[Pixel], Field(min_length=2, max_length=2)]
+Measured: TypeAlias = Annotated[float, Field(gt=0.0, le=5_000.0, allow_inf_nan=False)]
+Spread: TypeAlias = Annotated[float, Field(gt=0.0, le=500.0, allow_inf_nan=False)]
+
+
+class ViewMessage(Message):
+    """What a ruler tells of a camera above and beside a patient who lies prone."""
+
+    vertical_mm: Measured
+    """V, how far the camera is above the vertebra."""
+    horizontal_mm: Measured
+    """H, how far it is beside it."""
+    azimuth_deg: Annotated[float, Field(ge=-180.0, le=180.0)] = 0.0
+    """Seen from above: 0 in line with the spine, positive to the left side."""
+    standing: Standing = Standing.FEET
+    """At which end of the patient the camera stands."""
+    ruler_sd_mm: Spread = 10.0
+    azimuth_sd_deg: Spread = 5.0
+    level_sd_deg: Spread = 3.0
+    lying_sd_deg: Spread = 5.0
+
+
+class NeedlesRequest(Message):
+    """Which needles, seen how."""
+
+    view: ViewMessage
+    vertebra: VertebraName | None = None
+    """Its name in the plan; the one that is to be drilled if left out."""
+    landmarks: Annotated[tuple[LandmarkName, ...], Field(max_length=6)] = ()
+    """Where the needles go in; none takes the three lines of the reference slice."""
+    radius_mm: Annotated[float, Field(gt=0.0, le=5.0)] = 0.8
+    use_touched: bool = False
+    """Whether the landmarks that were touched so far tell the depth, too."""
+
+    @property
+    def order(self) -> NeedleOrder:
+        """The same for the step."""
+        return NeedleOrder(
+            vertebra=self.vertebra,
+            landmarks=self.landmarks,
+            measured=MeasuredView(**self.view.model_dump()),
+            radius_mm=self.radius_mm,
+        )
+
+
+class OverlayMessage(Message):
+    """Where the slice is laid."""
+
+    shift_px: PixelPoint
+    """Where in the image the middle of the needles lies."""
+    turn_deg: Annotated[float, Field(ge=-360.0, le=360.0)] = 0.0
+    """Clockwise in the image, from how the ruler has it."""
+    scale_px_per_mm: Annotated[float, Field(ge=0.05, le=100.0)]
+    fade_ratio: Annotated[float, Field(ge=0.0, le=1.0)] = 0.5
+
+    @property
+    def record(self) -> SliceOverlay:
+        """The same for the step."""
+        return SliceOverlay(
+            shift_px=np.array(self.shift_px),
+            turn_deg=self.turn_deg,
+            scale_px_per_mm=self.scale_px_per_mm,
+            fade_ratio=self.fade_ratio,
+        )
+
+
+class MarkedNeedleMessage(Message):
+    """A needle that a person has marked in the image."""
+
+    entry_px: PixelPoint
+    """Where it comes out of the bone."""
+    head_px: PixelPoint
+    entry_is_seen: bool = True
+
+    @property
+    def record(self) -> NeedleSeen:
+        """The same for the step; InvalidInput NEEDLE_SEEN_INVALID."""
+        return clicked_needle(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
+
+
+class LaidRequest(NeedlesRequest):
+    """The slice where a person has laid it."""
+
+    overlay: OverlayMessage | None = None
+    """Where the ruler has it, if left out."""
+    marked: Annotated[tuple[MarkedNeedleMessage, ...], Field(max_length=6)] = ()
+    """Needles, in the plan's order; how each lies beside its line is told."""
+
+
+class NeedlesConclusion(LaidRequest):
+    """How to register: by marked needles, by the overlay, or, without both, by what the software finds."""
+
+    made_by: MadeBy
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        if self.overlay is not None and self.marked:
+            raise ValueError("give the overlay or the marked needles, not both")
+        return self
+
+
+class NeedleMessage(Message):
+    """One needle against the plan."""
+
+    name: str
+    line_px: list[list[float]]
+    """Where its planned line runs in the image, from the bone outwards."""
+    offset_px: float | None
+    """From its place, after the fit; null where nothing was fitted."""
+    offset_mm: float | None
+    lean_deg: float | None
+    beside_px: float | None
+    """RMS distance of the needle from its line of the overlay; null where no needle was seen or marked."""
+    beside_mm: float | None
+
+
+class DirectionMessage(Message):
+    """How well the needles' middle, or the vertebra about it, is known in one direction."""
+
+    name: str
+    sd: float
+    unit: str
+    not_from_image_ratio: float
+    """Share of it that ruler and touched points gave."""
+    is_weak: bool
+
+
+class LaidMessage(Message):
+    """The slice over the image, and what the needles say."""
+
+    vertebra: str
+    image_number: int
+    overlay: OverlayMessage
+    needles: list[NeedleMessage]
+    directions: list[DirectionMessage]
+    """Empty where nothing was fitted."""
+    numbers: dict[str, Value]
+
+
+def laid_message(laid: LaidSlice) -> LaidMessage:
+    """The slice over the image, as it is told."""
+    fit = laid.fit
+    fitted = {} if fit is None else {one.name: one for one in fit.residuals}
+    beside = {one.name: one for one in laid.residuals}
+    needles = []
+    for place, line in zip(laid.scene.places, laid.lines_px, strict=True):
+        one, near = fitted.get(place.name), beside.get(place.name)
+        needles.append(
+            NeedleMessage(
+                name=place.name,
+                line_px=line.tolist(),
+                offset_px=None if one is None else one.offset_px,
+                offset_mm=None if one is None else one.offset_mm,
+                lean_deg=None if one is None else one.lean_deg,
+                beside_px=None if near is None else near.rms_px,
+                beside_mm=None if near is None else near.rms_mm,
+            )
+        )
+    directions = (
+        [] if fit is None else [fit.sureness.depth, fit.sureness.across, fit.sureness.tilt, fit.sureness.turn]
+    )
+    return LaidMessage(
+        vertebra=laid.scene.ground.vertebra.name,
+        image_number=laid.scene.snapshot.image_number,
+        overlay=OverlayMessage(
+            shift_px=laid.overlay.shift_px.tolist(),
+            turn_deg=laid.overlay.turn_deg,
+            scale_px_per_mm=laid.overlay.scale_px_per_mm,
+            fade_ratio=laid.overlay.fade_ratio,
+        ),
+        needles=needles,
+        directions=[
+            DirectionMessage(
+                name=one.name,
+                sd=one.sd,
+                unit=one.unit,
+                not_from_image_ratio=one.not_from_image_ratio,
+                is_weak=one.is_weak,
+            )
+            for one in directions
+        ],
+        numbers={} if fit is None else numbers_of(laid, fit),
+    )

@@ -1,0 +1,42 @@
+"""The reference slice, translucent over the live picture, with the lines on which the needles shall lie."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from server.procedure.registration.needles import LaidSlice
+from tracker.plan import Volume
+from tracker.plan.slices import Window, shown
+from tracker.registration.needles import image_from_slice
+
+# BGR: the colour of the lines in the picture of the plan.
+LINE = (80, 220, 255)
+# Fractions of a pixel, as bits, for lines that do not jump.
+BITS = 4
+
+
+def overlay_picture(laid: LaidSlice, volume: Volume | None, window: Window) -> npt.NDArray[np.uint8]:
+    """The picture (h, w, 3) in BGR.
+
+    Args:
+        laid: where the slice lies, and on what.
+        volume: the CT that it is cut from; None draws the lines alone.
+        window: what of it is shown in grey.
+    """
+    image = laid.scene.image.copy()
+    reference = laid.scene.reference
+    if volume is not None and reference is not None:
+        homography = image_from_slice(laid.camera_from_vertebra, reference, laid.scene.camera)
+        grey = np.asarray(shown(volume.hu[reference.slice_index], window), dtype=np.uint8)
+        size = image.shape[1], image.shape[0]
+        slice_there = cv2.warpPerspective(cv2.cvtColor(grey, cv2.COLOR_GRAY2BGR), homography, size)
+        share = cv2.warpPerspective(
+            np.full(grey.shape, laid.overlay.fade_ratio, np.float32), homography, size
+        )
+        mixed = image + share[..., None] * (slice_there.astype(np.float32) - image)
+        image = np.clip(np.rint(mixed), 0, 255).astype(np.uint8)
+    for line in laid.lines_px:
+        # Far beyond the picture OpenCV's numbers would run over.
+        points = np.rint(np.clip(line, -20_000.0, 20_000.0) * 2**BITS).astype(np.int32)
+        cv2.polylines(image, [points], False, LINE, 2, cv2.LINE_AA, BITS)
+    return np.asarray(image, dtype=np.uint8)

@@ -1,0 +1,116 @@
+"""A server in a process of its own, as a person starts it, with the rehearsal as its camera."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import httpx2
+import yaml
+from websockets.sync.client import connect
+
+CHECKOUT = Path(__file__).resolve().parents[2]
+# How long anything may take on a busy machine before it counts as not happening.
+PATIENCE_S = 300.0
+LOOK_AGAIN_S = 0.02
+# A busy machine brings images late: when that is an alarm, others ask. A screen is armed once and stays so.
+BUSY_MACHINE: Mapping[str, object] = {
+    "limits": {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000},
+    "alarms": {"screen_lost_after_s": 600},
+}
+
+
+@dataclass(slots=True, kw_only=True)
+class RealServer:
+    """A server that answers, and its process."""
+
+    port: int
+    process: "subprocess.Popen[str]"
+    door: httpx2.Client
+
+    def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
+        """The answer of the door, which must have this status."""
+        answer = self.door.request(method, path, **sent)
+        assert answer.status_code == status, f"{method} {path}: {answer.status_code} {answer.text[:600]}"
+        return answer.json() if answer.content else None
+
+    def refused(self, method: str, path: str, code: str, **sent: Any) -> Any:  # noqa: ANN401  JSON
+        """The refusal of a step out of its turn: its code, a sentence with what happened, what to do."""
+        told = self.ask(method, path, 409, **sent)
+        assert told["code"] == code, told
+        assert told["message"]
+        assert told["remedy"].endswith(".")
+        return told
+
+    def until(self, what: str, true: Callable[[], Any]) -> Any:  # noqa: ANN401  whatever became true
+        """What this gives as soon as it is true."""
+        deadline_s = time.monotonic() + PATIENCE_S
+        while not (given := true()):
+            assert time.monotonic() < deadline_s, f"not within {PATIENCE_S:g} s: {what}"
+            time.sleep(LOOK_AGAIN_S)
+        return given
+
+    def done(self, job: Mapping[str, Any]) -> Any:  # noqa: ANN401  JSON
+        """What came of a job."""
+
+        def over() -> Any:  # noqa: ANN401  JSON
+            now = self.ask("GET", f"/api/jobs/{job['id']}", 200)
+            return now if now["state"] in {"done", "failed", "cancelled"} else None
+
+        told = self.until(str(job["title"]), over)
+        assert told["state"] == "done", told["trouble"]
+        return told["result"]
+
+    @contextmanager
+    def listening(self) -> Iterator[Iterator[dict[str, Any]]]:
+        """The messages of `/ws/live`, as a client receives them."""
+        with connect(f"ws://127.0.0.1:{self.port}/ws/live", proxy=None, compression=None) as socket:
+            yield (_message(socket.recv(timeout=PATIENCE_S)) for _ in iter(int, 1))
+
+
+def _message(text: str | bytes) -> dict[str, Any]:
+    told: dict[str, Any] = httpx2.Response(200, content=text).json()
+    return told
+
+
+@contextmanager
+def real_server(folder: Path, settings: Mapping[str, object]) -> Iterator[RealServer]:
+    """`coaxial run` with these settings and its cases in this folder, ended by its own number."""
+    folder.mkdir(exist_ok=True)
+    (folder / "config.yaml").write_text(yaml.safe_dump(dict(settings)), encoding="utf-8")
+    with subprocess.Popen(
+        [sys.executable, "-m", "server", "run", "--port", "0"],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(CHECKOUT), "COAXIAL_HOME": str(folder / "home")},
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        try:
+            port = _port_of(process)
+            with httpx2.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S) as door:
+                yield RealServer(port=port, process=process, door=door)
+        finally:
+            process.send_signal(signal.SIGTERM)
+            try:
+                process.wait(PATIENCE_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                raise
+    assert process.returncode == 0
+
+
+def _port_of(process: "subprocess.Popen[str]") -> int:
+    for line in process.stdout or ():
+        found = re.search(r"http://127\.0\.0\.1:(\d+)/", line)
+        if found is not None:
+            return int(found[1])
+    raise AssertionError(
+        f"the server ended with status {process.wait(PATIENCE_S)} before it said its address"
+    )

@@ -1,0 +1,222 @@
+"""The people around the table, who work through the server's door alone, and what its camera sees."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from server.config import Config, RehearsalEventConfig
+from server.setup import theatre_of
+from tests.procedure.real_server import RealServer
+from tracker.geometry import Rigid, Tool, Vertebra
+from tracker.navigation import Deviation
+from tracker.navigation.deviation import deviation_from_channel
+from tracker.plan import Channel
+from tracker.rehearsal import Theatre, Truth
+
+BY = {"made_by": "M. Ito"}
+DRILL = {"tool": "drill"}
+BOARD = {
+    "pattern": "dots",
+    "columns": 14,
+    "rows": 10,
+    "pitch_mm": 12.0,
+    "fiducials": [31, 38, 60, 101, 108],
+}
+POINTS, CHECK = "/api/registration/points", "/api/registration/check"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Heard:
+    """A live message, with what is true of its image."""
+
+    message: dict[str, Any]
+    truth: Truth
+
+    @property
+    def drill(self) -> dict[str, Any]:
+        """What it says of the drill."""
+        (tool,) = self.message["snapshot"]["tools"]
+        return dict(tool)
+
+    @property
+    def alarms(self) -> dict[str, dict[str, Any]]:
+        """Those in sight, by condition."""
+        return {one["condition"]: one for one in self.message["alarms"]["alarms"]}
+
+    def deviation_from(self, channel: Channel) -> Deviation:
+        """How far the drill truly is from the channel that was planned."""
+        vertebra_from_tool: Rigid[Vertebra, Tool] = (
+            self.truth.camera_from_vertebra.inverse @ self.truth.camera_from_tool
+        )
+        return deviation_from_channel(vertebra_from_tool, channel)
+
+
+@dataclass(slots=True, kw_only=True)
+class Team:
+    """Does the steps of the procedure as people do, waiting for what the server says and nothing else."""
+
+    server: RealServer
+    config: Config
+    theatre: Theatre = field(init=False)
+    first_number: int = 0
+
+    def __post_init__(self) -> None:
+        self.theatre = theatre_of(self.config.rehearsal)
+
+    def play(self, scene: str, *, skill: str = "good", events: Sequence[RehearsalEventConfig] = ()) -> None:
+        """Have a scene played, and wait until it is before the camera."""
+        asked = {"scene": scene, "skill": skill, "events": [one.model_dump() for one in events]}
+        changed = {**asked, "events": list(events)}
+        self.theatre = theatre_of(self.config.rehearsal.model_copy(update=changed))
+        self.server.ask("PUT", "/api/rehearsal", 200, json=asked)
+
+        def is_shown() -> bool:
+            told = self.server.ask("GET", "/api/rehearsal?truth=1", 200)
+            self.first_number = told["first_number"] or 0
+            return told["begun"] and told["truth"]["moment"] is not None
+
+        self.server.until(f"the scene {scene}", is_shown)
+
+    def truth_of(self, snapshot: dict[str, Any]) -> Truth:
+        """What is true of the image that a message is about."""
+        since_s = (snapshot["image_number"] - self.first_number) / self.config.rehearsal.rate_hz
+        return self.theatre.truth_at(since_s)
+
+    def touched(self) -> str:
+        """The landmark that the tip rests on now."""
+        moment = self.server.ask("GET", "/api/rehearsal?truth=1", 200)["truth"]["moment"]
+        return "" if moment is None else str(moment["touched"])
+
+    def calibrate_camera(self) -> dict[str, Any]:
+        """A board is moved before the camera until there are enough views."""
+        self.play("board")
+        self.server.ask("POST", "/api/camera/collection", 201, json={"board": BOARD})
+        self.server.until(
+            "enough views of the board",
+            lambda: not self.server.ask("GET", "/api/camera/collection", 200)["missing"],
+        )
+        report = self.server.done(self.server.ask("POST", "/api/camera/calibration", 202, json=BY))
+        self.server.until(
+            "images taken with the calibrated camera",
+            lambda: (self.server.ask("GET", "/api/live", 200)["snapshot"] or {}).get("camera_calibrated"),
+        )
+        return dict(report)
+
+    def calibrate_tool(self) -> dict[str, Any]:
+        """The drill is tilted about its tip; which way it points, and how thick it is, says its drawing."""
+        self.play("pivot")
+        self.server.ask(
+            "POST", "/api/tools/collection", 201, json={**DRILL, "purpose": "pivot", "marker": "drill"}
+        )
+        self.server.until(
+            "enough poses of the drill",
+            lambda: not self.server.ask("GET", "/api/tools/collection", 200)["missing"],
+        )
+        drawing = {"radius_mm": 2.0, "length_mm": 118.0, "axis_in_marker": [0.0, -1.0, 0.0]}
+        path = "/api/tools/collection/conclusion"
+        return dict(self.server.ask("POST", path, 201, json={**BY, **drawing})["content"])
+
+    def plan(self, vertebra: str) -> None:
+        """The CT is sent up; both pedicles are clicked on, channels laid, screws and landmarks set."""
+        ask, ct = self.server.ask, self.server.door.get("/api/rehearsal/ct").content
+        self.server.done(ask("POST", "/api/ct", 202, content=ct, params=BY))
+        ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": vertebra})
+        truth = ask("GET", "/api/rehearsal?truth=1", 200)["truth"]
+        where = f"/api/plan/vertebrae/{vertebra}"
+        for side, true_channel in zip(("left", "right"), truth["channels"], strict=True):
+            ends = np.array([true_channel["entry_lps_mm"], true_channel["target_lps_mm"]])
+            click = ends[0] + 0.35 * (ends[1] - ends[0])
+            asked = {**BY, "seed_lps_mm": click.tolist()}
+            self.server.done(ask("POST", f"{where}/pedicles/{side}", 202, json=asked))
+            ask("PUT", f"{where}/channels/{side}", 200, json=BY)
+            ask("PUT", f"{where}/channels/{side}/screw", 200, json=BY)
+        self.server.done(ask("POST", "/api/surface/from-ct", 202, json=BY))
+        landmarks = [*truth["landmarks"], truth["check_landmark"]]
+        ask("PUT", f"{where}/landmarks", 200, json={**BY, "landmarks": landmarks})
+
+    def choose(self, vertebra: str, side: str) -> Channel:
+        """The channel that is to be drilled, as the plan has it."""
+        asked = {**BY, "vertebra": vertebra, "side": side}
+        plan = self.server.ask("POST", "/api/plan/active-channel", 200, json=asked)
+        planned = plan["active_channel"]["channel"]
+        return Channel(
+            name=planned["name"],
+            entry_in_vertebra_mm=np.array(planned["entry_in_vertebra_mm"]),
+            target_in_vertebra_mm=np.array(planned["target_in_vertebra_mm"]),
+            radius_mm=planned["radius_mm"],
+        )
+
+    def touch(self, count: int) -> dict[str, Any]:
+        """So many landmarks are touched one after the other; what is missing after that."""
+        self.play("landmarks")
+        self.server.ask("POST", POINTS, 201, json=DRILL)
+        return self.touch_more(count)
+
+    def touch_more(self, count: int) -> dict[str, Any]:
+        """So many more."""
+        return [self._captured() for _ in range(count)][-1]
+
+    def _captured(self) -> dict[str, Any]:
+        """The next landmark that the tip rests on and that nobody has taken yet, taken."""
+        ask = self.server.ask
+
+        def taken() -> dict[str, Any] | None:
+            told: dict[str, Any] = ask("GET", POINTS, 200)
+            known = {one["name"] for one in told["landmarks"] if one["touched"]}
+            name = self.touched()
+            if not name or name in known:
+                return None
+            ask("POST", f"{POINTS}/captures", 202, json={"landmark": name})
+            told = self._captured_at(POINTS)
+            return told if told["capture"]["state"] == "taken" else None
+
+        return dict(self.server.until("a landmark with the tip at rest on it", taken))
+
+    def _captured_at(self, path: str) -> dict[str, Any]:
+        def over() -> dict[str, Any] | None:
+            told: dict[str, Any] = self.server.ask("GET", path, 200)
+            return None if told["capture"]["state"] == "looking" else told
+
+        return dict(self.server.until("the end of a capture", over))
+
+    def check(self) -> dict[str, Any]:
+        """The tip is put on the landmark that nobody used."""
+        self.play("check")
+        landmark = self.theatre.check_landmark.name
+
+        def held() -> bool:
+            self.server.until("the tip at rest", lambda: self.touched() == landmark)
+            self.server.ask("POST", CHECK, 201, json={**DRILL, "landmark": landmark})
+            return self._captured_at(CHECK)["capture"]["state"] == "taken"
+
+        self.server.until("a tip that was held still", held)
+        return dict(self.server.ask("POST", f"{CHECK}/conclusion", 201, json=BY)["content"])
+
+    def steps(self) -> dict[str, str]:
+        """The state of each step."""
+        told = self.server.ask("GET", "/api/procedure", 200)
+        return {one["step"]: one["state"] for one in told["steps"]}
+
+    def waits_for(self, step: str, code: str) -> None:
+        """The server says that this is to be done now, and refuses to register before it."""
+        assert self.server.ask("GET", "/api/procedure", 200)["next_step"] == step
+        self.server.refused("POST", POINTS, code, json=DRILL)
+
+    def open_case(self, name: str) -> None:
+        """A new case, empty and open."""
+        case = self.server.ask("POST", "/api/cases", 201, json={"name": name})
+        self.server.ask("POST", f"/api/cases/{case['id']}/open", 200)
+
+    def arm_a_screen(self) -> None:
+        """A screen in theatre says that its sound would be heard."""
+        asked = {"screen": "theatre-one", "state": "armed"}
+        self.server.ask("POST", "/api/alarms/screens", 200, json=asked)
+
+    def heard(self, messages: Iterator[dict[str, Any]]) -> Iterator[Heard]:
+        """The messages with an image of the scene that is played."""
+        for message in messages:
+            snapshot = message["snapshot"]
+            if snapshot is not None and snapshot["image_number"] >= self.first_number:
+                yield Heard(message=message, truth=self.truth_of(snapshot))

@@ -1,0 +1,190 @@
+"""Plan and patient are registered by needles through the door: marked, under the laid slice, or refused."""
+
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+
+from server.store import DocumentKind
+from tests.procedure.conftest import Server
+from tests.procedure.patient import (
+    BY,
+    DRILL,
+    LANDMARKS,
+    Patient,
+    activate,
+    plan_content,
+    ready,
+    registered,
+    withheld,
+)
+from tracker.geometry import Array, Camera, Rigid, Vertebra
+from tracker.navigation import AbsentReason
+from tracker.plan import ReferenceSlice, SliceLine
+from tracker.registration.needles import (
+    MeasuredView,
+    overlay_of_pose,
+    places_on_lines,
+    view_from_ruler,
+)
+from tracker.rehearsal import Theatre, TheatreSettings
+
+NEEDLES = "/api/registration/needles"
+CAMERA = Theatre(TheatreSettings()).camera
+VIEW = {"vertical_mm": 380.0, "horizontal_mm": 240.0}
+MEASURED = MeasuredView(vertical_mm=380.0, horizontal_mm=240.0)
+STANDING_ON = ["left transverse process", "right transverse process", "spinous process"]
+MIDDLE = np.mean([LANDMARKS[name] for name in STANDING_ON], axis=0)
+IMAGE = np.full((CAMERA.size_wh_px[1], CAMERA.size_wh_px[0], 3), 90, np.uint8)
+UP_MM = np.array([0.0, 40.0, 0.0])
+ORIGIN_LPS_MM = (-50.0, -40.0, -5.0)
+
+
+def truth() -> Rigid[Camera, Vertebra]:
+    """The patient as the ruler has it."""
+    middle_px = 0.5 * np.array(CAMERA.size_wh_px)
+    view = view_from_ruler(MEASURED, CAMERA, middle_px)
+    x, y = CAMERA.normalised_from_px(middle_px.reshape(1, 2))[0]
+    at = view.distance_mm * np.array([x, y, 1.0]) / np.linalg.norm([x, y, 1.0])
+    return Rigid(rotation=view.rotation, translation_mm=at - view.rotation @ MIDDLE)
+
+
+def px(*points_lps_mm: Array) -> list[list[float]]:
+    found: list[list[float]] = CAMERA.px_from_camera(truth().move_points(np.array(points_lps_mm))).tolist()
+    return found
+
+
+def marked(names: list[str]) -> list[dict[str, Any]]:
+    """Needles that stand straight up on these landmarks."""
+    ends = [px(np.array(LANDMARKS[name]), LANDMARKS[name] + UP_MM) for name in names]
+    return [{"entry_px": entry, "head_px": head} for entry, head in ends]
+
+
+def reference() -> ReferenceSlice:
+    """Slice number 5, which lies at z = 0."""
+    return ReferenceSlice(
+        slice_index=5,
+        apart_mm=20.0,
+        lines=tuple(
+            SliceLine(
+                name=name,
+                ends_lps_mm=np.array([[x, 0.0, 0.0], [x, 50.0, 0.0]]),
+                ends_px=np.array([[x + 50.0, 40.0], [x + 50.0, 90.0]]),
+            )
+            for name, x in (("middle", 0.0), ("left", 20.0), ("right", -20.0))
+        ),
+        paths=(),
+    )
+
+
+def with_slice(server: Server) -> None:
+    """A case whose plan has a reference slice, on a CT that is white on the patient's left."""
+    case_id = ready(server)
+    hu = np.full((10, 100, 100), -1000, np.int16)
+    hu[:, :, 50:] = 1500
+    with server.store.new_file(case_id, ".npy") as new:
+        np.save(new.path, hu)
+    affine = np.eye(4)
+    affine[:3, 3] = ORIGIN_LPS_MM
+    ct = server.store.put(
+        case_id,
+        DocumentKind.CT,
+        "main",
+        {"lps_from_ijk": affine.tolist()},
+        made_by="test",
+        files=[new.stored.id],
+    )
+    content = plan_content("L3", references=(reference(),))
+    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by="test", stands_on=[ct.id])
+    activate(server)
+
+
+def test_needles_that_are_marked_register_and_say_what_they_cannot_see(server: Server) -> None:
+    ready(server)
+    patient = Patient(server=server, camera_from_vertebra=truth())
+    patient.show(None, image=IMAGE)
+    asked = {"view": VIEW, "landmarks": STANDING_ON, "marked": marked(STANDING_ON)}
+    document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json={**asked, **BY})
+    numbers = document["content"]["numbers"]
+    assert document["content"]["method"] == "needles"
+    assert numbers["needles"] == 3
+    assert numbers["worst_offset_px"] < 1.0
+    # Three needles in one image hardly see how far away they are; that is stated.
+    assert numbers["depth_sd_mm"] > 2.0 * numbers["across_sd_mm"]
+    assert numbers["tre_at_entry_mm"] > numbers["across_sd_mm"]
+    found = registered(server)
+    assert found is not None
+    off = found.anchor_from_vertebra.move_points(MIDDLE) - truth().move_points(MIDDLE)
+    assert np.linalg.norm(off) < 2.0
+    assert withheld(server) is AbsentReason.NOT_CHECKED
+    used = {**DRILL, "landmark": STANDING_ON[0]}
+    assert server.ask("POST", "/api/registration/check", 409, json=used)["code"] == "LANDMARK_WAS_USED"
+    server.ask("POST", "/api/registration/check", 201, json={**DRILL, "landmark": "left lamina"})
+
+
+def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
+    with_slice(server)
+    patient = Patient(server=server)
+    patient.show(None, image=IMAGE)
+    first = server.ask("POST", f"{NEEDLES}/overlay", 200, json={"view": VIEW})
+    assert first["overlay"]["shift_px"] == [0.5 * edge for edge in CAMERA.size_wh_px]
+    assert [one["name"] for one in first["needles"]] == ["middle", "left", "right"]
+    assert first["directions"] == []
+
+    places = places_on_lines(reference())
+    view = view_from_ruler(MEASURED, CAMERA, 0.5 * np.array(CAMERA.size_wh_px))
+    true_overlay = overlay_of_pose(truth(), places, CAMERA, view)
+    overlay = {
+        "shift_px": true_overlay.shift_px.tolist(),
+        "turn_deg": true_overlay.turn_deg,
+        "scale_px_per_mm": true_overlay.scale_px_per_mm,
+    }
+    ends = [px(place.point_lps_mm, place.point_lps_mm + 40.0 * place.direction_lps) for place in places]
+    needles = [{"entry_px": entry, "head_px": head} for entry, head in ends]
+    laid = server.ask(
+        "POST", f"{NEEDLES}/overlay", 200, json={"view": VIEW, "overlay": overlay, "marked": needles}
+    )
+    assert max(one["beside_px"] for one in laid["needles"]) < 2.0
+
+    asked = {**VIEW, "x_px": overlay["shift_px"][0], "y_px": overlay["shift_px"][1], "fade_ratio": 0.5}
+    answer = server.door.get(f"{NEEDLES}/overlay.jpg", params=asked)
+    assert answer.headers["content-type"] == "image/jpeg"
+    drawn: Any = cv2.imdecode(np.frombuffer(answer.content, np.uint8), cv2.IMREAD_COLOR)
+    assert drawn.shape == IMAGE.shape
+    # White bone is laid on the patient's left, black air on the right, each half faded.
+    (left, right) = px(np.array([30.0, 30.0, 0.0]), np.array([-30.0, 30.0, 0.0]))
+    assert int(drawn[int(left[1]), int(left[0])].mean()) == pytest.approx((90 + 255) / 2, abs=4)
+    assert int(drawn[int(right[1]), int(right[0])].mean()) == pytest.approx(90 / 2, abs=4)
+
+    taken = server.ask("POST", f"{NEEDLES}/conclusion", 201, json={"view": VIEW, "overlay": overlay, **BY})
+    assert taken["content"]["made_from"]["way"] == "overlay"
+    assert registered(server) is not None
+
+
+def test_what_needles_cannot_do_is_refused_with_a_remedy(server: Server) -> None:
+    case_id = ready(server)
+    patient = Patient(server=server)
+
+    def code(path: str, status: int, **sent: Any) -> str:  # noqa: ANN401  JSON
+        refused = server.ask("POST", f"{NEEDLES}/{path}", status, json={"view": VIEW, **sent})
+        assert refused["remedy"]
+        return str(refused["code"])
+
+    assert code("overlay", 503, landmarks=STANDING_ON) == "NO_PICTURE"
+    patient.show(None, image=IMAGE)
+    assert code("overlay", 409) == "REFERENCE_MISSING"
+    assert code("overlay", 409, landmarks=["nose"]) == "LANDMARK_UNKNOWN"
+    assert code("proposal", 409, landmarks=STANDING_ON) == "NEEDLES_NOT_FOUND"
+    assert code("proposal", 409, landmarks=STANDING_ON, use_touched=True) == "COLLECTION_MISSING"
+    needles = marked(STANDING_ON)
+    two = {"landmarks": STANDING_ON, "marked": needles[:2]}
+    assert code("conclusion", 422, **two, **BY) == "NEEDLES_UNPAIRED"
+    overlay = {"shift_px": [640.0, 360.0], "scale_px_per_mm": 3.0}
+    both = {"landmarks": STANDING_ON, "marked": needles, "overlay": overlay}
+    assert code("conclusion", 422, **both, **BY) == "REQUEST_INVALID"
+    assert code("proposal", 422, view={"vertical_mm": -1.0, "horizontal_mm": 1.0}) == "REQUEST_INVALID"
+    assert registered(server) is None
+    camera = server.store.current(case_id, DocumentKind.CAMERA, "main")
+    server.store.withdraw(camera, by="test", reason="it fell")
+    assert code("overlay", 409, landmarks=STANDING_ON) == "CAMERA_OUT_OF_DATE"

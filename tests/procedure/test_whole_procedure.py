@@ -1,0 +1,146 @@
+"""The whole procedure through HTTP, from an empty case to drilling, and the alarm when it breaks through."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from server.config import Config
+from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
+from tests.procedure.team import BY, CHECK, DRILL, POINTS, Heard, Team
+from tracker.plan import Channel
+from tracker.rehearsal import Phase
+
+SETTINGS = {
+    **BUSY_MACHINE,
+    # Smaller than a camera's, for slow machines.
+    "rehearsal": {"seed": 3, "width": 960, "height": 540, "brings_setup": False, "reference": True},
+    "reference": {"marker": "reference"},
+}
+CONFIG = Config.model_validate(SETTINGS)
+# In so many standard deviations each number agrees with the truth; a registration errs once, for all images.
+WITHIN_SD = 3.0
+
+
+@pytest.mark.timeout(900)
+def test_from_an_empty_case_to_drilling(tmp_path: Path) -> None:
+    with real_server(tmp_path, SETTINGS) as server:
+        team = Team(server=server, config=CONFIG)
+        team.waits_for("camera", "NO_CASE_OPEN")
+        team.open_case("L3, left")
+        team.waits_for("camera", "CAMERA_MISSING")
+
+        report = team.calibrate_camera()
+        assert report["rms_px"] < 0.2
+        team.waits_for("tool", "TOOL_MISSING")
+
+        tool = team.calibrate_tool()
+        assert tool["pivot"]["tip_in_marker_mm"] == pytest.approx([0.0, -120.0, -10.0], abs=0.5)
+        team.waits_for("plan", "PLAN_MISSING")
+
+        team.plan("L3")
+        team.waits_for("plan", "PLAN_MISSING")
+        channel = team.choose("L3", "left")
+        assert team.steps() == dict(zip(STEPS, ["done"] * 3 + ["missing"] * 3, strict=True))
+        server.refused(
+            "POST", CHECK, "REGISTER_MISSING", json={**DRILL, "landmark": "left mammillary process"}
+        )
+
+        register(team)
+        assert team.steps()["check"] == "missing"
+        assert deviation_now(server) == {"kind": "absent", "reason": "NOT_CHECKED"}
+        check = team.check()
+        assert check["passed"]
+        assert check["distance_mm"] < 1.0
+        assert set(team.steps().values()) == {"done"}
+
+        team.arm_a_screen()
+        team.play("operation", skill="breaching")
+        with server.listening() as messages:
+            heard = team.heard(messages)
+            drill_well(heard, channel)
+            breach = breach_in(heard)
+            acknowledged(server, heard, breach)
+
+    # Another start, in the same folder: the case is open again, still registered, and nothing is forgotten.
+    with real_server(tmp_path, SETTINGS) as server:
+        assert set(Team(server=server, config=CONFIG).steps().values()) == {"done"}
+        lines = server.ask("GET", "/api/alarms/log", 200)["lines"]
+        told = [(line["change"], line.get("by")) for line in lines if line.get("number") == breach["number"]]
+        assert told[:2] == [("raised", None), ("acknowledged", "M. Ito")]
+
+
+STEPS = ("camera", "tool", "plan", "register", "check", "navigate")
+
+
+def register(team: Team) -> None:
+    """Landmarks are touched until they say well enough where the vertebra is; too few are refused."""
+    told = team.touch(2)
+    assert [one["code"] for one in told["missing"]] == ["POINTS_TOO_FEW"]
+    team.server.refused("POST", f"{POINTS}/conclusion", "POINTS_TOO_FEW", json=BY)
+    told = team.touch_more(2)
+    assert told["missing"] == []
+    assert told["fre_rms_mm"] < CONFIG.registration.most_fre_mm
+    assert max(one["stated_mm"] for one in told["targets"]) < CONFIG.registration.most_tre_mm
+    document = team.server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
+    assert document["content"]["anchored_to"] == "reference"
+
+
+def deviation_now(server: RealServer) -> Any:  # noqa: ANN401  JSON
+    """What is said against the channel as soon as the registration has reached the tracking process."""
+
+    def newest() -> Any:  # noqa: ANN401  JSON
+        snapshot = server.ask("GET", "/api/live", 200)["snapshot"]
+        is_known = snapshot is not None and snapshot["registered_by"] == "points"
+        return snapshot["tools"][0]["deviation"] if is_known else None
+
+    return server.until("an image with the registration", newest)
+
+
+def drill_well(heard: Iterator[Heard], channel: Channel) -> None:
+    """While the drill goes down the channel, no alarm; each number within its stated uncertainty."""
+    images = 0
+    for one in heard:
+        if one.truth.phase is Phase.DRIFT:
+            break
+        if one.truth.phase is not Phase.DRILL:
+            continue
+        images += 1
+        assert one.alarms == {}
+        said, truth = one.drill["deviation"], one.deviation_from(channel)
+        spread = one.drill["judgement"]["spread"]
+        assert spread["sd_depth_mm"] < 1.0
+        assert abs(said["depth_mm"] - truth.depth_mm) < WITHIN_SD * spread["sd_depth_mm"]
+        beside_mm = np.hypot(
+            said["entry_lateral_mm"] - truth.entry_lateral_mm,
+            said["entry_cranial_mm"] - truth.entry_cranial_mm,
+        )
+        assert beside_mm < WITHIN_SD * spread["sd_at_entry_mm"]
+        assert abs(said["angle_deg"] - truth.angle_deg) < WITHIN_SD * spread["sd_angle_deg"]
+    assert images > 20
+
+
+def breach_in(heard: Iterator[Heard]) -> dict[str, Any]:
+    """The alarm of the breach, in the message of an image that shows it."""
+    for one in heard:
+        assert one.truth.phase is Phase.DRIFT, "it was never announced"
+        breach = one.alarms.get("BREACH")
+        if breach is None:
+            continue
+        assert (breach["priority"], breach["state"]) == ("high", "active")
+        assert one.message["alarms"]["sound"] == "high"
+        clearance = one.drill["judgement"]["clearance"]["now"]
+        assert clearance["clearance_mm"] == breach["measure"]["value"] < 0.0
+        assert one.drill["judgement"]["verdict"] == "through"
+        return breach
+    raise AssertionError("no message any more")
+
+
+def acknowledged(server: RealServer, heard: Iterator[Heard], breach: dict[str, Any]) -> None:
+    """Somebody says that it was seen, and every client hears it."""
+    asked = {"by": "M. Ito", "numbers": [breach["number"]]}
+    server.ask("POST", "/api/alarms/acknowledgement", 200, json=asked)
+    answered = next(one.alarms["BREACH"] for one in heard if one.alarms["BREACH"]["state"] == "acknowledged")
+    assert answered["acknowledged_by"] == "M. Ito"

@@ -1,0 +1,44 @@
+"""What the alarms are told of the procedure."""
+
+from dataclasses import replace
+
+import pytest
+
+from server.alarms import ProcedureFacts
+from server.procedure.facts import facts_of
+from server.procedure.state import Finding, StepName, StepState, judged, no_case
+
+DONE = {step: Finding(state=StepState.DONE, said="done") for step in StepName}
+CHECKED = replace(DONE[StepName.CHECK], numbers={"age_min": 10.0})
+
+
+def facts(**states: StepState) -> ProcedureFacts:
+    findings = {
+        **DONE,
+        StepName.CHECK: CHECKED,
+        **{StepName(step): Finding(state=state, said=state.value) for step, state in states.items()},
+    }
+    return facts_of(judged("case", findings), now_s=5000.0)
+
+
+def test_a_procedure_that_stands_is_all_current_and_says_when_it_was_checked() -> None:
+    assert facts() == ProcedureFacts(checked_at_s=4400.0)
+
+
+@pytest.mark.parametrize("step", ["camera", "tool"])
+def test_a_calibration_that_is_out_of_date_is_told(step: str) -> None:
+    told = facts(**{step: StepState.OUT_OF_DATE})
+    assert (told.calibration_current, told.registration_current) == (False, True)
+
+
+def test_a_registration_that_is_out_of_date_is_told_and_one_that_was_never_made_is_not() -> None:
+    assert not facts(register=StepState.OUT_OF_DATE).registration_current
+    assert facts(register=StepState.MISSING).registration_current
+
+
+def test_a_check_that_failed_is_none() -> None:
+    assert facts(check=StepState.FAILED).checked_at_s is None
+
+
+def test_without_a_case_nothing_is_said() -> None:
+    assert facts_of(no_case(), now_s=5000.0) == ProcedureFacts()

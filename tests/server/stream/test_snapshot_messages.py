@@ -1,0 +1,139 @@
+"""What is concluded of an image goes over the wire whole: judgement, uncertainty, what holds it together."""
+
+import dataclasses
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+import pytest
+
+from server.live import Instant
+from server.stream.judgement_messages import JudgementMessage, NearestMessage, NotEnteredMessage
+from server.stream.messages import live_message
+from server.stream.place_messages import AbsentMessage, VertebraMessage
+from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
+from tracker.navigation import (
+    AbsentReason,
+    MovesSeen,
+    NavigationSnapshot,
+    Verdict,
+    Watched,
+    verdict_of,
+)
+from tracker.navigation.certainty import Judged
+from tracker.navigation.clearance import Nearest
+from tracker.navigation.watch import NeverSeen, SceneState
+
+SnapshotOf = Callable[..., NavigationSnapshot]
+
+
+@pytest.fixture(scope="session")
+def snapshot_of(snapshot_of: SnapshotOf) -> SnapshotOf:
+    """Judged, which it is not elsewhere."""
+    return partial(snapshot_of, judged=True)
+
+
+def _sent(snapshot: NavigationSnapshot) -> SnapshotMessage:
+    return snapshot_message(snapshot, {}, now_s=1.0)
+
+
+def _judgement(snapshot: NavigationSnapshot) -> JudgementMessage:
+    judgement = _sent(snapshot).tools[0].judgement
+    assert isinstance(judgement, JudgementMessage)
+    return judgement
+
+
+def test_the_judgement_is_sent_as_it_was_made(snapshot_of: SnapshotOf) -> None:
+    snapshot = snapshot_of()
+    judged = snapshot.judgements["drill"]
+    assert isinstance(judged, Judged)
+    now = judged.clearance.now
+    assert isinstance(now, Nearest)
+    sent = _judgement(snapshot)
+    assert sent.verdict is verdict_of(judged)
+    assert isinstance(sent.clearance.now, NearestMessage)
+    assert sent.clearance.now.clearance_mm == now.clearance_mm
+    assert sent.clearance.now.wall is now.wall
+    assert sent.chance.soon_ratio == judged.soon.through_ratio
+    assert sum(sent.chance.at_end_grade_ratio.values()) == pytest.approx(1.0)
+    assert sent.certain.room_mm == judged.certain.room_mm
+    np.testing.assert_array_equal(sent.spread.tip_ellipsoid_mm, judged.spread.tip_ellipsoid_mm)
+
+
+@pytest.mark.parametrize(
+    ("theatre", "verdict"),
+    [
+        pytest.param({"tip_in_vertebra_mm": (0.0, 0.0, 12.0), "tilt_rad": 0.0}, Verdict.ON, id="on-the-axis"),
+        pytest.param({"tilt_rad": 0.3}, Verdict.THROUGH, id="through-the-wall"),
+        pytest.param(
+            {"tip_in_vertebra_mm": (0.0, 0.0, 12.0), "tilt_rad": 0.0, "pose_variance": 2.0},
+            Verdict.UNSURE,
+            id="unsure-though-on-the-axis",
+        ),
+    ],
+)
+def test_the_verdict_is_sent(snapshot_of: SnapshotOf, theatre: dict[str, object], verdict: Verdict) -> None:
+    assert _judgement(snapshot_of(**theatre)).verdict is verdict
+
+
+def test_a_drill_outside_has_no_clearance(snapshot_of: SnapshotOf) -> None:
+    judgement = _judgement(snapshot_of(tip_in_vertebra_mm=(0.0, 0.0, -8.0), tilt_rad=0.0))
+    assert isinstance(judgement.clearance.now, NotEnteredMessage)
+
+
+def test_without_numbers_the_judgement_has_their_reason(snapshot_of: SnapshotOf) -> None:
+    sent = _sent(snapshot_of(seen=False))
+    assert sent.tools[0].judgement == AbsentMessage(reason=AbsentReason.MARKER_UNSEEN)
+    assert isinstance(sent.vertebra, VertebraMessage)
+
+
+def test_the_vertebra_is_absent_with_its_reason(snapshot_of: SnapshotOf) -> None:
+    sent = _sent(snapshot_of(registered=False))
+    assert sent.vertebra == AbsentMessage(reason=AbsentReason.NOT_REGISTERED)
+    assert sent.registered_by is None
+    assert sent.anchored_to is None
+
+
+def test_what_has_no_end_is_sent_as_nothing(
+    snapshot_of: SnapshotOf, instant_of: Callable[..., Instant]
+) -> None:
+    across = snapshot_of(tilt_rad=1.5707963)
+    message = live_message(instant_of(1, snapshot=across), now_s=1.0)
+    text = message.model_dump_json()
+    assert "Infinity" not in text
+    assert "NaN" not in text
+    assert _judgement(across).certain.entry_95_mm is None
+    assert _sent(across).tools[0].deviation.model_dump()["entry_lateral_mm"] is None
+
+
+@pytest.mark.parametrize(
+    ("scene", "by"),
+    [
+        (SceneState.STILL, MovesSeen.FIXED_SCENE),
+        (SceneState.MOVED, MovesSeen.FIXED_SCENE),
+        (SceneState.UNSURE, MovesSeen.NOT_AT_ALL),
+        (SceneState.NO_TEXTURE, MovesSeen.NOT_AT_ALL),
+    ],
+)
+def test_by_what_a_move_is_seen_without_a_reference(
+    snapshot_of: SnapshotOf, scene: SceneState, by: MovesSeen
+) -> None:
+    assert _sent(snapshot_of(watched=Watched(scene=scene))).watched.moves_seen_by is by
+
+
+def test_when_a_marker_was_seen_is_told(snapshot_of: SnapshotOf) -> None:
+    watched = Watched(unseen_s={"drill": 1.5})
+    assert _sent(snapshot_of(seen=False, watched=watched)).markers[0].unseen_s == 1.5
+    never = Watched(unseen_s={"drill": NeverSeen()})
+    assert _sent(snapshot_of(seen=False, watched=never)).markers[0].unseen_s is None
+
+
+def test_a_marker_on_the_patient_sees_moves_only_if_the_registration_is_fixed_to_it(
+    snapshot_of: SnapshotOf,
+) -> None:
+    to_camera, none = snapshot_of(), snapshot_of(registered=False)
+    for snapshot, by in ((to_camera, MovesSeen.NOT_AT_ALL), (none, MovesSeen.REFERENCE)):
+        setup = dataclasses.replace(snapshot.setup, reference="patient")
+        sent = _sent(dataclasses.replace(snapshot, setup=setup))
+        assert sent.reference == "patient"
+        assert sent.watched.moves_seen_by is by
