@@ -20,7 +20,7 @@ from tracker.verification.settings import VerificationSettings
 
 # The drill is in the picture, and near the bone.
 FROM_S, TO_S = 1.5, 30.0
-BEFORE_MOVE_S = 0.5
+BEFORE_MOVE_S = (0.5, 0.9)
 MOVE_MM, MOVE_DEG = (3.0, 20.0), (0.5, 3.0)
 
 
@@ -48,7 +48,6 @@ def operation_looks(eyes: Eyes, settings: VerificationSettings, random: np.rando
 
 def moved_looks(eyes: Eyes, settings: VerificationSettings, random: np.random.Generator) -> "Operation":
     """The operation, in the middle of which the camera is moved."""
-    # The scene is looked at now and then: a move must come at any time between.
     at_s = settings.moves_at_s + random.uniform(0.0, 1.0)
     move = Event(
         kind=EventKind.CAMERA_MOVES,
@@ -57,8 +56,10 @@ def moved_looks(eyes: Eyes, settings: VerificationSettings, random: np.random.Ge
         size_deg=random.uniform(*MOVE_DEG),
     )
     before = _bursts([FROM_S + 4.0, FROM_S + 9.0], settings)
-    around = np.arange(at_s - BEFORE_MOVE_S, at_s + settings.watched_s, 1.0 / settings.image_hz).tolist()
     counting = _spread_over(at_s + settings.watched_s + 0.5, TO_S, settings.looks // 2, random)
+    # The scene is looked at now and then: a move must come at any time between.
+    from_s = at_s - random.uniform(*BEFORE_MOVE_S)
+    around = np.arange(from_s, at_s + settings.watched_s, 1.0 / settings.image_hz).tolist()
     times = [*before, *around, *_bursts(counting, settings)]
     looks = eyes.looks(eyes.scene(Scene.OPERATION, (move,)), times)
     return Operation(looks=tuple(looks), counting_s=frozenset(counting), moves_at_s=at_s)

@@ -1,0 +1,93 @@
+"""One theatre from registration to navigation: what is shown is true, and stops where it is not."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from tracker.registration import AnchoredTo
+from tracker.verification import (
+    Figures,
+    ImageRow,
+    TheatreRows,
+    VerificationSettings,
+    Way,
+    figures_of,
+    theatre_seeds,
+    verify_theatre,
+)
+from tracker.verification.figures import share_of
+
+SETTINGS = VerificationSettings(looks=6)
+
+
+@pytest.fixture(scope="module")
+def theatre() -> TheatreRows:
+    return verify_theatre(theatre_seeds(5, 1)[0], SETTINGS)
+
+
+@pytest.fixture(scope="module")
+def figures(theatre: TheatreRows) -> Figures:
+    return figures_of([theatre], noticed_within_s=SETTINGS.noticed_within_s)
+
+
+def _shown(theatre: TheatreRows, way: Way, anchor: AnchoredTo, *, moves: bool) -> Sequence[ImageRow]:
+    return [
+        row
+        for row in theatre.images
+        if (row.variant.way, row.variant.anchored_to, row.variant.camera_moves) == (way, anchor, moves)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("anchor", "moves"),
+    [(AnchoredTo.CAMERA, False), (AnchoredTo.REFERENCE, False), (AnchoredTo.REFERENCE, True)],
+)
+def test_by_points_the_drill_is_shown_where_it_is(
+    theatre: TheatreRows, anchor: AnchoredTo, moves: bool
+) -> None:
+    looks = [row for row in _shown(theatre, Way.POINTS, anchor, moves=moves) if row.counts]
+    held = [row.held for row in looks if row.held is not None]
+    assert len(held) >= 0.8 * len(looks) > 0
+    # Seven landmarks, each wrong by half a millimetre: nobody can do much better either.
+    assert 0.01 < np.median([one.entry.error for one in held]) < 0.6
+    assert np.median([one.angle.error for one in held]) < 1.2
+    assert np.median([one.tip.error for one in held]) < 0.7
+    assert np.median([one.tip.stated for one in held]) < 1.0
+    assert np.mean([one.tip.surprise for one in held]) < 3.0 * 3.0
+
+
+def test_by_needles_it_says_how_little_it_knows(theatre: TheatreRows) -> None:
+    looks = _shown(theatre, Way.NEEDLES, AnchoredTo.CAMERA, moves=False)
+    for row in looks:
+        if row.held is not None:
+            assert row.held.tip.stated > 5.0
+            assert row.held.tip.surprise < 20.0
+
+
+def test_where_the_camera_moved_numbers_stop_without_a_reference_and_stay_true_with_one(
+    theatre: TheatreRows, figures: Figures
+) -> None:
+    alone = _shown(theatre, Way.POINTS, AnchoredTo.CAMERA, moves=True)
+    late = [row for row in alone if row.since_move_s > SETTINGS.noticed_within_s]
+    assert late
+    assert {row.absent for row in late} == {"CAMERA_MOVED"}
+    assert {one.shown_wrong for one in figures.variants} == {0}
+    with_reference = _shown(theatre, Way.POINTS, AnchoredTo.REFERENCE, moves=True)
+    absent = [row.absent for row in with_reference if row.since_move_s > 0.3 and row.absent]
+    assert absent == []
+
+
+def test_images_of_one_theatre_do_not_count_as_if_each_stood_alone() -> None:
+    alone = share_of([True] * 95 + [False] * 5, list(range(100)))
+    together = share_of([True] * 95 + [False] * 5, [number // 5 for number in range(100)])
+    assert alone.ratio == together.ratio == 0.95
+    assert together.high - together.low > 1.5 * (alone.high - alone.low)
+    assert share_of([True] * 600, list(range(600))).is_outside
+    assert share_of([True] * 60 + [False] * 40, list(range(100))).is_outside
+    assert not alone.is_outside
+
+
+def test_more_theatres_begin_with_the_same() -> None:
+    assert theatre_seeds(5, 8)[:3] == theatre_seeds(5, 3)
+    assert theatre_seeds(5, 3) != theatre_seeds(6, 3)
