@@ -87,6 +87,7 @@ def make_snapshot(
     registered: bool = True,
     planned: bool = True,
     with_tool: bool = True,
+    judged: bool = True,
     pose_variance: float = 1e-4,
     watched: Watched | None = None,
     camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
@@ -116,7 +117,7 @@ def make_snapshot(
         size_wh_px=size_wh_px,
         stage_ms={"edges": 3.0, "pose": 1.0},
         skipped_images=0,
-        guide=_guide(),
+        guide=_guide() if judged else None,
         watched=watched or Watched(),
     )
 
