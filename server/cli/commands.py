@@ -15,6 +15,7 @@ from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
 from server.cli.register_commands import register_app
 from server.cli.tool_commands import pivot, spin, tip_check
+from server.cli.verify_commands import verify
 
 BAD_INPUT = 2
 UNKNOWN_VERSION = "0.1.0"
@@ -37,6 +38,7 @@ app.command()(spin)
 app.command(name="tip-check")(tip_check)
 app.add_typer(plan_app, name="plan")
 app.add_typer(register_app, name="register")
+app.command()(verify)
 
 
 class Rate(StrEnum):

@@ -15,15 +15,12 @@ def draw_channel(
     entry = camera_from_vertebra.move_points(channel.entry_in_vertebra_mm)
     target = camera_from_vertebra.move_points(channel.target_in_vertebra_mm)
     axis = camera_from_vertebra.turn_directions(channel.axis_in_vertebra)
-    outline = [
-        run
-        for start, end in cylinder_silhouette_mm(entry, target, channel.radius_mm)
-        for run in view.runs(straight(start, end))
-    ]
-    axis_dashes = [run for dash in dashes(entry, target, dash_mm=DASH_MM) for run in view.runs(dash)]
+    axis_dashes = view.runs_of(dashes(entry, target, dash_mm=DASH_MM))
     stroke(image, axis_dashes, PLAN_BLUE, width_px=1.8 * scale)
-    stroke(image, outline, PLAN_BLUE, width_px=2.0 * scale)
-    target_ring = view.runs(cylinder_ring_mm(target, axis, channel.radius_mm))
-    stroke(image, target_ring, PLAN_BLUE, width_px=2.0 * scale)
+    outline = [
+        straight(start, end) for start, end in cylinder_silhouette_mm(entry, target, channel.radius_mm)
+    ]
+    outline.append(cylinder_ring_mm(target, axis, channel.radius_mm))
+    stroke(image, view.runs_of(outline), PLAN_BLUE, width_px=2.0 * scale)
     entry_ring = view.runs(cylinder_ring_mm(entry, axis, channel.radius_mm))
     stroke(image, entry_ring, PLAN_BLUE, width_px=3.0 * scale)

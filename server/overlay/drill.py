@@ -39,7 +39,7 @@ def draw_drill(
     tip = pose.translation_mm
     direction = pose.turn_directions([0.0, 0.0, 1.0])
     ahead = dashes(tip, tip + ahead_mm * direction, dash_mm=DASH_MM)
-    stroke(image, [run for dash in ahead for run in view.runs(dash)], DRILL_ORANGE, width_px=1.6 * scale)
+    stroke(image, view.runs_of(ahead), DRILL_ORANGE, width_px=1.6 * scale)
     shaft = view.runs(straight(tip, tip - tool.length_mm * direction, count=65))
     stroke(image, shaft, DRILL_ORANGE, width_px=3.0 * scale)
     ticks = _ticks(view, tip, direction, min(TICKED_MM, tool.length_mm), scale)

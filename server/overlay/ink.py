@@ -33,9 +33,16 @@ _fonts = threading.local()
 
 def stroke(image: Image, runs: Sequence[Array], colour: Colour, *, width_px: float) -> None:
     """Draw polylines (m, 2) in px, first their halo, then themselves; what is not finite is left out."""
-    fixed = [_fixed_point(run) for run in runs if len(run) > 1 and np.isfinite(run).all()]
-    if not fixed:
+    drawn = [run for run in runs if len(run) > 1]
+    if not drawn:
         return
+    # All at once: what numpy costs for each call is most of it.
+    points = np.concatenate(drawn)
+    fixed = np.split(_fixed_point(points), np.cumsum([len(run) for run in drawn])[:-1])
+    if not np.isfinite(points).all():
+        fixed = [part for part, run in zip(fixed, drawn, strict=True) if np.isfinite(run).all()]
+        if not fixed:
+            return
     # A line of one pixel is lost in its own halo.
     width = max(2, round(width_px))
     for ink, thickness in ((HALO, width + 2 * max(1, round(width_px * 0.5))), (colour, width)):
@@ -55,8 +62,8 @@ def dot(image: Image, at_px: Array, colour: Colour, *, radius_px: float) -> None
 def ground(image: Image, left: float, top: float, right: float, bottom: float) -> None:
     """Darken a box of the image, so that text on it is legible whatever is behind."""
     height, width = image.shape[:2]
-    x0, x1 = (int(np.clip(round(x), 0, width)) for x in (left, right))
-    y0, y1 = (int(np.clip(round(y), 0, height)) for y in (top, bottom))
+    x0, x1 = (min(max(round(x), 0), width) for x in (left, right))
+    y0, y1 = (min(max(round(y), 0), height) for y in (top, bottom))
     if x1 > x0 and y1 > y0:
         box = image[y0:y1, x0:x1]
         cv2.convertScaleAbs(box, dst=box, alpha=0.22, beta=10.0)
@@ -91,5 +98,5 @@ def _font() -> "cv2.FontFace":
 
 def _fixed_point(run: Array) -> npt.NDArray[np.int32]:
     """OpenCV's whole numbers for sub-pixel drawing, held within what it can draw."""
-    bounded = np.clip(run, -FARTHEST_PX, FARTHEST_PX)
+    bounded = np.nan_to_num(np.clip(run, -FARTHEST_PX, FARTHEST_PX), copy=False)
     return np.round(bounded * (1 << SUBPIXEL_BITS)).astype(np.int32).reshape(-1, 1, 2)

@@ -1,5 +1,6 @@
 """From points in front of the camera to runs of pixels that may be drawn."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,11 +51,24 @@ class View:
 
     def runs(self, points_mm: npt.ArrayLike) -> list[Array]:
         """The stretches (m, 2), m >= 2, of a polyline of points (n, 3) that may be drawn."""
-        px, shown = self.project(points_mm)
-        if shown.all():
-            return [px] if len(px) > 1 else []
-        breaks = np.flatnonzero(np.diff(shown.astype(np.int8))) + 1
-        return [px[part] for part in np.split(np.arange(len(px)), breaks) if shown[part[0]] and len(part) > 1]
+        return _stretches(*self.project(points_mm))
+
+    def runs_of(self, polylines_mm: Iterable[Array]) -> list[Array]:
+        """The same of many polylines: projected at once, because each projection has its price."""
+        listed = list(polylines_mm)
+        if not listed:
+            return []
+        px, shown = self.project(np.concatenate(listed))
+        ends = np.cumsum([len(polyline) for polyline in listed])[:-1]
+        parts = zip(np.split(px, ends), np.split(shown, ends), strict=True)
+        return [run for part_px, part_shown in parts for run in _stretches(part_px, part_shown)]
+
+
+def _stretches(px: Array, shown: npt.NDArray[np.bool_]) -> list[Array]:
+    if shown.all():
+        return [px] if len(px) > 1 else []
+    breaks = np.flatnonzero(np.diff(shown.astype(np.int8))) + 1
+    return [px[part] for part in np.split(np.arange(len(px)), breaks) if shown[part[0]] and len(part) > 1]
 
 
 def straight(start_mm: npt.ArrayLike, end_mm: npt.ArrayLike, *, count: int = 33) -> Array:

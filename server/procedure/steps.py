@@ -22,8 +22,8 @@ from server.setup import CaseSetup
 from server.store import CaseStore
 from tracker.pose.tool import ToolGate
 
-# As the rehearsal's theatre calls it; to load the theatre for a name takes time.
-REHEARSED_TOOL = "drill"
+# As the rehearsal's theatre calls them; to load the theatre for a name takes time.
+REHEARSED_TOOL, REHEARSED_REFERENCE = "drill", "reference"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,10 +138,12 @@ def _keep_in_use(in_use: CaseInUse, store: CaseStore) -> None:
 def brought_by(config: Config) -> Brought:
     """What the settings bring, whatever the case has."""
     source = source_from_text(config.camera.source)
-    knows_itself = source.kind is SourceKind.REHEARSAL and config.rehearsal.brings_setup
+    is_rehearsal = source.kind is SourceKind.REHEARSAL
+    knows_itself = is_rehearsal and config.rehearsal.brings_setup
+    rehearsed = REHEARSED_REFERENCE if is_rehearsal and config.rehearsal.reference else ""
     return Brought(
         source=source.name,
-        reference=config.reference.marker or "",
+        reference=config.reference.marker or rehearsed,
         has_camera=config.camera.calibration is not None or knows_itself,
         tools=frozenset(config.tools) | (frozenset({REHEARSED_TOOL}) if knows_itself else frozenset()),
     )

@@ -90,6 +90,7 @@ def make_snapshot(
     judged: bool = True,
     pose_variance: float = 1e-4,
     watched: Watched | None = None,
+    judged: bool = False,
     camera_from_vertebra: Rigid[Camera, Vertebra] | None = None,
     image_number: int = 0,
     captured_at_s: float = 0.0,

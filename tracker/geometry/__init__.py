@@ -6,6 +6,7 @@ from tracker.geometry.rigid import (
     Rigid,
     chained_covariance,
     inverse_covariance,
+    inverse_slopes,
     point_covariance_mm2,
 )
 from tracker.geometry.rotations import (
@@ -33,6 +34,7 @@ __all__ = [
     "cylinder_ring_mm",
     "cylinder_silhouette_mm",
     "inverse_covariance",
+    "inverse_slopes",
     "nearest_rotation",
     "point_covariance_mm2",
     "rotation_between",

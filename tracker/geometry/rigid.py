@@ -127,10 +127,16 @@ def chained_covariance(
     return np.asarray(lever @ near @ lever.T + turn @ far @ turn.T)
 
 
+def inverse_slopes(transform: Rigid[To, From]) -> Array:
+    """How an error (6) of `transform` becomes one of `transform.inverse`, (6, 6), in first order."""
+    back = -transform.rotation.T
+    slopes = np.zeros((6, 6))
+    slopes[:3, :3] = slopes[3:, 3:] = back
+    slopes[:3, 3:] = back @ skew(transform.translation_mm)
+    return slopes
+
+
 def inverse_covariance(transform: Rigid[To, From], covariance: npt.ArrayLike) -> Array:
     """Covariance (6, 6) of `transform.inverse` from that of `transform`."""
-    back = -transform.rotation.T
-    jacobian = np.zeros((6, 6))
-    jacobian[:3, :3] = jacobian[3:, 3:] = back
-    jacobian[:3, 3:] = back @ skew(transform.translation_mm)
-    return np.asarray(jacobian @ np.asarray(covariance, dtype=np.float64) @ jacobian.T)
+    slopes = inverse_slopes(transform)
+    return np.asarray(slopes @ np.asarray(covariance, dtype=np.float64) @ slopes.T)

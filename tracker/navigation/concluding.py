@@ -80,6 +80,8 @@ def placed_vertebra(
         return PlacedVertebra(
             camera_from_vertebra=Rigid(rotation=fixed.rotation, translation_mm=fixed.translation_mm),
             covariance=registration.covariance,
+            tip_slope=registration.tip_slope,
+            tool=registration.tool,
         )
     seen = sightings.get(setup.reference)
     if not isinstance(seen, Seen):
@@ -100,6 +102,10 @@ def placed_vertebra(
             registration.anchor_from_vertebra,
             registration.covariance,
         ),
+        tip_slope=np.vstack(
+            [marker.rotation @ registration.tip_slope[:3], marker.rotation @ registration.tip_slope[3:]]
+        ),
+        tool=registration.tool,
     )
 
 
@@ -156,6 +162,7 @@ def _judged(
         Placed(pose=vertebra.camera_from_vertebra, covariance=vertebra.covariance),
         Placed(pose=pose, covariance=covariance),
         tool,
+        tip_slope=vertebra.tip_slope_for(tool),
     )
     return guide.judged(placed, tool, setup.channel)
 

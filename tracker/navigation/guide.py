@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tracker.geometry import Camera, Marker, Tool, Vertebra
+from tracker.geometry import Array, Camera, Marker, Tool, Vertebra, inverse_slopes
 from tracker.navigation.certainty import Drill, Judged, Placed, Room, judge, marker_from_tool
-from tracker.navigation.certainty.placed import ToolCertainty
+from tracker.navigation.certainty.placed import ToolCertainty, slopes_of_product
 from tracker.navigation.clearance import Nearest, WallField
 from tracker.navigation.clearance.outline import field_of_channel
 from tracker.plan import Channel
@@ -73,7 +73,21 @@ def placed_tool(
     camera_from_vertebra: Placed[Camera, Vertebra],
     camera_from_marker: Placed[Camera, Marker],
     tool: ToolModel,
+    *,
+    tip_slope: Array | None = None,
 ) -> Placed[Vertebra, Tool]:
-    """A tool in the plan's frame, with all that is unsure on the way: registration, marker, calibration."""
+    """A tool in the plan's frame, with all that is unsure on the way: registration, marker, calibration.
+
+    `tip_slope`: (6, 3), how `camera_from_vertebra` follows an error of this tool's tip, where the landmarks
+    were touched with it: a tip that is thought too far left puts the bone too far left, too.
+    """
     certainty = ToolCertainty(tip_covariance_mm2=tool.tip_covariance_mm2, axis_sd_deg=tool.axis_sd_deg)
-    return camera_from_vertebra.inverse @ (camera_from_marker @ marker_from_tool(tool, certainty))
+    camera_from_tool = camera_from_marker @ marker_from_tool(tool, certainty)
+    found = camera_from_vertebra.inverse @ camera_from_tool
+    if tip_slope is None or not tip_slope.any():
+        return found
+    of_bone, of_tool = slopes_of_product(camera_from_vertebra.pose.inverse, camera_from_tool.pose)
+    through_bone = of_bone @ inverse_slopes(camera_from_vertebra.pose) @ tip_slope
+    through_tool = of_tool[:, :3] @ camera_from_marker.pose.rotation
+    common = through_bone @ tool.tip_covariance_mm2 @ through_tool.T
+    return Placed(pose=found.pose, covariance=found.covariance + common + common.T)

@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+import numpy as np
+
 from tracker.camera import CameraModel
 from tracker.geometry import (
     Array,
@@ -95,10 +97,19 @@ class PlacedVertebra:
         camera_from_vertebra: through the reference, where the registration is fixed to it.
         covariance: (6, 6) [mm, rad] of it, as of a marker's pose; of the registration, and of the reference
             as it is seen in this image.
+        tip_slope: (6, 3), how it follows an error of the tip that it was registered with, as a registration
+            has it.
+        tool: the tool with that tip; empty for none.
     """
 
     camera_from_vertebra: Rigid[Camera, Vertebra]
     covariance: Array
+    tip_slope: Array = field(default_factory=lambda: np.zeros((6, 3)))
+    tool: str = ""
+
+    def tip_slope_for(self, tool: ToolModel) -> Array:
+        """The same for the tool that is navigated: of another tool's tip, this one's error knows nothing."""
+        return self.tip_slope if tool.name == self.tool else np.zeros((6, 3))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,5 +1,7 @@
 """A registration that was made in the camera's image, fixed to the marker on the patient."""
 
+import numpy as np
+
 from tracker.geometry import Anchor, Reference, Rigid, Vertebra, chained_covariance, inverse_covariance
 from tracker.pose import Seen
 from tracker.registration.record import AnchoredTo, Registration
@@ -27,4 +29,8 @@ def fixed_to_reference(registration: Registration, reference: Seen) -> Registrat
             registration.anchor_from_vertebra,
             registration.covariance,
         ),
+        tip_slope=np.vstack(
+            [back.rotation @ registration.tip_slope[:3], back.rotation @ registration.tip_slope[3:]]
+        ),
+        tool=registration.tool,
     )

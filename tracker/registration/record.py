@@ -1,6 +1,6 @@
 """Where the vertebra of the plan is on the patient, and how sure that is."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
@@ -35,6 +35,9 @@ class Registration:
         anchor_from_vertebra: from the plan's frame (LPS, mm) to that of camera or reference.
         covariance: (6, 6) [mm, rad] of `anchor_from_vertebra`: its translation first, then its rotation as a
             small vector multiplied from the left, as a marker's pose has it. Symmetric.
+        tip_slope: (6, 3), how `anchor_from_vertebra` follows an error of the tip behind its marker; where one
+            tool both touched and drills, much of that error takes itself back. 0 where no tip was used.
+        tool: the tool with whose tip it was made; empty where none was.
 
     Raises:
         RegistrationError: REGISTRATION_COVARIANCE_INVALID, it is not finite, or no covariance.
@@ -44,6 +47,8 @@ class Registration:
     anchored_to: AnchoredTo
     anchor_from_vertebra: Rigid[Anchor, Vertebra]
     covariance: Array
+    tip_slope: Array = field(default_factory=lambda: np.zeros((6, 3)))
+    tool: str = ""
 
     @classmethod
     def known_to_camera(cls, camera_from_vertebra: Rigid[Camera, Vertebra]) -> "Registration":
@@ -79,8 +84,10 @@ class Registration:
                 "Register again.",
             )
         covariance = 0.5 * (covariance + covariance.T)
-        covariance.setflags(write=False)
-        object.__setattr__(self, "covariance", covariance)
+        slope = np.array(self.tip_slope, dtype=np.float64).reshape(6, 3)
+        for name, array in (("covariance", covariance), ("tip_slope", slope)):
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
 
     def point_covariance_mm2(self, point_in_vertebra_mm: Array) -> Array:
         """Covariance (3, 3) of a point of the plan, as it is seen from the anchor."""

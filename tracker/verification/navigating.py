@@ -1,10 +1,11 @@
 """The operation with what was registered: image by image, what is shown, and how far it is off."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from tracker.navigation import Absent, Guide, NavigationSnapshot, Setup, navigate
+from tracker.navigation import Absent, AbsentReason, Guide, NavigationSnapshot, Setup, navigate
 from tracker.navigation.certainty import Placed
 from tracker.navigation.clearance import drill_rings
 from tracker.navigation.guide import placed_tool
@@ -21,22 +22,34 @@ from tracker.verification.settings import VerificationSettings
 FROM_S, TO_S = 1.5, 30.0
 BEFORE_MOVE_S = 0.5
 MOVE_MM, MOVE_DEG = (3.0, 20.0), (0.5, 3.0)
-NEVER_S = -1.0
 
 
-def operation_looks(
-    eyes: Eyes, settings: VerificationSettings, random: np.random.Generator
-) -> tuple[list[Look], set[float]]:
-    """The operation without any event, and the times that count."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Operation:
+    """Images of one operation.
+
+    Attributes:
+        looks: at all of them.
+        counting_s: times of those that are spread over it.
+        moves_at_s: when the camera is moved; infinite for never.
+    """
+
+    looks: tuple[Look, ...]
+    counting_s: frozenset[float]
+    moves_at_s: float
+
+
+def operation_looks(eyes: Eyes, settings: VerificationSettings, random: np.random.Generator) -> "Operation":
+    """The operation without any event."""
     counting = _spread_over(FROM_S, TO_S, settings.looks, random)
-    return eyes.looks(eyes.scene(Scene.OPERATION), _bursts(counting, settings)), set(counting)
+    looks = eyes.looks(eyes.scene(Scene.OPERATION), _bursts(counting, settings))
+    return Operation(looks=tuple(looks), counting_s=frozenset(counting), moves_at_s=np.inf)
 
 
-def moved_looks(
-    eyes: Eyes, settings: VerificationSettings, random: np.random.Generator
-) -> tuple[list[Look], set[float]]:
-    """The operation, in the middle of which the camera is moved, and the times that count."""
-    at_s = settings.moves_at_s
+def moved_looks(eyes: Eyes, settings: VerificationSettings, random: np.random.Generator) -> "Operation":
+    """The operation, in the middle of which the camera is moved."""
+    # The scene is looked at now and then: a move must come at any time between.
+    at_s = settings.moves_at_s + random.uniform(0.0, 1.0)
     move = Event(
         kind=EventKind.CAMERA_MOVES,
         at_s=at_s,
@@ -47,19 +60,18 @@ def moved_looks(
     around = np.arange(at_s - BEFORE_MOVE_S, at_s + settings.watched_s, 1.0 / settings.image_hz).tolist()
     counting = _spread_over(at_s + settings.watched_s + 0.5, TO_S, settings.looks // 2, random)
     times = [*before, *around, *_bursts(counting, settings)]
-    return eyes.looks(eyes.scene(Scene.OPERATION, (move,)), times), set(counting)
+    looks = eyes.looks(eyes.scene(Scene.OPERATION, (move,)), times)
+    return Operation(looks=tuple(looks), counting_s=frozenset(counting), moves_at_s=at_s)
 
 
 def rows_of(
-    looks: Sequence[Look],
-    counting: set[float],
+    operation: Operation,
     registration: Registration,
     variant: Variant,
     *,
     eyes: Eyes,
     tool: ToolModel,
     guide: Guide,
-    settings: VerificationSettings,
     seed: int,
 ) -> list[ImageRow]:
     """A row for each image that counts, and for each after the camera was moved."""
@@ -73,9 +85,9 @@ def rows_of(
         reference="reference" if variant.anchored_to is AnchoredTo.REFERENCE else "",
     )
     rows = []
-    for look in looks:
-        since_s = look.at_s - settings.moves_at_s if variant.camera_moves else NEVER_S
-        counts = look.at_s in counting
+    for look in operation.looks:
+        since_s = look.at_s - operation.moves_at_s
+        counts = look.at_s in operation.counting_s
         if not counts and since_s < 0.0:
             continue
         snapshot = _snapshot(setup, look, variant.anchored_to, guide if counts else None)
@@ -117,15 +129,18 @@ def _against(
 ) -> tuple[str, HeldTool | None]:
     """Why nothing is shown, or what is shown against the truth."""
     deviation, vertebra = snapshot.deviations[tool.name], snapshot.vertebra
+    seen = look.sightings[tool.marker]
     if isinstance(deviation, Absent):
         return deviation.reason.value, None
-    seen = look.sightings[tool.marker]
-    if isinstance(vertebra, Absent) or not isinstance(seen, Seen):
-        raise RuntimeError("a deviation is shown without marker or vertebra")
+    if isinstance(vertebra, Absent):
+        return vertebra.reason.value, None
+    if not isinstance(seen, Seen):
+        return AbsentReason.MARKER_UNSEEN.value, None
     shown = placed_tool(
         Placed(pose=vertebra.camera_from_vertebra, covariance=vertebra.covariance),
         Placed(pose=seen.camera_from_marker, covariance=seen.pose_covariance),
         tool,
+        tip_slope=vertebra.tip_slope_for(tool),
     )
     return "", held(shown, look.vertebra_from_tool, channel)
 
@@ -139,7 +154,8 @@ def _is_through(look: Look, tool: ToolModel, guide: Guide, channel: Channel) -> 
 
 def _spread_over(from_s: float, to_s: float, count: int, random: np.random.Generator) -> list[float]:
     """One time in each of so many equal parts."""
-    return (from_s + (to_s - from_s) * (np.arange(count) + random.uniform(0.0, 0.9, count)) / count).tolist()
+    parts = (np.arange(count) + random.uniform(0.0, 0.9, count)) / count
+    return [float(from_s + (to_s - from_s) * part) for part in parts]
 
 
 def _bursts(last_s: Sequence[float], settings: VerificationSettings) -> list[float]:

@@ -57,7 +57,7 @@ def measured_by_ruler(theatre: Theatre, middle_mm: Array, random: np.random.Gene
 def clicked(
     theatre: Theatre, needle: Needle, settings: VerificationSettings, random: np.random.Generator
 ) -> NeedleSeen:
-    """A needle as somebody marks it in the image: from where it comes out of or from behind bone, to its head."""
+    """A needle as somebody marks it in the image: from where bone shows it to its head."""
     entry = needle_entries((needle,))[0]
     way = needle.head_in_vertebra_mm - entry
     length_mm = float(np.linalg.norm(way))

@@ -10,8 +10,8 @@ class VerificationSettings:
     Attributes:
         tip_sd_mm: of the tool's calibrated tip, along each axis.
         axis_sd_deg: of its calibrated axis, to each of two sides.
-        marking_sd_mm: how well a landmark is marked on the CT, along each axis. With a hand that lands 0.15 mm
-            beside it, that is the error of a landmark that registration takes for the least.
+        marking_sd_mm: how well a landmark is marked on the CT, along each axis. With a hand that lands
+            0.15 mm beside it, that is the error of a landmark that registration takes for the least.
         placing_sd_mm: how well a needle is put on its landmark, along each axis.
         click_sd_px: how well a needle is marked in the image.
         image_hz: how fast images come.

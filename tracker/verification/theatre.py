@@ -1,7 +1,7 @@
 """One theatre from registration to navigation, with truth and no help from it."""
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -35,6 +35,11 @@ TOUCHED_BESIDE_NEEDLES = (0, 3)
 Registrations = dict[tuple[Way, AnchoredTo], Registration]
 
 
+def theatre_seeds(seed: int, count: int) -> tuple[int, ...]:
+    """The theatres that follow from one seed; more of them begin with the same."""
+    return tuple(int(one) for one in np.random.SeedSequence(seed).generate_state(count))
+
+
 def verify_theatre(seed: int, settings: VerificationSettings | None = None) -> TheatreRows:
     """All that one seed gives; the same seed gives the same, in whatever process."""
     settings = settings or VerificationSettings()
@@ -55,18 +60,16 @@ def verify_theatre(seed: int, settings: VerificationSettings | None = None) -> T
     guide = _guide()
     images: list[ImageRow] = []
     for camera_moves, looks_at in ((False, operation_looks), (True, moved_looks)):
-        looks, counting = looks_at(eyes, settings, random)
+        operation = looks_at(eyes, settings, random)
         for (way, anchor), registration in registered.items():
             variant = Variant(way=way, anchored_to=anchor, camera_moves=camera_moves)
             images += rows_of(
-                looks,
-                counting,
+                operation,
                 registration,
                 variant,
                 eyes=eyes,
                 tool=tool,
                 guide=guide,
-                settings=settings,
                 seed=seed,
             )
     return TheatreRows(seed=seed, registrations=tuple(registrations), images=tuple(images))
@@ -110,7 +113,7 @@ def _registered(
             refused[way, anchor] = refusal.code
 
     for anchor in ANCHORS:
-        attempt(Way.POINTS, anchor, lambda to=anchor: by_points(touched, plan, tool, to, channel))
+        attempt(Way.POINTS, anchor, partial(by_points, touched, plan, tool, anchor, channel))
     for way, beside in ((Way.NEEDLES, ()), (Way.NEEDLES_TOUCHED, TOUCHED_BESIDE_NEEDLES)):
         # The same needles for both, so that they can be compared.
         state = random.bit_generator.state
@@ -125,12 +128,12 @@ def _registered(
             refused[way, AnchoredTo.REFERENCE] = refused[way, AnchoredTo.CAMERA]
             continue
         made = found[way, AnchoredTo.CAMERA]
-        attempt(
-            way,
-            AnchoredTo.REFERENCE,
-            lambda one=made: fixed_to_reference(one, reference_beside_needles(eyes)),
-        )
+        attempt(way, AnchoredTo.REFERENCE, partial(_beside_reference, made, eyes))
     return found, refused
+
+
+def _beside_reference(made: Registration, eyes: Eyes) -> Registration:
+    return fixed_to_reference(made, reference_beside_needles(eyes))
 
 
 def _row(

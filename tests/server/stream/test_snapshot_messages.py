@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import pytest
@@ -24,6 +25,12 @@ from tracker.navigation.clearance import Nearest
 from tracker.navigation.watch import NeverSeen, SceneState
 
 SnapshotOf = Callable[..., NavigationSnapshot]
+
+
+@pytest.fixture(scope="session")
+def snapshot_of(snapshot_of: SnapshotOf) -> SnapshotOf:
+    """Judged, which it is not elsewhere."""
+    return partial(snapshot_of, judged=True)
 
 
 def _sent(snapshot: NavigationSnapshot) -> SnapshotMessage:

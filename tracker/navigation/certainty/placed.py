@@ -6,7 +6,7 @@ from typing import Generic, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra, skew
+from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra, inverse_covariance, skew
 from tracker.pose import ToolModel
 
 To = TypeVar("To")
@@ -43,22 +43,23 @@ class Placed(Generic[To, From]):
     @property
     def inverse(self) -> "Placed[From, To]":
         """The same two frames, the other way round."""
-        back = self.pose.rotation.T
-        jacobian = np.zeros((6, 6))
-        jacobian[:3, :3] = jacobian[3:, 3:] = -back
-        jacobian[:3, 3:] = -back @ skew(self.pose.translation_mm)
-        return Placed(pose=self.pose.inverse, covariance=jacobian @ self.covariance @ jacobian.T)
+        return Placed(pose=self.pose.inverse, covariance=inverse_covariance(self.pose, self.covariance))
 
     def __matmul__(self, other: "Placed[From, Other]") -> "Placed[To, Other]":
         """`a_from_b @ b_from_c` is `a_from_c`; the errors of both are taken as independent."""
-        turn = self.pose.rotation
-        outer, inner = np.eye(6), np.zeros((6, 6))
-        outer[:3, 3:] = -skew(turn @ other.pose.translation_mm)
-        inner[:3, :3] = inner[3:, 3:] = turn
+        outer, inner = slopes_of_product(self.pose, other.pose)
         return Placed(
             pose=self.pose @ other.pose,
             covariance=outer @ self.covariance @ outer.T + inner @ other.covariance @ inner.T,
         )
+
+
+def slopes_of_product(first: Rigid[To, From], second: Rigid[From, Other]) -> tuple[Array, Array]:
+    """How errors (6) of the first and of the second become one of their product, (6, 6) each."""
+    outer, inner = np.eye(6), np.zeros((6, 6))
+    outer[:3, 3:] = -skew(first.rotation @ second.translation_mm)
+    inner[:3, :3] = inner[3:, 3:] = first.rotation
+    return outer, inner
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,8 +21,10 @@ HALF_PATCH_PX = 7
 WINDOW = (15, 15)
 # Patches that correlate less are hidden, or not what they were.
 LEAST_ALIKE = 0.7
-# Of a camera's motion: patches move as a shift, a turn and a scale have it, within this.
+# Of a camera's motion: patches move as a shift, a turn and a scale have it, within this, and within this part
+# of how far they move: what is nearer to a camera that is shifted moves more.
 SPREAD_PX = 0.6
+PARALLAX_RATIO = 0.2
 LEAST_PATCHES = 6
 
 
@@ -146,11 +148,13 @@ class SceneWatch:
         """Median motion in pixels of the whole image, and the share of patches that move as one picture."""
         if len(found) < LEAST_PATCHES:
             return 0.0, 0.0
-        fitted, _ = cv2.estimateAffinePartial2D(kept, found, ransacReprojThreshold=SPREAD_PX)
+        far_px = float(np.median(np.linalg.norm(found - kept, axis=1)))
+        within_px = SPREAD_PX + PARALLAX_RATIO * far_px
+        fitted, _ = cv2.estimateAffinePartial2D(kept, found, ransacReprojThreshold=within_px)
         if fitted is None or not np.isfinite(fitted).all():
             return 0.0, 0.0
         expected = kept @ fitted[:, :2].T + fitted[:, 2]
-        alike = np.linalg.norm(expected - found, axis=1) < SPREAD_PX
+        alike = np.linalg.norm(expected - found, axis=1) < within_px
         moved = np.linalg.norm(expected - kept, axis=1)[alike]
         return (float(np.median(moved)) / self._scale if alike.any() else 0.0), float(alike.mean())
 

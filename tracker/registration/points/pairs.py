@@ -1,7 +1,7 @@
 """Pairs of points: the same landmarks on the CT and under the tip."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,21 @@ PAIR_REMEDY = "Give each landmark of the plan and the tip on it as three numbers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CommonTip:
+    """What all touches have in common: the tip behind its marker, and with it its error.
+
+    Attributes:
+        tool: its name.
+        covariance_mm2: (3, 3) of the tip, in the marker's frame.
+        anchor_from_marker: (n, 3, 3), how the marker was turned at each touch.
+    """
+
+    tool: str
+    covariance_mm2: Array
+    anchor_from_marker: Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PairedPoints:
     """Landmarks that were marked on the CT and touched with the tip, in the same order.
 
@@ -19,6 +34,8 @@ class PairedPoints:
         fixed_mm: (n, 3), on the CT: LPS.
         moving_mm: (n, 3), the tip on each of them, in the anchor's frame.
         moving_covariances_mm2: (n, 3, 3) of the tips, in the anchor's frame; None where nothing is stated.
+        common: the tip that touched them, whose covariance is then not in the others; None where it is not
+            known, or not one tip.
         labels: a name for each; "1", "2", ... where there are none.
 
     Raises:
@@ -29,6 +46,7 @@ class PairedPoints:
     moving_mm: Array
     moving_covariances_mm2: Array | None = None
     labels: tuple[str, ...] = ()
+    common: CommonTip | None = None
 
     def __post_init__(self) -> None:
         fixed = _points(self.fixed_mm, "marked")
@@ -66,6 +84,9 @@ class PairedPoints:
             moving_mm=self.moving_mm[index],
             moving_covariances_mm2=None if covariances is None else covariances[index],
             labels=tuple(self.labels[one] for one in chosen),
+            common=None
+            if self.common is None
+            else replace(self.common, anchor_from_marker=self.common.anchor_from_marker[index]),
         )
 
 

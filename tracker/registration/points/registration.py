@@ -7,7 +7,15 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.errors import RegistrationError
-from tracker.geometry import Anchor, Array, Rigid, Vertebra, inverse_covariance, point_covariance_mm2
+from tracker.geometry import (
+    Anchor,
+    Array,
+    Rigid,
+    Vertebra,
+    inverse_covariance,
+    inverse_slopes,
+    point_covariance_mm2,
+)
 from tracker.plan.remark import Remark
 from tracker.registration.points.fit import plain_fit, weighted_fit
 from tracker.registration.points.orders import refuse_mistaken
@@ -19,6 +27,7 @@ from tracker.registration.points.uncertainty import (
     covariance_from_residuals,
     expected_tre_mm,
     fle_from_fre_mm,
+    slope_of_common_tip,
 )
 from tracker.registration.record import AnchoredTo, Method, Registration
 
@@ -39,6 +48,8 @@ class PointRegistration:
         fixed_from_moving: takes tips to the CT.
         covariance: (6, 6) of it [mm, rad], translation first, then a small left-multiplied rotation vector on
             the CT's axes.
+        tip_slope: (6, 3), how it follows an error of the tip that touched all points; 0 where that is not
+            known.
         residuals_mm: (n, 3) where each tip comes to lie, minus its landmark on the CT; of those that were not
             used too.
         fre_rms_mm: root mean square length of the residuals of those that were used.
@@ -52,6 +63,7 @@ class PointRegistration:
     used: npt.NDArray[np.bool_]
     fixed_from_moving: Rigid[Vertebra, Anchor]
     covariance: Array
+    tip_slope: Array
     residuals_mm: Array
     fre_rms_mm: float
     fle_mm: float
@@ -95,6 +107,8 @@ class PointRegistration:
             anchored_to=anchored_to,
             anchor_from_vertebra=self.fixed_from_moving.inverse,
             covariance=inverse_covariance(self.fixed_from_moving, self.covariance),
+            tip_slope=inverse_slopes(self.fixed_from_moving) @ self.tip_slope,
+            tool="" if self.pairs.common is None else self.pairs.common.tool,
         )
 
     def failures(self, gate: PointGate, targets_mm: Sequence[npt.ArrayLike]) -> tuple[RegistrationError, ...]:
@@ -145,18 +159,22 @@ def register_points(
     plain_fre = _rms(plain.move_points(used.moving_mm) - used.fixed_mm)
     remarks = refuse_mistaken(used, plain_fre, settings)
     fit, covariance = _fitted(used, settings)
+    slope = _tip_slope(used, fit, settings)
+    if used.common is not None:
+        covariance = covariance + slope @ used.common.covariance_mm2 @ slope.T
     residuals = fit.move_points(pairs.moving_mm) - pairs.fixed_mm
     fre = _rms(residuals[chosen])
     fle = fle_from_fre_mm(fre, len(used))
     mask = np.zeros(len(pairs), dtype=np.bool_)
     mask[chosen] = True
-    for array in (mask, covariance, residuals):
+    for array in (mask, covariance, residuals, slope):
         array.setflags(write=False)
     return PointRegistration(
         pairs=pairs,
         used=mask,
         fixed_from_moving=fit,
         covariance=covariance,
+        tip_slope=slope,
         residuals_mm=residuals,
         fre_rms_mm=fre,
         fle_mm=fle,
@@ -173,9 +191,22 @@ def _fitted(used: PairedPoints, settings: PointSettings) -> tuple[Rigid[Vertebra
             fit, used.fixed_mm, used.moving_mm, least_fle_mm=settings.least_fle_mm
         )
         return fit, covariance
-    noise = used.moving_covariances_mm2 + settings.least_fle_mm**2 / 3.0 * np.eye(3)
+    noise = _noise(used.moving_covariances_mm2, settings)
     fit = weighted_fit(used.fixed_mm, used.moving_mm, noise)
     return fit, covariance_from_noise(fit, used.fixed_mm, used.moving_mm, noise)
+
+
+def _noise(stated_mm2: Array, settings: PointSettings) -> Array:
+    return np.asarray(stated_mm2 + settings.least_fle_mm**2 / 3.0 * np.eye(3))
+
+
+def _tip_slope(used: PairedPoints, fit: Rigid[Vertebra, Anchor], settings: PointSettings) -> Array:
+    if used.common is None:
+        return np.zeros((6, 3))
+    stated = used.moving_covariances_mm2
+    # The order of the fit: without covariances every millimetre counts alike.
+    noise = np.tile(np.eye(3), (len(used), 1, 1)) if stated is None else _noise(stated, settings)
+    return slope_of_common_tip(fit, used.moving_mm, noise, used.common.anchor_from_marker)
 
 
 def _left_out_mm(pairs: PairedPoints, chosen: Sequence[int], settings: PointSettings) -> dict[int, float]:

@@ -77,6 +77,20 @@ def covariance_from_noise(
     return np.asarray(factor * np.linalg.inv(np.einsum("nik,nij,njl->kl", rows, weights, rows)))
 
 
+def slope_of_common_tip(
+    fit: Rigid[Vertebra, Anchor], moving_mm: Array, noise_mm2: Array, anchor_from_marker: Array
+) -> Array:
+    """How the fit (6) follows an error (3), in the marker's frame, of the one tip that touched all points.
+
+    Touches that are turned alike shift the whole fit, and no residual shows it.
+    """
+    weights = weights_in_fixed(fit, noise_mm2)
+    rows = jacobians(moving_mm @ fit.rotation.T)
+    normal = np.einsum("nik,nij,njl->kl", rows, weights, rows)
+    pull = np.einsum("nik,nij,njl->kl", rows, weights, fit.rotation @ anchor_from_marker)
+    return np.asarray(-np.linalg.solve(normal, pull))
+
+
 def few_points(freedom: float) -> float:
     """By how much a variance that so many left-over numbers tell is widened."""
     return float(3.0 * stats.f.ppf(0.95, 3, freedom) / stats.chi2.ppf(0.95, 3))
