@@ -87,7 +87,6 @@ def make_snapshot(
     registered: bool = True,
     planned: bool = True,
     with_tool: bool = True,
-    judged: bool = True,
     pose_variance: float = 1e-4,
     watched: Watched | None = None,
     judged: bool = False,

@@ -58,10 +58,7 @@ class Room:
         self.now_s += 1 / 30
         self.number += 1
         self.desk.screen_said("theatre-1", armed=True)
-        # How near the wall is judged elsewhere.
-        snapshot = self.snapshot_of(
-            image_number=self.number, captured_at_s=self.now_s - 0.04, judged=False, **how
-        )
+        snapshot = self.snapshot_of(image_number=self.number, captured_at_s=self.now_s - 0.04, **how)
         return self.desk.look(snapshot, RUNS, WORKS)
 
     def images(self, seconds: float, **how: Any) -> AlarmPicture:  # noqa: ANN401  arguments of the snapshot
@@ -170,7 +167,7 @@ def test_a_patient_that_goes_out_of_sight_is_missed_with_or_without_the_drill(ro
         for number in range(int(1.2 * 30)):
             room.now_s += 1 / 30
             snapshot = room.snapshot_of(
-                image_number=10_000 + number, captured_at_s=room.now_s - 0.04, seen=seen, judged=False
+                image_number=10_000 + number, captured_at_s=room.now_s - 0.04, seen=seen
             )
             gone = Absent(reason=AbsentReason.REFERENCE_UNSEEN)
             picture = room.desk.look(
@@ -185,7 +182,7 @@ def test_a_moved_camera_alarms_and_does_not_end_navigation(room: Room, snapshot_
     room.images(1.0)
     for number in range(1000, 1030):
         room.now_s += 1 / 30
-        snapshot = snapshot_of(image_number=number, captured_at_s=room.now_s, judged=False)
+        snapshot = snapshot_of(image_number=number, captured_at_s=room.now_s)
         moved = replace(snapshot, deviations={"drill": Absent(reason=AbsentReason.CAMERA_MOVED)})
         picture = room.desk.look(moved, RUNS, WORKS)
     assert conditions(picture) == [Condition.CAMERA_MOVED]

@@ -133,10 +133,7 @@ def test_too_deep_is_announced_within_a_quarter_of_a_second_of_its_image(
     """
     chance, late_s, now = random.Random(5), [], [0.0]
     monkeypatch.setattr("server.loop.publisher.time.monotonic", lambda: now[0])
-    shots = {
-        deep: snapshot_of(tip_in_vertebra_mm=(0.0, 0.0, 41.0 if deep else 30.0), judged=False)
-        for deep in (0, 1)
-    }
+    shots = {deep: snapshot_of(tip_in_vertebra_mm=(0.0, 0.0, 41.0 if deep else 30.0)) for deep in (0, 1)}
     for _ in range(50):
         desk, now[0] = AlarmDesk(Config(), clock=lambda: now[0]), 0.0
         stage, images = Stage(look=desk.look), moments(rate_hz, 0.5, chance)
