@@ -63,8 +63,8 @@ def held_table() -> Table:
         columns=["alarm", "clearance mm", "theatres", "seconds each", "raised, most"],
         rows=rows,
         note=(
-            "A breach is raised once, and stands. A warning is confirmed by half a second in a row, which a tremor "
-            "at the very limit hardly gives."
+            "A breach is raised once, and stands. A warning is confirmed by half a second in a row, which a "
+            "tremor at the very limit hardly gives."
         ),
     )
 
