@@ -11,6 +11,11 @@ from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
 from tracker.plan.pedicle.fit import FittedBar, fit_bar
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
+from tracker.plan.pedicle.plausible import (
+    beyond_medial_wall_mm,
+    is_beside_canal,
+    most_beyond_mm,
+)
 from tracker.plan.pedicle.record import (
     LEAST_AHEAD_MM,
     PedicleMeasure,
@@ -57,7 +62,7 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     Raises:
         InvalidInput: SIDE_INVALID, SEED_INVALID.
         PlanError: SEED_OUTSIDE_CT, SEED_IN_AIR, SEED_NOT_IN_BONE, PEDICLE_NOT_FOUND, SEED_NOT_IN_PEDICLE,
-            PEDICLE_CUT, SEED_ON_OTHER_SIDE.
+            PEDICLE_CUT, SEED_ON_OTHER_SIDE, PEDICLE_DOUBTFUL.
     """
     named = checked_side(side)
     seed = refusals.checked_seed(volume, seed_lps_mm)
@@ -75,12 +80,17 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, named)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
+    refusals.refuse_doubtful(
+        isthmus,
+        beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, 0.5 * isthmus.width_mm, named),
+        most_beyond_mm(near),
+    )
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
 
 
 def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar | None:
     """The bar at the click; where it is doubtful, the one at the middle of the bone that holds the click."""
-    bars: list[tuple[bool, float, Bar]] = []
+    bars: list[tuple[bool, bool, float, Bar]] = []
     course = course_through(solid, seed, side)
     middle = middle_of_bone(solid, seed, course.axis(side))
     elsewhere = float(solid.depth_at(seed[None])[0]) > 0.0 and np.linalg.norm(middle - seed) >= LEAST_ASIDE_MM
@@ -89,10 +99,12 @@ def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar |
         if bar is None:
             continue
         off_deg = float(np.linalg.norm(course.off_deg(bar.axis[None], side)))
-        if bar.is_clear and off_deg <= MOST_OFF_COURSE_DEG and bar.holds(seed):
+        beside = is_beside_canal(near, solid, bar, side)
+        if beside and bar.is_clear and off_deg <= MOST_OFF_COURSE_DEG and bar.holds(seed):
             return bar
-        bars.append((bar.holds(seed), min(bar.behind_mm, bar.ahead_mm) - 0.1 * off_deg, bar))
-    return max(bars, key=lambda one: one[:2])[2] if bars else None
+        score = min(bar.behind_mm, bar.ahead_mm) - 0.1 * off_deg
+        bars.append((beside, bar.holds(seed), score, bar))
+    return max(bars, key=lambda one: one[:3])[3] if bars else None
 
 
 def _fitted(near: Neighbourhood, bar: Bar) -> FittedBar:
@@ -228,6 +240,11 @@ def _fit_warnings(
         out.append(
             f"the pedicle is only {voxels:.1f} voxels wide, {FEW_VOXELS:.0f} or more tell its width surely; "
             "use finer slices if there are any"
+        )
+    if isthmus.is_aslant:
+        out.append(
+            f"its section stands aslant, {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm across its own "
+            "axes; the lesser is given as its width"
         )
     if not fitted.fitted:
         out.append("too few voxels to fit its walls; the numbers are those of coarse sections")

@@ -148,6 +148,20 @@ def refuse_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
     )
 
 
+def refuse_doubtful(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) -> None:
+    """Raises PlanError PEDICLE_DOUBTFUL where bone goes on beside the section, and no canal begins."""
+    if beyond_mm <= allowed_mm:
+        return
+    raise PlanError(
+        "PEDICLE_DOUBTFUL",
+        f"the narrowest section that was found, {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm at "
+        f"{_words(isthmus.centre_mm)} mm, is hardly the pedicle's: beyond its medial wall bone goes on for "
+        f"{beyond_mm:.0f} mm (allowed {allowed_mm:.0f} mm), where the canal should begin",
+        "Click nearer to the canal, into the middle of the pedicle; or give its numbers by hand.",
+        {"beyond_mm": beyond_mm, "allowed_mm": allowed_mm, "isthmus_lps_mm": isthmus.centre_mm.tolist()},
+    )
+
+
 def other_side(side: str) -> PlanError:
     """Canal and body both lie as they do on the other side."""
     other = "right" if side == "left" else "left"
