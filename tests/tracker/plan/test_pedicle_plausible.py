@@ -53,9 +53,9 @@ def test_the_canal_begins_at_a_true_pedicles_medial_wall_and_not_at_the_bodys_si
 
 def test_a_section_with_bone_where_the_canal_should_be_is_refused_with_numbers() -> None:
     isthmus = isthmus_of(bar(width_mm=8.0, height_mm=12.0, roll_deg=0.0), 0.5)
-    refusals.refuse_doubtful(isthmus, 6.9, 7.0)
+    refusals.refuse_without_canal(isthmus, 6.9, 7.0)
     with pytest.raises(PlanError, match=r"goes on for 15 mm \(allowed 7 mm\)") as caught:
-        refusals.refuse_doubtful(isthmus, 15.0, 7.0)
+        refusals.refuse_without_canal(isthmus, 15.0, 7.0)
     assert caught.value.code == "PEDICLE_DOUBTFUL"
 
 

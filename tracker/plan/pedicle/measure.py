@@ -12,9 +12,11 @@ from tracker.plan.pedicle.fit import FittedBar, fit_bar
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.plausible import (
+    agrees,
     beyond_medial_wall_mm,
     is_beside_canal,
     most_beyond_mm,
+    unsure_as,
 )
 from tracker.plan.pedicle.record import (
     LEAST_AHEAD_MM,
@@ -43,6 +45,8 @@ TOUCHED_MM, PROCESS_MM = 4.0, 4.0
 MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
 LEAST_ASIDE_MM = 1.0
 MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
+# A second start, where the first is at the isthmus already.
+AGAIN_MM = -2.0
 
 
 def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> PedicleMeasure:
@@ -69,23 +73,50 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     near = neighbourhood_of(volume, seed)
     refusals.refuse_air(near, seed)
     solid = solid_around(near, seed)
-    bar = _bar_at(near, solid, seed, named)
-    if bar is None:
+    found = _found_from(near, solid, seed, named)
+    if found is None:
         raise refusals.not_found(near, seed)
+    bar, fitted, isthmus = found
     refusals.refuse_cut(near, bar)
-    fitted = _fitted(near, bar)
     refusals.refuse_outside(near, bar, fitted, seed)
-    isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
-    course = course_through(solid, isthmus.centre_mm, named)
-    isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, named)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
-    refusals.refuse_doubtful(
-        isthmus,
-        beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, 0.5 * isthmus.width_mm, named),
-        most_beyond_mm(near),
-    )
+    beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, 0.5 * isthmus.width_mm, named)
+    refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
+    if isthmus.width_mm < FEW_VOXELS * _voxel_across_mm(near, fitted) or not fitted.fitted:
+        isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
+
+
+def _found_from(
+    near: Neighbourhood, solid: Solid, at: Array, side: Side
+) -> tuple[Bar, FittedBar, Isthmus] | None:
+    """Bar, fit and isthmus from a start, or None where no section around it is closed."""
+    bar = _bar_at(near, solid, at, side)
+    if bar is None:
+        return None
+    fitted = _fitted(near, bar)
+    isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
+    course = course_through(solid, isthmus.centre_mm, side)
+    isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, side)
+    return bar, fitted, isthmus
+
+
+def _agreed(near: Neighbourhood, solid: Solid, seed: Array, side: Side, isthmus: Isthmus) -> Isthmus:
+    """The isthmus as unsure as a second start in the same pedicle differs; refused where that is elsewhere.
+
+    Of few voxels a fit states its noise, and not that another section near by would have done as well.
+    """
+    again = 0.5 * (seed + isthmus.centre_mm)
+    if np.linalg.norm(again - seed) < LEAST_ASIDE_MM:
+        again = seed + AGAIN_MM * isthmus.axis
+    found = _found_from(near, solid, again, side)
+    if found is None:
+        raise refusals.disagreeing(isthmus, None)
+    other = found[2]
+    if not agrees(isthmus, other):
+        raise refusals.disagreeing(isthmus, other)
+    return unsure_as(isthmus, other)
 
 
 def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar | None:

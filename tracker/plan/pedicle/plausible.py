@@ -5,6 +5,8 @@ transverse process joins it, is as narrow and as closed as an isthmus; but beyon
 body.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from tracker.geometry import Array
@@ -12,12 +14,15 @@ from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.record import Side
 from tracker.plan.pedicle.search import Bar
+from tracker.plan.pedicle.section import Isthmus
 from tracker.plan.pedicle.solid import Solid
 
 FARTHEST_MM, STEP_MM = 30.0, 0.25
 LIFTS_MM = (-2.5, 0.0, 2.5)
 # The solid closes gaps that are narrower than a voxel or two, so that its canal is the narrower by so much.
 MOST_BEYOND_MM = 4.0
+# Two starts tell of one pedicle where they differ by less than so many standard deviations, or than this.
+MOST_SDS, ALIKE_MM, ALIKE_PLACE_MM, ALIKE_DEG = 3.0, 2.0, 5.0, 10.0
 
 
 def most_beyond_mm(near: Neighbourhood) -> float:
@@ -45,3 +50,35 @@ def is_beside_canal(near: Neighbourhood, solid: Solid, bar: Bar, side: Side) -> 
     # The first ray leads to the patient's left.
     medial_mm = float(smooth[len(smooth) // 2 if side == "left" else 0])
     return beyond_medial_wall_mm(solid, bar.centre_mm, bar.axis, medial_mm, side) <= most_beyond_mm(near)
+
+
+def agrees(one: Isthmus, other: Isthmus) -> bool:
+    """Whether two sections can be of one pedicle: their sizes, places and axes, each by its spread."""
+    sizes = np.abs([one.width_mm - other.width_mm, one.height_mm - other.height_mm])
+    size_sds = np.hypot([one.width_sd_mm, one.height_sd_mm], [other.width_sd_mm, other.height_sd_mm])
+    apart_mm = float(np.linalg.norm(one.centre_mm - other.centre_mm))
+    turned_deg = float(np.degrees(np.arccos(np.clip(one.axis @ other.axis, -1.0, 1.0))))
+    turn_sd = float(np.linalg.norm([*one.slope_sd_deg, *other.slope_sd_deg]))
+    return bool(
+        (sizes <= np.maximum(MOST_SDS * size_sds, ALIKE_MM)).all()
+        and apart_mm <= ALIKE_PLACE_MM
+        and turned_deg <= max(MOST_SDS * turn_sd, ALIKE_DEG)
+    )
+
+
+def unsure_as(one: Isthmus, other: Isthmus) -> Isthmus:
+    """The first section, its spreads widened by how far the second differs."""
+    apart = one.centre_mm - other.centre_mm
+    turned = np.degrees(one.axis - other.axis)
+    share = 1.0 / np.sqrt(2.0)
+    (left,), (up,) = planes_across(one.axis[None])
+    return replace(
+        one,
+        width_sd_mm=float(np.hypot(one.width_sd_mm, share * (one.width_mm - other.width_mm))),
+        height_sd_mm=float(np.hypot(one.height_sd_mm, share * (one.height_mm - other.height_mm))),
+        centre_sd_mm=float(np.hypot(one.centre_sd_mm, share * np.linalg.norm(apart))),
+        slope_sd_deg=(
+            float(np.hypot(one.slope_sd_deg[0], share * (turned @ left))),
+            float(np.hypot(one.slope_sd_deg[1], share * (turned @ up))),
+        ),
+    )
