@@ -18,6 +18,8 @@ MOST_VOXELS = (900, 1200, 3500)
 MOST_STEPS = (8, 10, 20)
 # Where the narrowest place is still so far from the window's middle, the window is moved there once more.
 SETTLED, MORE_ROUNDS, LEAST_WAIST = 0.15, 2, 0.02
+# Only where bone is like the bar; where it is not, a window that wanders settles on what joins it.
+MOST_MISFIT_RATIO = 0.04
 OUTSIDE_BAND_MM = 1.2
 LEAST_VOXELS = 60
 COARSE_SD_DEG = 4.0
@@ -64,7 +66,7 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
     parameters = _first_parameters(near, bar)
     fitted: FittedBar | None = None
     last = len(MOST_VOXELS) - 1
-    for round_number in [*range(last + 1), *[last] * MORE_ROUNDS]:
+    for round_number in (*range(last + 1), *(last,) * MORE_ROUNDS):
         (left,), (up,) = planes_across(axis[None])
         frame = np.stack([axis, left, up])
         samples = _samples(near, bar, parameters, origin, frame, half, MOST_VOXELS[round_number])
@@ -86,7 +88,8 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
             misfit_ratio=_misfit_ratio(near, residual),
             fitted=done,
         )
-        if round_number == last and abs(narrowest(fitted)) <= SETTLED:
+        settled = abs(narrowest(fitted)) <= SETTLED or fitted.misfit_ratio > MOST_MISFIT_RATIO
+        if round_number == last and settled:
             break
         origin, turned, parameters = _moved(fitted)
         axis = axis if held else turned

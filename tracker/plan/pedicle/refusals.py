@@ -174,7 +174,7 @@ def disagreeing(one: Isthmus, other: Isthmus | None) -> PlanError:
         "PEDICLE_DOUBTFUL",
         f"the narrowest section from the click is {one.width_mm:.1f} x {one.height_mm:.1f} mm, and {second}; "
         "they should be one",
-        "Click into the middle of the pedicle; use finer slices if there are any; or give its numbers by hand.",
+        "Click into the pedicle's middle; use finer slices if there are any; or give its numbers by hand.",
         {"width_mm": one.width_mm, "height_mm": one.height_mm, "apart_mm": apart},
     )
 
