@@ -96,6 +96,11 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
     return fitted if fitted is not None else _unfitted(near, bar, parameters, half)
 
 
+def voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
+    """The size of a voxel across the bar, from side to side."""
+    return float(np.linalg.norm(near.voxel_width_mm(fitted.left)))
+
+
 def narrowest(fitted: FittedBar) -> float:
     """Where the bar is narrowest: from -1 to 1 over the window; its middle where it does not narrow.
 

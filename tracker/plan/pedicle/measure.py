@@ -8,7 +8,7 @@ import numpy.typing as npt
 from tracker.geometry import Array
 from tracker.plan.pedicle import refusals, tube
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
-from tracker.plan.pedicle.fit import FittedBar, fit_bar
+from tracker.plan.pedicle.fit import FittedBar, fit_bar, voxel_across_mm
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.plausible import (
@@ -28,6 +28,13 @@ from tracker.plan.pedicle.record import (
     sagittal_deg_of,
     transverse_deg_of,
 )
+from tracker.plan.pedicle.remarks import (
+    FEW_VOXELS,
+    LEAST_FACED,
+    fit_remarks,
+    front_remarks,
+    length_remarks,
+)
 from tracker.plan.pedicle.search import Bar, bar_along, find_bar
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.sides import body_side, canal_side
@@ -35,13 +42,9 @@ from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.plan.volume import Volume
 
 WALL_SD_VOXELS = 0.3
-USUAL_LENGTH_MM = (25.0, 75.0)
-FEW_VOXELS = 5.0
-LEAST_FACED, LEAST_FACED_SD, ENDPLATE_RATIO = 0.5, 0.15, 0.7
+LEAST_FACED_SD = 0.15
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
-BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
-TOUCHED_MM, PROCESS_MM = 4.0, 4.0
 MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
 LEAST_ASIDE_MM = 1.0
 MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
@@ -83,7 +86,7 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     warnings = _side_warnings(near, isthmus, fitted, named)
     beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, 0.5 * isthmus.width_mm, named)
     refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
-    if isthmus.width_mm < FEW_VOXELS * _voxel_across_mm(near, fitted) or not fitted.fitted:
+    if isthmus.width_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
 
@@ -96,7 +99,7 @@ def _found_from(
     if bar is None:
         return None
     fitted = _fitted(near, bar)
-    isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
+    isthmus = isthmus_of(fitted, voxel_across_mm(near, fitted))
     course = course_through(solid, isthmus.centre_mm, side)
     isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, side)
     return bar, fitted, isthmus
@@ -161,10 +164,15 @@ def _along_course(
     turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
     if turned_deg >= TURNED_DEG:
         held = fit_bar(near, bar_along(near, bar, isthmus.centre_mm, axis), held=True)
-        across = isthmus_of(held, _voxel_across_mm(near, held))
+        across = isthmus_of(held, voxel_across_mm(near, held))
         if _is_same(isthmus, across):
             isthmus, fitted = _narrower(across, isthmus), held
-    return replace(isthmus, axis=axis, slope_sd_deg=(float(spread[0]), float(spread[1]))), fitted
+    return replace(
+        isthmus,
+        axis=axis,
+        slope_sd_deg=(float(spread[0]), float(spread[1])),
+        usual_ratio=float(1.0 - own_share[0]) * course.usual_ratio,
+    ), fitted
 
 
 def _narrower(one: Isthmus, other: Isthmus) -> Isthmus:
@@ -202,8 +210,8 @@ def _record(
     front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
-    warnings += _fit_warnings(near, solid, bar, fitted, isthmus) + _length_warnings(front, back)
-    warnings += _front_warnings(front)
+    warnings += fit_remarks(near, solid, bar, fitted, isthmus) + length_remarks(front, back)
+    warnings += front_remarks(front)
     return PedicleMeasure(
         side=side,
         width_mm=isthmus.width_mm,
@@ -237,10 +245,6 @@ def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
     return max(ahead, LEAST_AHEAD_MM)
 
 
-def _voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
-    return float(np.linalg.norm(near.voxel_width_mm(fitted.left)))
-
-
 def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[str]:
     """What speaks against the side that was named; refused where canal and body both do."""
     expected = -1 if side == "left" else 1
@@ -255,40 +259,6 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     return []
 
 
-def _widens(solid: Solid, isthmus: Isthmus) -> bool:
-    """Whether more bone stands around the axis in front than at the isthmus: the body, though far ahead."""
-    line = isthmus.centre_mm + np.arange(0.0, BODY_WITHIN_MM, 1.0)[:, None] * isthmus.axis
-    depth = solid.depth_at(line)
-    return bool(depth.max() > BODY_GROWTH * max(float(depth[0]), 1.0))
-
-
-def _fit_warnings(
-    near: Neighbourhood, solid: Solid, bar: Bar, fitted: FittedBar, isthmus: Isthmus
-) -> list[str]:
-    out = []
-    voxels = isthmus.width_mm / _voxel_across_mm(near, fitted)
-    if voxels < FEW_VOXELS:
-        out.append(
-            f"the pedicle is only {voxels:.1f} voxels wide, {FEW_VOXELS:.0f} or more tell its width surely; "
-            "use finer slices if there are any"
-        )
-    if isthmus.is_aslant:
-        out.append(
-            f"its section stands aslant, {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm across its own "
-            "axes; the lesser is given as its width"
-        )
-    if not fitted.fitted:
-        out.append("too few voxels to fit its walls; the numbers are those of coarse sections")
-    if not bar.opens_ahead and not _widens(solid, isthmus):
-        out.append(
-            f"it does not widen within {BODY_WITHIN_MM:.0f} mm in front; "
-            "check that the click lies in a pedicle"
-        )
-    if fitted.half_mm <= 3.0 and bar.length_mm < 4.0:
-        out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less sure")
-    return out
-
-
 def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
     """Each wall's own spread and the axis's, and what they make along the axis of a wall met aslant."""
     parts = []
@@ -299,41 +269,3 @@ def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_m
         parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
         parts.append(wall.sd_mm)
     return float(np.linalg.norm(parts))
-
-
-def _front_warnings(front: WallAhead) -> list[str]:
-    """Where the axis does not leave through the front wall."""
-    if not front.found or front.faced_ratio >= LEAST_FACED:
-        return []
-    up = float(front.outwards[2])
-    where = "side" if abs(up) < ENDPLATE_RATIO else ("upper endplate" if up > 0.0 else "lower endplate")
-    slant_deg = float(np.degrees(np.arccos(np.clip(front.faced_ratio, -1.0, 1.0))))
-    return [
-        f"the axis leaves the body through its {where} ({slant_deg:.0f} deg aslant), not through the front "
-        "wall; the length ends there, check it"
-    ]
-
-
-def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:
-    out = []
-    if front.found and front.beyond_mm > TOUCHED_MM:
-        out.append(
-            "something as dense as bone touches the front wall, perhaps a vessel with contrast; "
-            "the length ends at the outline of the body, check it"
-        )
-    if back.found and back.beyond_mm > PROCESS_MM:
-        out.append(
-            f"behind the entry the axis runs on through a process for {back.beyond_mm:.0f} mm; "
-            "the length begins where the arch around it ends"
-        )
-    if not front.found:
-        out.append("no front wall was met surely; the length ends where bone may end, check it")
-    if not back.found:
-        out.append("no bone surface was met behind; entry and length reach to the end of what can be seen")
-    length = front.distance_mm + back.distance_mm
-    if front.found and back.found and not USUAL_LENGTH_MM[0] <= length <= USUAL_LENGTH_MM[1]:
-        out.append(
-            f"a length of {length:.1f} mm is unusual "
-            f"({USUAL_LENGTH_MM[0]:.0f} to {USUAL_LENGTH_MM[1]:.0f} mm are usual); check entry and front wall"
-        )
-    return out

@@ -35,6 +35,7 @@ class Isthmus:
         slope_sd_deg: of the axis's direction, to the left and up.
         bent_sd_deg: what is added where the bar bends and hardly narrows, so that its place is unsure.
         other_way_ratio: how likely width and height change places, as where the section stands aslant.
+        usual_ratio: by how much the transverse angle follows what is usual where it lies, from 0 to 1.
     """
 
     centre_mm: Array
@@ -48,6 +49,7 @@ class Isthmus:
     slope_sd_deg: tuple[float, float]
     bent_sd_deg: tuple[float, float]
     other_way_ratio: float
+    usual_ratio: float = 0.0
 
     @property
     def is_aslant(self) -> bool:
