@@ -1,15 +1,17 @@
 """What is no pedicle is told from what lies beside it, and what may be either way is said to be unsure."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from tests.tracker.plan.pedicles import scanned
 from tracker.errors import PlanError
 from tracker.plan.pedicle import axis_from_angles, checked_side, refusals, tube
-from tracker.plan.pedicle.fit import FittedBar
+from tracker.plan.pedicle.fit import FittedBar, narrowest
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.outlines import planes_across
-from tracker.plan.pedicle.plausible import beyond_medial_wall_mm, most_beyond_mm
+from tracker.plan.pedicle.plausible import agrees, beyond_medial_wall_mm, most_beyond_mm, unsure_as
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.rehearsal.ct import VertebraPhantom, pedicle_tube, usual_bones
@@ -76,12 +78,36 @@ def test_a_section_that_stands_upright_is_as_sure_as_its_walls() -> None:
     assert wide.width_sd_mm < 0.15
 
 
-def bar(*, width_mm: float, height_mm: float, roll_deg: float) -> FittedBar:
+def test_two_starts_agree_within_their_spreads_and_their_difference_widens_them() -> None:
+    one = isthmus_of(bar(width_mm=9.0, height_mm=14.0, roll_deg=0.0), 3.0)
+    near_by = replace(one, width_mm=10.5, centre_mm=one.centre_mm + 3.0 * one.axis)
+    assert agrees(one, near_by)
+    assert unsure_as(one, near_by).width_sd_mm == pytest.approx(1.5 / np.sqrt(2.0), abs=0.05)
+    assert unsure_as(one, near_by).centre_sd_mm > 2.0
+    assert unsure_as(one, one).width_sd_mm == one.width_sd_mm
+    assert not agrees(one, replace(one, width_mm=16.0))
+    assert agrees(one, replace(one, width_mm=16.0, width_sd_mm=3.0))
+    assert not agrees(one, replace(one, centre_mm=one.centre_mm - 8.0 * one.axis))
+    aslant = axis_from_angles("left", transverse_deg=30.0, sagittal_deg=0.0)
+    assert not agrees(one, replace(one, axis=aslant))
+
+
+def test_the_narrowest_place_of_a_bar_with_hardly_a_waist_never_jumps() -> None:
+    slope, bends = -0.017, np.linspace(-0.02, 0.08, 200)
+    places = [narrowest(bar(width_mm=9.0, height_mm=12.0, roll_deg=0.0, growth=(slope, b))) for b in bends]
+    assert np.abs(np.diff(places)).max() < 0.01
+    assert min(places) > 0.08
+    assert narrowest(bar(width_mm=9.0, height_mm=12.0, roll_deg=0.0, growth=(0.0, 0.0))) == 0.0
+
+
+def bar(
+    *, width_mm: float, height_mm: float, roll_deg: float, growth: tuple[float, float] = (0.0, 0.1)
+) -> FittedBar:
     axis = np.array([0.0, -1.0, 0.0])
     (left,), (up,) = planes_across(axis[None])
     parameters = np.zeros(tube.COUNT)
     parameters[tube.AXES] = [np.log(0.5 * width_mm), np.log(0.5 * height_mm), np.radians(roll_deg)]
-    parameters[tube.GROWTH] = [0.0, 0.1, 0.0, 0.1]
+    parameters[tube.GROWTH] = [*growth, *growth]
     return FittedBar(
         origin_mm=np.zeros(3),
         axis=axis,
