@@ -36,6 +36,7 @@ from server.live import LiveHub
 from server.loop.rehearsed import Rehearsed
 from server.overlay.words import RESEARCH_SOFTWARE
 from server.procedure import Steps
+from server.procedure.shown_bone import ShownBone
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, SecurityHeaders
 from server.store import CaseStore
@@ -124,6 +125,8 @@ def create_app(parts: AppParts) -> FastAPI:
         surface=parts.surface,
         stale_after_ms=limits.scene_stale_after_ms,
     )
+    if parts.store is not None:
+        ShownBone(parts.store, app.state.scene.show_surface, own=parts.surface)
     mount_page(app, camera=config.camera.name, folder=page_folder())
     return app
 

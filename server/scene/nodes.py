@@ -5,7 +5,6 @@ knows where the bone and the channel are, so they are not drawn, and the world i
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import viser
@@ -13,14 +12,15 @@ from viser.transforms import SO3
 
 from tracker.camera import CameraModel
 from tracker.geometry import Array, rotation_between
-from tracker.navigation import Absent, Setup
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 
 BONE_NODE = "/vertebra"
+CHANNEL_NODE = "/channel"
 
 BONE = (244, 228, 196)
 CHANNEL = (64, 140, 255)
+CHANNEL_OPACITY = 0.4
 DRILL = (255, 138, 31)
 BURR = (255, 200, 120)
 CAMERA = (140, 156, 172)
@@ -47,15 +47,6 @@ class World:
     """The frame of the scene: the vertebra's when registered, else the camera's."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class View:
-    """Where a new viewer stands, in the world of the scene, in mm."""
-
-    position_mm: Array
-    look_at_mm: Array
-    up: Vector
-
-
 def quaternion(rotation: Array) -> Quaternion:
     """(w, x, y, z) of a rotation matrix (3, 3)."""
     w, x, y, z = (float(v) for v in SO3.from_matrix(rotation).wxyz)
@@ -75,7 +66,7 @@ def add_bone(scene: viser.SceneApi, root: str, surface: Surface) -> None:
         np.asarray(surface.vertices_mm, dtype=np.float32),
         np.asarray(surface.faces, dtype=np.uint32),
         color=BONE,
-        opacity=0.6,
+        opacity=0.45,
         cast_shadow=False,
         receive_shadow=False,
     )
@@ -97,10 +88,12 @@ def add_channel(scene: viser.SceneApi, root: str, channel: Channel) -> None:
     turned = quaternion(rotation_between([0.0, 0.0, 1.0], axis))
     middle = (channel.entry_in_vertebra_mm + channel.target_in_vertebra_mm) / 2
     scene.add_cylinder(
-        f"{root}/channel",
+        f"{root}{CHANNEL_NODE}",
         radius=channel.radius_mm,
         height=channel.length_mm,
         color=CHANNEL,
+        # The drill is to be seen inside, and how unsure its tip is.
+        opacity=CHANNEL_OPACITY,
         wxyz=turned,
         position=vector(middle),
         cast_shadow=False,
@@ -167,25 +160,8 @@ def add_tool(scene: viser.SceneApi, node: str, tool: ToolModel) -> viser.FrameHa
     return frame
 
 
-def first_view(setup: Setup | None, surface: Surface | None) -> View:
-    """From behind the patient, above and to the side, so that channel and drill are seen at once."""
-    if setup is None or isinstance(setup.registration, Absent):
-        # Camera's frame: stand behind the camera's shoulder and look where the drill works.
-        return View(
-            position_mm=np.array([-260.0, -220.0, -180.0]),
-            look_at_mm=np.array([0.0, 0.0, 300.0]),
-            up=(0.0, -1.0, 0.0),
-        )
-    look_at, away_mm, side = np.zeros(3), 170.0, 1.0
-    if surface is not None:
-        low, high = surface.vertices_mm.min(axis=0), surface.vertices_mm.max(axis=0)
-        look_at, away_mm = (low + high) / 2, max(away_mm, 1.45 * float(np.linalg.norm(high - low)))
-    if isinstance(setup.channel, Channel):
-        side = 1.0 if setup.channel.entry_in_vertebra_mm[0] >= look_at[0] else -1.0
-        look_at = setup.channel.entry_in_vertebra_mm
-    direction = np.array([0.75 * side, 0.95, 0.6])
-    return View(
-        position_mm=look_at + away_mm * direction / np.linalg.norm(direction),
-        look_at_mm=look_at,
-        up=(0.0, 0.0, 1.0),
-    )
+def add_reference(scene: viser.SceneApi, root: str) -> viser.FrameHandle:
+    """The marker on the patient, hidden until an image shows it: its three axes and what it is."""
+    frame = scene.add_frame(f"{root}/reference", axes_length=14.0, axes_radius=0.7, visible=False)
+    scene.add_label(f"{root}/reference/name", "REF", position=(0.0, -16.0, 0.0), anchor="center-center")
+    return frame

@@ -11,8 +11,10 @@ import viser
 from starlette.requests import Request
 from starlette.responses import Response
 
-from server.scene.nodes import BONE_NODE
+from server.scene.drills import CONE_NODE, TIP_NODE
+from server.scene.nodes import BONE_NODE, CHANNEL_NODE
 from server.scene.stage import NUMBER_BASE, NUMBER_NODE
+from server.scene.views import ANGLE_DEG, VIEWS_NODE
 
 # Hides every control that viser has or will have: nothing but the drawing is visible, and what is not visible
 # takes no touch.
@@ -88,7 +90,9 @@ def make_page(*, stale_after_ms: float, silent_after_ms: float) -> Page:
         "__SILENT_AFTER_MS__": silent_after_ms,
         "__NUMBER_NODE__": NUMBER_NODE,
         "__NUMBER_BASE__": NUMBER_BASE,
-        "__BONE_NODE__": BONE_NODE,
+        "__SEEN_THROUGH__": [BONE_NODE, CHANNEL_NODE, TIP_NODE, CONE_NODE],
+        "__VIEWS_NODE__": VIEWS_NODE,
+        "__VIEW_ANGLES_DEG__": ANGLE_DEG,
     }
     for token, value in values.items():
         script = script.replace(token, json.dumps(value))

@@ -63,6 +63,7 @@ class Scene:
         self._hub = hub
         self._setup = setup
         self._surface = surface
+        self._loop: asyncio.AbstractEventLoop | None = None
         self._stale_after_s = stale_after_ms / 1000
         self._page = make_page(
             stale_after_ms=stale_after_ms, silent_after_ms=max(LEAST_SILENCE_MS, 6 * stale_after_ms)
@@ -82,10 +83,21 @@ class Scene:
 
     async def start(self) -> None:
         """Begin to follow. Call it in the application's event loop."""
+        self._loop = asyncio.get_running_loop()
         self._door = Door()
         self._stage = Stage(self._door, setup=self._setup, surface=self._surface)
         self._follower = asyncio.create_task(self._follow(self._stage), name="scene follower")
         self._follower.add_done_callback(_say_why)
+
+    def show_surface(self, surface: Surface | None) -> None:
+        """Show this bone from now on, or none. From any thread."""
+        self._surface = surface
+        if self._loop is not None and not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._take_surface)
+
+    def _take_surface(self) -> None:
+        if self._stage is not None:
+            self._stage.show_surface(self._surface)
 
     async def stop(self) -> None:
         """Let the viewers go and end the follower."""

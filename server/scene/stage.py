@@ -1,40 +1,31 @@
 """Puts one instant into the scene, all of it or nothing."""
 
-from dataclasses import dataclass
-
 import viser
 
 from server.live import Instant
 from server.scene.door import Door
+from server.scene.drills import DrillNodes, DrillNow
 from server.scene.nodes import (
     VIEW_ANGLE_RAD,
-    Quaternion,
     Vector,
     World,
     add_bone,
     add_camera,
     add_channel,
-    add_tool,
-    first_view,
+    add_reference,
     quaternion,
     vector,
 )
+from server.scene.views import ViewName, ViewNodes, camera_view, channel_view, first_view
 from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.navigation import Absent, NavigationSnapshot, Setup
 from tracker.plan import Channel, Surface
+from tracker.pose import Seen
 
 NUMBER_NODE = "/image_number"
 # viser leaves out a change of position below 1e-5 of its size, which one image in 100000 is. So the number
 # travels in two parts, each small enough: thousands and the rest.
 NUMBER_BASE = 1000
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Placed:
-    """Where a drill is drawn."""
-
-    position: Vector
-    wxyz: Quaternion
 
 
 def number_position(image_number: int | None, *, beats: int) -> Vector:
@@ -61,8 +52,10 @@ class Stage:
         self._beats = 0
         self._generation = 0
         self._root: viser.FrameHandle | None = None
-        self._tools: dict[str, viser.FrameHandle] = {}
+        self._reference: viser.FrameHandle | None = None
+        self._tools: dict[str, DrillNodes] = {}
         scene = door.scene
+        self._views = ViewNodes(scene)
         scene.configure_environment_map(hdri=None)
         scene.configure_default_lights(enabled=True, cast_shadow=False)
         # The map of surroundings is off, so the shaded sides need a light of their own.
@@ -87,17 +80,29 @@ class Stage:
             self._drawn_setup = snapshot.setup
             world_from_camera = _world_from_camera(snapshot)
             self._place_camera(world_from_camera)
-            placed = _placed(snapshot, world_from_camera)
-            for name, handle in self._tools.items():
-                _draw(handle, placed.get(name))
+            self._place_reference(snapshot, world_from_camera)
+            for name, nodes in self._tools.items():
+                nodes.show(_drill_now(snapshot, name, world_from_camera))
             self._count(snapshot.image_number)
         self._door.flush()
 
     def show_nothing(self) -> None:
         """Hide every drill: no image says where it is."""
         with self._door.atomic():
-            for handle in self._tools.values():
-                _draw(handle, None)
+            if self._reference is not None:
+                self._reference.visible = False
+            for nodes in self._tools.values():
+                nodes.show(None)
+            self._count(None)
+        self._door.flush()
+
+    def show_surface(self, surface: Surface | None) -> None:
+        """This is the bone from now on; what moves comes with the next image."""
+        if surface is self._surface:
+            return
+        self._surface = surface
+        with self._door.atomic():
+            self._build(self._drawn_setup)
             self._count(None)
         self._door.flush()
 
@@ -111,7 +116,20 @@ class Stage:
         if world_from_camera is not None:
             self._camera.position = vector(world_from_camera.translation_mm)
             self._camera.wxyz = quaternion(world_from_camera.rotation)
+            self._views.put(ViewName.CAMERA, camera_view(world_from_camera))
         self._camera.visible = world_from_camera is not None
+
+    def _place_reference(
+        self, snapshot: NavigationSnapshot, world_from_camera: Rigid[World, Camera] | None
+    ) -> None:
+        seen = snapshot.sightings.get(snapshot.setup.reference)
+        if self._reference is None:
+            return
+        if isinstance(seen, Seen) and world_from_camera is not None:
+            pose = world_from_camera @ seen.camera_from_marker
+            self._reference.position = vector(pose.translation_mm)
+            self._reference.wxyz = quaternion(pose.rotation)
+        self._reference.visible = isinstance(seen, Seen) and world_from_camera is not None
 
     def _build(self, setup: Setup | None) -> None:
         """Draw all that does not move, anew; drills are there but hidden."""
@@ -123,7 +141,7 @@ class Stage:
         self._generation += 1
         root = f"/setup_{self._generation}"
         self._root = scene.add_frame(root, show_axes=False)
-        self._tools, self._camera = {}, None
+        self._tools, self._camera, self._reference = {}, None, None
         self._drawn_setup, self._drawn_key = setup, None if setup is None else _key(setup)
         self._look(setup)
         if setup is None:
@@ -135,12 +153,17 @@ class Stage:
                 add_channel(scene, root, setup.channel)
         if setup.camera_calibrated:
             self._camera = add_camera(scene, root, setup.camera)
+            if setup.reference:
+                self._reference = add_reference(scene, root)
         # Numbered, because a name may hold a slash, which is viser's sign for a child.
         for index, (name, tool) in enumerate(setup.tools.items()):
-            self._tools[name] = add_tool(scene, f"{root}/tool_{index}", tool)
+            self._tools[name] = DrillNodes(scene, f"{root}/tool_{index}", tool)
 
     def _look(self, setup: Setup | None) -> None:
-        view = first_view(setup, self._surface)
+        view, along = first_view(setup, self._surface), channel_view(setup)
+        self._views.put(ViewName.BEHIND, view)
+        # Where there is no channel, along it is as from behind.
+        self._views.put(ViewName.CHANNEL, along or view)
         self._door.scene.set_up_direction(view.up)
         camera = self._door.initial_camera
         camera.position, camera.look_at, camera.up = (
@@ -160,25 +183,19 @@ def _world_from_camera(snapshot: NavigationSnapshot) -> Rigid[World, Camera] | N
     return world_from_vertebra @ snapshot.vertebra.camera_from_vertebra.inverse
 
 
-def _placed(
-    snapshot: NavigationSnapshot, world_from_camera: Rigid[World, Camera] | None
-) -> dict[str, _Placed]:
-    """Where each drill is drawn: none whose place in the scene is not known."""
-    placed: dict[str, _Placed] = {}
-    if world_from_camera is None:
-        return placed
-    for name, tool in snapshot.tools.items():
-        if not isinstance(tool, Absent):
-            pose = world_from_camera @ tool.camera_from_tool
-            placed[name] = _Placed(position=vector(pose.translation_mm), wxyz=quaternion(pose.rotation))
-    return placed
-
-
-def _draw(handle: viser.FrameHandle, placed: _Placed | None) -> None:
-    if placed is not None:
-        handle.position = placed.position
-        handle.wxyz = placed.wxyz
-    handle.visible = placed is not None
+def _drill_now(
+    snapshot: NavigationSnapshot, name: str, world_from_camera: Rigid[World, Camera] | None
+) -> DrillNow | None:
+    """Where a drill is drawn; None where its place in the scene is not known."""
+    tool, judged = snapshot.tools[name], snapshot.judgements[name]
+    if world_from_camera is None or isinstance(tool, Absent):
+        return None
+    return DrillNow(
+        world_from_tool=world_from_camera @ tool.camera_from_tool,
+        spread=None if isinstance(judged, Absent) else judged.spread,
+        leaves_trace=not isinstance(snapshot.setup.registration, Absent),
+        at_s=snapshot.captured_at_s,
+    )
 
 
 def _key(setup: Setup) -> tuple[object, ...]:
@@ -186,6 +203,7 @@ def _key(setup: Setup) -> tuple[object, ...]:
     channel, registration = setup.channel, setup.registration
     return (
         setup.camera_calibrated,
+        setup.reference,
         setup.camera.size_wh_px,
         setup.camera.matrix.tobytes(),
         tuple((name, tool.radius_mm, tool.length_mm) for name, tool in setup.tools.items()),

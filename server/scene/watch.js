@@ -5,8 +5,10 @@
   const staleAfterMs = __STALE_AFTER_MS__;
   const silentAfterMs = __SILENT_AFTER_MS__;
   const numberNode = __NUMBER_NODE__;
-  const boneNode = __BONE_NODE__;
+  const seenThrough = __SEEN_THROUGH__;
   const numberBase = __NUMBER_BASE__;
+  const viewsNode = __VIEWS_NODE__;
+  const viewAnglesDeg = __VIEW_ANGLES_DEG__;
 
   let connected = false;
   let line = null; // the worker that holds viser's WebSocket
@@ -95,15 +97,48 @@
   // A translucent bone that hides its own far side is speckled where its triangles come in the wrong order.
   const clear = (nodes) => {
     for (const name of Object.keys(nodes)) {
-      if (!name.endsWith(boneNode) || !nodes[name]) continue;
+      if (!seenThrough.some((part) => name.endsWith(part)) || !nodes[name]) continue;
       nodes[name].traverse((part) => { if (part.material) part.material.depthWrite = false; });
     }
   };
+
+  // From where the viewer looks. A view is put in place when it is chosen, and again when it moves; between
+  // that a person may turn it freely. Which nodes tell it is in `views.py`.
+  const asked = new URLSearchParams(location.search).get("view");
+  let view = Object.hasOwn(viewAnglesDeg, asked) ? asked : null;
+  let viewedFrom = null;
+  const place = (viewer, part) => {
+    const node = viewer.nodeRefFromName[`${viewsNode}/${view}_${part}`];
+    if (!node) return null;
+    node.updateWorldMatrix(true, false);
+    return Array.from(node.matrixWorld.elements.slice(12, 15));
+  };
+  const follow = (viewer) => {
+    if (view === null || !viewer.cameraControl || !viewer.camera) return;
+    const [eye, target, up] = ["eye", "look", "up"].map((part) => place(viewer, part));
+    if (!eye || !target || !up || Math.hypot(...eye.map((v, i) => v - target[i])) < 1) return;
+    const told = [...eye, ...target];
+    if (viewedFrom && told.every((v, i) => Math.abs(v - viewedFrom[i]) < 0.5)) return;
+    viewedFrom = told;
+    const length = Math.hypot(...up.map((v, i) => v - eye[i]));
+    viewer.camera.up.set(...up.map((v, i) => (v - eye[i]) / length));
+    viewer.camera.fov = viewAnglesDeg[view];
+    viewer.camera.updateProjectionMatrix();
+    viewer.cameraControl.updateCameraUp();
+    viewer.cameraControl.setLookAt(...eye, ...target, false);
+  };
+  addEventListener("message", (event) => {
+    if (event.origin !== location.origin || !event.data || event.data.kind !== "coaxial-view") return;
+    if (!Object.hasOwn(viewAnglesDeg, event.data.view)) return;
+    view = event.data.view;
+    viewedFrom = null;
+  });
 
   let last = null;
   const look = () => {
     requestAnimationFrame(look);
     const viewer = window.__viserMutable;
+    if (viewer && viewer.nodeRefFromName && drawn !== null) follow(viewer);
     const node = viewer && viewer.nodeRefFromName && viewer.nodeRefFromName[numberNode];
     if (!node || !connected || contextLost) return;
     const number = node.position.x < 1 ? null : (node.position.x - 1) * numberBase + node.position.y;

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,23 +37,28 @@ class RunningServer:
 
 
 @contextmanager
-def running_server(asked: Asked, *, seed: int, live_rate_hz: float) -> Iterator[RunningServer]:
+def running_server(
+    asked: Asked, *, seed: int, live_rate_hz: float, rehearsal: Mapping[str, object] | None = None
+) -> Iterator[RunningServer]:
     """`python -m server run` with the rehearsal of this seed, until the end of the block.
+
+    What is said of the rehearsal beside how hard it is: its scene, its skill, its events.
 
     Raises:
         RuntimeError: it does not say its address.
     """
-    rehearsal = {
+    played = {
         "seed": seed,
         "rate_hz": live_rate_hz,
         "noise": asked.noise,
         "blur": asked.blur,
         "clutter": asked.clutter,
         "light": asked.light,
+        **(rehearsal or {}),
     }
     with tempfile.TemporaryDirectory() as folder:
         settings = Path(folder) / "benchmark.yaml"
-        settings.write_text(yaml.safe_dump({"rehearsal": rehearsal}), encoding="utf-8")
+        settings.write_text(yaml.safe_dump({"rehearsal": played}), encoding="utf-8")
         with subprocess.Popen(
             [sys.executable, "-m", "server", "run", "--config", str(settings), "--port", "0"],
             cwd=folder,

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 
 from tests.benchmarks import accuracy, live, timing
+from tests.benchmarks.alarms.good_drilling import good_drilling_table, held_table
+from tests.benchmarks.alarms.latency import breach_table
 from tests.benchmarks.asked import Asked
 from tests.benchmarks.calibration.coverage import measure_calibration
 from tests.benchmarks.ct_reading import measure_ct_reading
@@ -25,6 +27,7 @@ from tests.benchmarks.viewer import measure_viewer
 from tracker.rehearsal import Theatre
 
 LIVE_RATE_HZ = 30.0
+ALARM_SECONDS = 600.0
 MEDIAN_95 = "Sizes of errors, median / 95th percentile, of the claims that are not false."
 MEDIAN_99 = "median / 99th percentile"
 
@@ -132,12 +135,20 @@ def measure_phantoms(_asked: Asked) -> Measured:
     return measure_pedicles()
 
 
+def measure_alarms(asked: Asked) -> Measured:
+    """How soon a breach is announced; and that nothing is while all is well."""
+    # Eight breaches in each of the hand's cycles of 40 s.
+    seconds = ALARM_SECONDS if asked.live_seconds == Asked().live_seconds else asked.live_seconds
+    return Measured(tables=[breach_table(asked, seconds=seconds), good_drilling_table(), held_table()])
+
+
 SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "limits": measure_limits,
     "rehearsal": measure_rehearsal,
     "overlay": measure_drawing,
     "server": measure_server,
     "tools": measure_tools,
+    "alarms": measure_alarms,
     "ct": measure_ct,
     "calibration": measure_calibration,
     "pedicles": measure_phantoms,

@@ -67,12 +67,6 @@ LOSSES = {
         gone_after_s=SCENE_S,
         reference=False,
     ),
-    "patient-moved": Loss(
-        event="patient_moves",
-        reason=AbsentReason.REFERENCE_MOVED,
-        alarm=Condition.REFERENCE_MOVED,
-        gone_after_s=SCENE_S,
-    ),
 }
 
 

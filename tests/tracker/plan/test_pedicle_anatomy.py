@@ -8,6 +8,7 @@ import pytest
 
 from server.imaging import read_ct
 from tests.real_data import real_data_file
+from tracker.errors import PlanError
 from tracker.plan import PedicleMeasure, Volume, measure_pedicle
 from tracker.plan.pedicle.course import course_through
 from tracker.plan.pedicle.neighbourhood import neighbourhood_of
@@ -64,6 +65,13 @@ def test_lumbar_pedicles_converge_as_their_level_does_even_in_thick_voxels(
     one = measure_pedicle(lumbar(), click, side)
     assert allowed_deg[0] <= one.transverse_deg <= allowed_deg[1]
     assert 40.0 <= one.length_mm <= 70.0
+
+
+def test_a_section_on_the_side_wall_of_the_body_is_refused_and_not_measured() -> None:
+    # L5's process joins the side wall of its body, where a narrow closed section stands beside no canal.
+    with pytest.raises(PlanError) as caught:
+        measure_pedicle(lumbar(), (-22.5, -119.6, 249.6), "right")
+    assert caught.value.code == "PEDICLE_DOUBTFUL"
 
 
 def test_marrow_is_filled_and_the_canal_is_not() -> None:

@@ -32,12 +32,16 @@ SAGITTAL_DEG = np.arange(-30.0, 31.0, 3.0)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
-    """The direction that is expected, as `PedicleMeasure` defines its angles, with standard deviations."""
+    """The direction that is expected, as `PedicleMeasure` defines its angles, with standard deviations.
+
+    `usual_ratio` is by how much the transverse angle follows if what is usual is another one: 1 is all.
+    """
 
     transverse_deg: float
     sagittal_deg: float
     transverse_sd_deg: float
     sagittal_sd_deg: float
+    usual_ratio: float
 
     def axis(self, side: str) -> Array:
         """The unit axis (3,) of these angles, forwards."""
@@ -72,11 +76,13 @@ def course_through(solid: Solid, isthmus_mm: Array, side: str) -> Course:
     weight = np.exp(score - score.max())
     weight /= weight.sum()
     mean_t, mean_s = float((weight * t).sum()), float((weight * s).sum())
+    variance_t = float((weight * (t - mean_t) ** 2).sum())
     return Course(
         transverse_deg=mean_t,
         sagittal_deg=mean_s,
-        transverse_sd_deg=max(float(np.sqrt((weight * (t - mean_t) ** 2).sum())), LEAST_SD_DEG),
+        transverse_sd_deg=max(float(np.sqrt(variance_t)), LEAST_SD_DEG),
         sagittal_sd_deg=max(float(np.sqrt((weight * (s - mean_s) ** 2).sum())), LEAST_SD_DEG),
+        usual_ratio=min(variance_t / transverse_sd**2, 1.0),
     )
 
 

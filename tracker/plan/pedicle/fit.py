@@ -16,6 +16,10 @@ LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
 # The rounds that only find the place need fewer voxels than the one that tells the numbers.
 MOST_VOXELS = (900, 1200, 3500)
 MOST_STEPS = (8, 10, 20)
+# Where the narrowest place is still so far from the window's middle, the window is moved there once more.
+SETTLED, MORE_ROUNDS, LEAST_WAIST = 0.15, 2, 0.02
+# Only where bone is like the bar; where it is not, a window that wanders settles on what joins it.
+MOST_MISFIT_RATIO = 0.04
 OUTSIDE_BAND_MM = 1.2
 LEAST_VOXELS = 60
 COARSE_SD_DEG = 4.0
@@ -61,7 +65,8 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
     origin, axis = bar.centre_mm, bar.axis
     parameters = _first_parameters(near, bar)
     fitted: FittedBar | None = None
-    for round_number in range(len(MOST_VOXELS)):
+    last = len(MOST_VOXELS) - 1
+    for round_number in (*range(last + 1), *(last,) * MORE_ROUNDS):
         (left,), (up,) = planes_across(axis[None])
         frame = np.stack([axis, left, up])
         samples = _samples(near, bar, parameters, origin, frame, half, MOST_VOXELS[round_number])
@@ -83,18 +88,28 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
             misfit_ratio=_misfit_ratio(near, residual),
             fitted=done,
         )
-        if round_number < len(MOST_VOXELS) - 1:
-            origin, turned, parameters = _moved(fitted)
-            axis = axis if held else turned
+        settled = abs(narrowest(fitted)) <= SETTLED or fitted.misfit_ratio > MOST_MISFIT_RATIO
+        if round_number == last and settled:
+            break
+        origin, turned, parameters = _moved(fitted)
+        axis = axis if held else turned
     return fitted if fitted is not None else _unfitted(near, bar, parameters, half)
 
 
+def voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
+    """The size of a voxel across the bar, from side to side."""
+    return float(np.linalg.norm(near.voxel_width_mm(fitted.left)))
+
+
 def narrowest(fitted: FittedBar) -> float:
-    """Where the bar is narrowest: from -1 to 1 over the window; its middle where it does not narrow."""
+    """Where the bar is narrowest: from -1 to 1 over the window; its middle where it does not narrow.
+
+    A waist that is too faint to be told surely counts as one of a fiftieth, so that the place moves as far as
+    the bar narrows, and never jumps.
+    """
     slope, bend = fitted.parameters[tube.GROWTH][:2]
-    if bend < 0.02:
-        return float(np.clip(-slope / 0.04, -0.4, 0.4)) if abs(slope) > 0.02 else 0.0
-    return float(np.clip(-slope / (2.0 * bend), -0.6, 0.6))
+    waist = np.hypot(max(float(bend), 0.0), LEAST_WAIST)
+    return float(np.clip(-slope / (2.0 * waist), -0.6, 0.6))
 
 
 def _moved(fitted: FittedBar) -> tuple[Array, Array, Array]:

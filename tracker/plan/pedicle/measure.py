@@ -8,9 +8,16 @@ import numpy.typing as npt
 from tracker.geometry import Array
 from tracker.plan.pedicle import refusals, tube
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
-from tracker.plan.pedicle.fit import FittedBar, fit_bar
+from tracker.plan.pedicle.fit import FittedBar, fit_bar, voxel_across_mm
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
+from tracker.plan.pedicle.plausible import (
+    agrees,
+    beyond_medial_wall_mm,
+    is_beside_canal,
+    most_beyond_mm,
+    unsure_as,
+)
 from tracker.plan.pedicle.record import (
     LEAST_AHEAD_MM,
     PedicleMeasure,
@@ -21,6 +28,13 @@ from tracker.plan.pedicle.record import (
     sagittal_deg_of,
     transverse_deg_of,
 )
+from tracker.plan.pedicle.remarks import (
+    FEW_VOXELS,
+    LEAST_FACED,
+    fit_remarks,
+    front_remarks,
+    length_remarks,
+)
 from tracker.plan.pedicle.search import Bar, bar_along, find_bar
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.sides import body_side, canal_side
@@ -28,16 +42,14 @@ from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.plan.volume import Volume
 
 WALL_SD_VOXELS = 0.3
-USUAL_LENGTH_MM = (25.0, 75.0)
-FEW_VOXELS = 5.0
-LEAST_FACED, LEAST_FACED_SD, ENDPLATE_RATIO = 0.5, 0.15, 0.7
+LEAST_FACED_SD = 0.15
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
-BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
-TOUCHED_MM, PROCESS_MM = 4.0, 4.0
 MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
 LEAST_ASIDE_MM = 1.0
 MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
+# A second start, where the first is at the isthmus already.
+AGAIN_MM = -2.0
 
 
 def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> PedicleMeasure:
@@ -57,30 +69,62 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     Raises:
         InvalidInput: SIDE_INVALID, SEED_INVALID.
         PlanError: SEED_OUTSIDE_CT, SEED_IN_AIR, SEED_NOT_IN_BONE, PEDICLE_NOT_FOUND, SEED_NOT_IN_PEDICLE,
-            PEDICLE_CUT, SEED_ON_OTHER_SIDE.
+            PEDICLE_CUT, SEED_ON_OTHER_SIDE, PEDICLE_DOUBTFUL.
     """
     named = checked_side(side)
     seed = refusals.checked_seed(volume, seed_lps_mm)
     near = neighbourhood_of(volume, seed)
     refusals.refuse_air(near, seed)
     solid = solid_around(near, seed)
-    bar = _bar_at(near, solid, seed, named)
-    if bar is None:
+    found = _found_from(near, solid, seed, named)
+    if found is None:
         raise refusals.not_found(near, seed)
+    bar, fitted, isthmus = found
     refusals.refuse_cut(near, bar)
-    fitted = _fitted(near, bar)
     refusals.refuse_outside(near, bar, fitted, seed)
-    isthmus = isthmus_of(fitted, _voxel_across_mm(near, fitted))
-    course = course_through(solid, isthmus.centre_mm, named)
-    isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, named)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
+    beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, 0.5 * isthmus.width_mm, named)
+    refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
+    if isthmus.width_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
+        isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
+
+
+def _found_from(
+    near: Neighbourhood, solid: Solid, at: Array, side: Side
+) -> tuple[Bar, FittedBar, Isthmus] | None:
+    """Bar, fit and isthmus from a start, or None where no section around it is closed."""
+    bar = _bar_at(near, solid, at, side)
+    if bar is None:
+        return None
+    fitted = _fitted(near, bar)
+    isthmus = isthmus_of(fitted, voxel_across_mm(near, fitted))
+    course = course_through(solid, isthmus.centre_mm, side)
+    isthmus, fitted = _along_course(near, bar, fitted, isthmus, course, side)
+    return bar, fitted, isthmus
+
+
+def _agreed(near: Neighbourhood, solid: Solid, seed: Array, side: Side, isthmus: Isthmus) -> Isthmus:
+    """The isthmus as unsure as a second start in the same pedicle differs; refused where that is elsewhere.
+
+    Of few voxels a fit states its noise, and not that another section near by would have done as well.
+    """
+    again = 0.5 * (seed + isthmus.centre_mm)
+    if np.linalg.norm(again - seed) < LEAST_ASIDE_MM:
+        again = seed + AGAIN_MM * isthmus.axis
+    found = _found_from(near, solid, again, side)
+    if found is None:
+        raise refusals.disagreeing(isthmus, None)
+    other = found[2]
+    if not agrees(isthmus, other):
+        raise refusals.disagreeing(isthmus, other)
+    return unsure_as(isthmus, other)
 
 
 def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar | None:
     """The bar at the click; where it is doubtful, the one at the middle of the bone that holds the click."""
-    bars: list[tuple[bool, float, Bar]] = []
+    bars: list[tuple[bool, bool, float, Bar]] = []
     course = course_through(solid, seed, side)
     middle = middle_of_bone(solid, seed, course.axis(side))
     elsewhere = float(solid.depth_at(seed[None])[0]) > 0.0 and np.linalg.norm(middle - seed) >= LEAST_ASIDE_MM
@@ -89,10 +133,12 @@ def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar |
         if bar is None:
             continue
         off_deg = float(np.linalg.norm(course.off_deg(bar.axis[None], side)))
-        if bar.is_clear and off_deg <= MOST_OFF_COURSE_DEG and bar.holds(seed):
+        beside = is_beside_canal(near, solid, bar, side)
+        if beside and bar.is_clear and off_deg <= MOST_OFF_COURSE_DEG and bar.holds(seed):
             return bar
-        bars.append((bar.holds(seed), min(bar.behind_mm, bar.ahead_mm) - 0.1 * off_deg, bar))
-    return max(bars, key=lambda one: one[:2])[2] if bars else None
+        score = min(bar.behind_mm, bar.ahead_mm) - 0.1 * off_deg
+        bars.append((beside, bar.holds(seed), score, bar))
+    return max(bars, key=lambda one: one[:3])[3] if bars else None
 
 
 def _fitted(near: Neighbourhood, bar: Bar) -> FittedBar:
@@ -118,10 +164,15 @@ def _along_course(
     turned_deg = float(np.degrees(np.arccos(np.clip(axis @ isthmus.axis, -1.0, 1.0))))
     if turned_deg >= TURNED_DEG:
         held = fit_bar(near, bar_along(near, bar, isthmus.centre_mm, axis), held=True)
-        across = isthmus_of(held, _voxel_across_mm(near, held))
+        across = isthmus_of(held, voxel_across_mm(near, held))
         if _is_same(isthmus, across):
             isthmus, fitted = _narrower(across, isthmus), held
-    return replace(isthmus, axis=axis, slope_sd_deg=(float(spread[0]), float(spread[1]))), fitted
+    return replace(
+        isthmus,
+        axis=axis,
+        slope_sd_deg=(float(spread[0]), float(spread[1])),
+        usual_ratio=float(1.0 - own_share[0]) * course.usual_ratio,
+    ), fitted
 
 
 def _narrower(one: Isthmus, other: Isthmus) -> Isthmus:
@@ -159,8 +210,8 @@ def _record(
     front = front_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     back = back_wall(near, solid, isthmus.centre_mm, isthmus.axis)
     voxel = float(np.linalg.norm(near.voxel_width_mm(isthmus.axis)))
-    warnings += _fit_warnings(near, solid, bar, fitted, isthmus) + _length_warnings(front, back)
-    warnings += _front_warnings(front)
+    warnings += fit_remarks(near, solid, bar, fitted, isthmus) + length_remarks(front, back)
+    warnings += front_remarks(front)
     return PedicleMeasure(
         side=side,
         width_mm=isthmus.width_mm,
@@ -194,10 +245,6 @@ def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
     return max(ahead, LEAST_AHEAD_MM)
 
 
-def _voxel_across_mm(near: Neighbourhood, fitted: FittedBar) -> float:
-    return float(np.linalg.norm(near.voxel_width_mm(fitted.left)))
-
-
 def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[str]:
     """What speaks against the side that was named; refused where canal and body both do."""
     expected = -1 if side == "left" else 1
@@ -212,35 +259,6 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     return []
 
 
-def _widens(solid: Solid, isthmus: Isthmus) -> bool:
-    """Whether more bone stands around the axis in front than at the isthmus: the body, though far ahead."""
-    line = isthmus.centre_mm + np.arange(0.0, BODY_WITHIN_MM, 1.0)[:, None] * isthmus.axis
-    depth = solid.depth_at(line)
-    return bool(depth.max() > BODY_GROWTH * max(float(depth[0]), 1.0))
-
-
-def _fit_warnings(
-    near: Neighbourhood, solid: Solid, bar: Bar, fitted: FittedBar, isthmus: Isthmus
-) -> list[str]:
-    out = []
-    voxels = isthmus.width_mm / _voxel_across_mm(near, fitted)
-    if voxels < FEW_VOXELS:
-        out.append(
-            f"the pedicle is only {voxels:.1f} voxels wide, {FEW_VOXELS:.0f} or more tell its width surely; "
-            "use finer slices if there are any"
-        )
-    if not fitted.fitted:
-        out.append("too few voxels to fit its walls; the numbers are those of coarse sections")
-    if not bar.opens_ahead and not _widens(solid, isthmus):
-        out.append(
-            f"it does not widen within {BODY_WITHIN_MM:.0f} mm in front; "
-            "check that the click lies in a pedicle"
-        )
-    if fitted.half_mm <= 3.0 and bar.length_mm < 4.0:
-        out.append(f"its narrow part is only {bar.length_mm:.1f} mm long; its direction is less sure")
-    return out
-
-
 def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_mm: float) -> float:
     """Each wall's own spread and the axis's, and what they make along the axis of a wall met aslant."""
     parts = []
@@ -251,41 +269,3 @@ def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_m
         parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
         parts.append(wall.sd_mm)
     return float(np.linalg.norm(parts))
-
-
-def _front_warnings(front: WallAhead) -> list[str]:
-    """Where the axis does not leave through the front wall."""
-    if not front.found or front.faced_ratio >= LEAST_FACED:
-        return []
-    up = float(front.outwards[2])
-    where = "side" if abs(up) < ENDPLATE_RATIO else ("upper endplate" if up > 0.0 else "lower endplate")
-    slant_deg = float(np.degrees(np.arccos(np.clip(front.faced_ratio, -1.0, 1.0))))
-    return [
-        f"the axis leaves the body through its {where} ({slant_deg:.0f} deg aslant), not through the front "
-        "wall; the length ends there, check it"
-    ]
-
-
-def _length_warnings(front: WallAhead, back: WallAhead) -> list[str]:
-    out = []
-    if front.found and front.beyond_mm > TOUCHED_MM:
-        out.append(
-            "something as dense as bone touches the front wall, perhaps a vessel with contrast; "
-            "the length ends at the outline of the body, check it"
-        )
-    if back.found and back.beyond_mm > PROCESS_MM:
-        out.append(
-            f"behind the entry the axis runs on through a process for {back.beyond_mm:.0f} mm; "
-            "the length begins where the arch around it ends"
-        )
-    if not front.found:
-        out.append("no front wall was met surely; the length ends where bone may end, check it")
-    if not back.found:
-        out.append("no bone surface was met behind; entry and length reach to the end of what can be seen")
-    length = front.distance_mm + back.distance_mm
-    if front.found and back.found and not USUAL_LENGTH_MM[0] <= length <= USUAL_LENGTH_MM[1]:
-        out.append(
-            f"a length of {length:.1f} mm is unusual "
-            f"({USUAL_LENGTH_MM[0]:.0f} to {USUAL_LENGTH_MM[1]:.0f} mm are usual); check entry and front wall"
-        )
-    return out

@@ -1,5 +1,6 @@
 """Outlines of sections through bone: rays from a centre to where the wall falls to its outside."""
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -154,7 +155,7 @@ def _widest_gap_deg(near_curve: npt.NDArray[np.bool_]) -> Array:
 def _smooth_curve(radius: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
     """The smooth curve (m, rays) that most rays agree on, and which rays (m, rays) do."""
     rays = radius.shape[1]
-    basis = _basis(rays)
+    basis, squares = _basis(rays)
     met = np.isfinite(radius)
     filled = np.where(met, radius, 0.0)
     # Begin from below: leaks lead outwards, so the lower half of the radii tells more than the mean.
@@ -163,8 +164,8 @@ def _smooth_curve(radius: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
     ridge = np.diag([1e-6, *[0.02 * rays * (1 + n // 2) ** 2 / 40.0 for n in range(2 * HARMONICS)]])
     smooth = np.repeat(usual, rays, axis=1)
     for _ in range(ROUNDS):
-        normal = np.einsum("mr,ra,rb->mab", weight, basis, basis, optimize=True) + ridge
-        right = np.einsum("mr,ra->ma", weight * filled, basis)
+        normal = (weight @ squares).reshape(-1, *ridge.shape) + ridge
+        right = (weight * filled) @ basis
         smooth = np.linalg.solve(normal, right[..., None])[..., 0] @ basis.T
         off = np.abs(filled - smooth)
         limit = 0.35 + 0.12 * usual
@@ -173,9 +174,15 @@ def _smooth_curve(radius: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
     return smooth, met & (np.abs(filled - smooth) < 0.8 + 0.15 * usual)
 
 
-def _basis(rays: int) -> npt.NDArray[np.float64]:
+@functools.cache
+def _basis(rays: int) -> tuple[Array, Array]:
+    """The waves of a closed curve at its rays (rays, waves), and all their products (rays, waves squared)."""
     angle = angles(rays)
     columns = [np.ones(rays)]
     for n in range(1, HARMONICS + 1):
         columns += [np.cos(n * angle), np.sin(n * angle)]
-    return np.stack(columns, axis=1)
+    basis = np.stack(columns, axis=1)
+    squares = (basis[:, :, None] * basis[:, None, :]).reshape(rays, -1)
+    for array in (basis, squares):
+        array.setflags(write=False)
+    return basis, squares

@@ -148,6 +148,37 @@ def refuse_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
     )
 
 
+def refuse_without_canal(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) -> None:
+    """Raises PlanError PEDICLE_DOUBTFUL where bone goes on beside the section, and no canal begins."""
+    if beyond_mm <= allowed_mm:
+        return
+    raise PlanError(
+        "PEDICLE_DOUBTFUL",
+        f"the narrowest section that was found, {isthmus.width_mm:.1f} x {isthmus.height_mm:.1f} mm at "
+        f"{_words(isthmus.centre_mm)} mm, is hardly the pedicle's: beyond its medial wall bone goes on for "
+        f"{beyond_mm:.0f} mm (allowed {allowed_mm:.0f} mm), where the canal should begin",
+        "Click nearer to the canal, into the middle of the pedicle; or give its numbers by hand.",
+        {"beyond_mm": beyond_mm, "allowed_mm": allowed_mm, "isthmus_lps_mm": isthmus.centre_mm.tolist()},
+    )
+
+
+def disagreeing(one: Isthmus, other: Isthmus | None) -> PlanError:
+    """Two starts in the same bone lead to sections that differ by more than their spreads allow."""
+    apart = 0.0 if other is None else float(np.linalg.norm(one.centre_mm - other.centre_mm))
+    second = (
+        "from 2 mm aside none is found"
+        if other is None
+        else f"from a few mm aside it is {other.width_mm:.1f} x {other.height_mm:.1f} mm, {apart:.1f} mm away"
+    )
+    return PlanError(
+        "PEDICLE_DOUBTFUL",
+        f"the narrowest section from the click is {one.width_mm:.1f} x {one.height_mm:.1f} mm, and {second}; "
+        "they should be one",
+        "Click into the pedicle's middle; use finer slices if there are any; or give its numbers by hand.",
+        {"width_mm": one.width_mm, "height_mm": one.height_mm, "apart_mm": apart},
+    )
+
+
 def other_side(side: str) -> PlanError:
     """Canal and body both lie as they do on the other side."""
     other = "right" if side == "left" else "left"

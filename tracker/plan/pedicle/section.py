@@ -3,12 +3,16 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import ndtr
 
 from tracker.geometry import Array
 from tracker.plan.pedicle import tube
 from tracker.plan.pedicle.fit import FittedBar, narrowest
 
 ROUND_RATIO = 1.08
+# Real sections are no ellipses: how far their own axes may be turned. Where it is so likely that the other
+# axis is the one nearer to left-right, the lesser extent is called the width.
+ROLL_SD_DEG, EITHER_RATIO = 6.0, 0.2
 # What the model of a bar leaves out moves a wall by this share of a voxel, whatever the noise.
 MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
 # Bone that is unlike a bar by this share of its contrast may lead elsewhere by so much, over a short window.
@@ -30,6 +34,8 @@ class Isthmus:
         width_sd_mm: and height_sd_mm, centre_sd_mm: standard deviations.
         slope_sd_deg: of the axis's direction, to the left and up.
         bent_sd_deg: what is added where the bar bends and hardly narrows, so that its place is unsure.
+        other_way_ratio: how likely width and height change places, as where the section stands aslant.
+        usual_ratio: by how much the transverse angle follows what is usual where it lies, from 0 to 1.
     """
 
     centre_mm: Array
@@ -42,6 +48,13 @@ class Isthmus:
     centre_sd_mm: float
     slope_sd_deg: tuple[float, float]
     bent_sd_deg: tuple[float, float]
+    other_way_ratio: float
+    usual_ratio: float = 0.0
+
+    @property
+    def is_aslant(self) -> bool:
+        """Whether either of the section's own axes may be called its width; the lesser one is."""
+        return self.other_way_ratio > EITHER_RATIO
 
 
 def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
@@ -68,17 +81,22 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
     slopes = np.degrees(spread[4:6])
     unlike = UNLIKE_DEG * (fitted.misfit_ratio / UNLIKE_RATIO) ** 3 * UNLIKE_HALF_MM / fitted.half_mm
     model_deg = float(np.hypot(MODEL_DEG, min(unlike, MOST_UNLIKE_DEG)))
+    other_way = _other_way_ratio(fitted, at)
+    either = abs(numbers[0] - numbers[1]) * np.sqrt(other_way * (1.0 - other_way))
+    # Too narrow costs a thinner screw, too wide costs the wall.
+    wide, high = (1, 0) if other_way > EITHER_RATIO and numbers[0] > numbers[1] else (0, 1)
     return Isthmus(
         centre_mm=centre,
         axis=axis / np.linalg.norm(axis),
-        width_mm=float(numbers[0]),
-        height_mm=float(numbers[1]),
+        width_mm=float(numbers[wide]),
+        height_mm=float(numbers[high]),
         outline_mm=outline,
-        width_sd_mm=float(np.hypot(spread[0], floor)),
-        height_sd_mm=float(np.hypot(spread[1], floor)),
+        width_sd_mm=float(np.linalg.norm([spread[wide], floor, either])),
+        height_sd_mm=float(np.linalg.norm([spread[high], floor, either])),
         centre_sd_mm=float(np.linalg.norm([spread[2], spread[3], floor])),
         slope_sd_deg=(float(np.hypot(slopes[0], model_deg)), float(np.hypot(slopes[1], model_deg))),
         bent_sd_deg=(float(bent[0]), float(bent[1])),
+        other_way_ratio=other_way,
     )
 
 
@@ -127,6 +145,15 @@ def _extent(points: Array, direction: Array) -> float:
     radius = np.linalg.norm(points, axis=1)[order]
     ends = np.interp([0.0, np.pi], turned[order], radius, period=2.0 * np.pi)
     return float(0.5 * (ends.sum() + np.ptp(points @ direction)))
+
+
+def _other_way_ratio(fitted: FittedBar, at: float) -> float:
+    """The chance that the section's other axis is the one nearer to left-right, as its turn is unsure."""
+    section = tube.section_at(fitted.parameters, np.array([at]))
+    direction = _width_direction(fitted.parameters, section)
+    turned_deg = abs(float(np.degrees(np.arctan2(direction[1], direction[0]))))
+    own_deg = float(np.degrees(np.sqrt(fitted.covariance[tube.AXES, tube.AXES][2, 2])))
+    return float(ndtr(-(45.0 - turned_deg) / np.hypot(own_deg, ROLL_SD_DEG)))
 
 
 def _width_direction(parameters: Array, section: tube.Section) -> Array:

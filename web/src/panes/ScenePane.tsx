@@ -9,6 +9,9 @@ import { setData, setText } from "./setText";
 /** A scene that says nothing for this long, while the server is there, is loaded anew. */
 const RELOAD_AFTER_MS = 15_000;
 
+const VIEWS = ["behind", "channel", "camera"] as const;
+type ViewName = (typeof VIEWS)[number];
+
 /** The 3-D scene in its frame, covered whenever what it has drawn is not live. */
 export function ScenePane(): ReactNode {
   const words = useWords();
@@ -16,7 +19,9 @@ export function ScenePane(): ReactNode {
   const stage = useRef<HTMLDivElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
   const age = useRef<HTMLSpanElement>(null);
+  const frame = useRef<HTMLIFrameElement>(null);
   const [attempt, setAttempt] = useState(0);
+  const [chosen, setChosen] = useState<ViewName>("behind");
   // Before the server has spoken there is no scene to load; a frame loaded then would show an error page.
   const known = view.newest !== null;
   const [wanted, setWanted] = useState(known);
@@ -54,7 +59,33 @@ export function ScenePane(): ReactNode {
       aside={<p className="stamp" data-testid="scene-stamp" ref={stamp} />}
     >
       <div className="scene-stage" data-testid="scene" data-live="false" ref={stage}>
-        {wanted && <iframe key={attempt} src="/scene/" title={words.scene.title} />}
+        {wanted && (
+          <iframe
+            key={attempt}
+            ref={frame}
+            src="/scene/"
+            title={words.scene.title}
+            onLoad={() => {
+              tellView(frame.current, chosen);
+            }}
+          />
+        )}
+        <div className="scene-views" role="group" aria-label={words.scene.views}>
+          {VIEWS.map((name) => (
+            <button
+              key={name}
+              type="button"
+              aria-pressed={name === chosen}
+              data-testid={`view-${name}`}
+              onClick={() => {
+                setChosen(name);
+                tellView(frame.current, name);
+              }}
+            >
+              {words.scene.view[name]}
+            </button>
+          ))}
+        </div>
         <div className="when-stale" data-testid="scene-cover">
           <Cover
             urgency={loading ? "low" : "medium"}
@@ -67,4 +98,9 @@ export function ScenePane(): ReactNode {
       </div>
     </Pane>
   );
+}
+
+/** `watch.js` in the frame hears this, and puts the viewer there. */
+function tellView(frame: HTMLIFrameElement | null, view: ViewName): void {
+  frame?.contentWindow?.postMessage({ kind: "coaxial-view", view }, location.origin);
 }

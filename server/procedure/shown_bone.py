@@ -1,0 +1,81 @@
+"""The bone that the 3-D scene shows: that of the open case, where its plan is drilled."""
+
+import threading
+from collections.abc import Callable
+
+import structlog
+
+from server.imaging.meshes import mesh_from_bytes
+from server.procedure.plan import ACTIVE_CHANNEL
+from server.procedure.surface import MAIN_SURFACE
+from server.store import CaseStore, Current, Document, DocumentKind
+from tracker.errors import NavigationError
+from tracker.plan import Surface
+from tracker.plan.mesh.intake import Space
+
+log = structlog.get_logger(__name__)
+
+
+class ShownBone:
+    """Hands the bone's surface to the scene whenever another one belongs there; safe to use from any thread.
+
+    Where a channel of the open case is drilled it is that case's bone, or none where it has none. Else it is
+    what was there from the beginning.
+
+    Args:
+        store: where surfaces are kept.
+        show: told which surface is to be seen.
+        own: what is there without a case: the rehearsal's.
+    """
+
+    def __init__(
+        self, store: CaseStore, show: Callable[[Surface | None], None], *, own: Surface | None
+    ) -> None:
+        self._store = store
+        self._show = show
+        self._own = own
+        self._lock = threading.Lock()
+        self._shown = ""
+        store.call_after_writing(self.refresh)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Look which bone belongs in the scene now; a new one is read beside, because that takes a moment."""
+        planned, document = self._documents()
+        wanted = "" if planned is None else f"{planned.case_id} {'' if document is None else document.id}"
+        with self._lock:
+            if wanted == self._shown:
+                return
+            self._shown = wanted
+        if document is None:
+            self._show(self._own if planned is None else None)
+            return
+        threading.Thread(target=self._read, args=(wanted, document), name="shown bone", daemon=True).start()
+
+    def _documents(self) -> tuple[Document | None, Document | None]:
+        """The channel that is drilled, and the surface of its case; None for what is not there, or not now."""
+        case = self._store.opened()
+        if case is None:
+            return None, None
+        planned = self._current(self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL))
+        surface = self._current(self._store.latest(case.id, DocumentKind.SURFACE, MAIN_SURFACE))
+        return planned, surface if planned is not None and surface is not None and surface.files else None
+
+    def _current(self, document: Document | None) -> Document | None:
+        return document if document and isinstance(self._store.standing(document), Current) else None
+
+    def _read(self, wanted: str, document: Document) -> None:
+        surface: Surface | None = None
+        try:
+            path = self._store.file(document.case_id, document.files[0]).path
+            surface = mesh_from_bytes(
+                path.read_bytes(), file_format="ply", unit="mm", space=Space.LPS
+            ).surface
+        except NavigationError as error:
+            log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
+        except OSError:
+            log.warning("the bone's surface cannot be read", document=document.title, exc_info=True)
+        with self._lock:
+            # Meanwhile another one may have been wanted.
+            if wanted == self._shown:
+                self._show(surface)

@@ -1,0 +1,63 @@
+"""Marker, reference and camera lost before a real server: what its clients hear from then on."""
+
+from collections import defaultdict
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from server.config import Config, RehearsalEventConfig
+from tests.procedure.real_server import BUSY_MACHINE, real_server
+from tests.procedure.team import Team
+
+SETTINGS: dict[str, Any] = {
+    **BUSY_MACHINE,
+    "rehearsal": {"seed": 3, "skill": "good", "reference": True, "width": 960, "height": 540},
+    "alarms": {"screen_lost_after_s": 600, "drill_unseen_after_ms": 400, "reference_unseen_after_ms": 400},
+}
+EVENTS = (
+    RehearsalEventConfig(kind="drill_hidden", at_s=3.0, lasts_s=1.5),
+    RehearsalEventConfig(kind="reference_hidden", at_s=6.5, lasts_s=1.5),
+    RehearsalEventConfig(kind="camera_stops", at_s=10.0, lasts_s=2.0),
+)
+ALL_TOLD = {"pose": "tool", "deviation": "deviation", "judgement": "judgement"}
+
+
+def kinds(tool: dict[str, Any]) -> dict[str, str]:
+    """What is told of a tool, and what is absent."""
+    return {name: tool[name]["kind"] for name in ALL_TOLD}
+
+
+@pytest.mark.timeout(600)
+def test_what_is_lost_is_not_told_in_any_message_and_its_alarm_comes(tmp_path: Path) -> None:
+    reasons, alarms = defaultdict[str, set[str]](set), defaultdict[str, set[str]](set)
+    with real_server(tmp_path, SETTINGS) as server:
+        team = Team(server=server, config=Config.model_validate(SETTINGS))
+        team.arm_a_screen()
+        # Navigation has begun before anything is lost.
+        first = server.until("an image", lambda: server.ask("GET", "/api/live", 200)["snapshot"])
+        assert first["camera_calibrated"]
+        team.play("operation", events=EVENTS)
+        with server.listening() as messages:
+            for message in messages:
+                snapshot = message["snapshot"]
+                if snapshot is None:
+                    alarms["camera"] |= {one["condition"] for one in message["alarms"]["alarms"]}
+                    continue
+                truth = team.truth_of(snapshot)
+                if truth.at_s > EVENTS[-1].at_s:
+                    break
+                (tool,) = snapshot["tools"]
+                lost = "" if truth.marker_in_view else "drill"
+                lost = lost if truth.reference_in_view else "reference"
+                if lost:
+                    assert set(kinds(tool).values()) == {"absent"}, lost
+                    reasons[lost].add(tool["deviation"]["reason"])
+                    alarms[lost] |= {one["condition"] for one in message["alarms"]["alarms"]}
+                elif truth.at_s > 2.5:
+                    alarms["nothing"] |= {"told"} if kinds(tool) == ALL_TOLD else set()
+        assert reasons == {"drill": {"MARKER_UNSEEN"}, "reference": {"REFERENCE_UNSEEN"}}
+        assert "told" in alarms["nothing"]
+        assert "DRILL_UNSEEN" in alarms["drill"]
+        assert "REFERENCE_UNSEEN" in alarms["reference"]
+        assert "CAMERA_GONE" in alarms["camera"]

@@ -1,0 +1,36 @@
+"""From true poses to alarms: none while the drill goes down the channel, one when it is held at a limit."""
+
+import pytest
+
+from tests.benchmarks.alarms.drilled import DrilledTheatre, Told
+from tests.benchmarks.alarms.good_drilling import raised_while_held
+from tracker.navigation.alarms import Condition
+
+
+def test_good_drilling_raises_nothing() -> None:
+    theatre, told = DrilledTheatre(7), Told()
+    theatre.drill(theatre.simulated, seconds=40.0, rate_hz=10.0, told=told)
+    assert told.roomy == told.images == 400
+    assert 1.5 < told.least_mm < 4.0
+    assert told.raised == {}
+
+
+def test_a_breach_is_raised_and_no_sooner_than_it_is_true() -> None:
+    theatre, told = DrilledTheatre(7, skill="breaching"), Told()
+    theatre.drill(theatre.simulated, seconds=24.0, rate_hz=10.0, told=told)
+    assert told.least_mm < -1.0
+    assert told.raised[Condition.BREACH] == 1
+    assert told.raised_in_roomy[Condition.BREACH] == 0
+
+
+@pytest.mark.parametrize(
+    ("held_mm", "condition", "times"),
+    [
+        # A warning is confirmed by half a second in a row, which a tremor at the very limit never gives.
+        pytest.param(1.0, Condition.CLEARANCE_LOW, 0, id="at-the-warning-distance"),
+        pytest.param(0.8, Condition.CLEARANCE_LOW, 1, id="under-the-warning-distance"),
+        pytest.param(0.0, Condition.BREACH, 1, id="at-the-wall"),
+    ],
+)
+def test_a_drill_held_at_a_limit_does_not_chatter(held_mm: float, condition: Condition, times: int) -> None:
+    assert raised_while_held(7, held_mm, condition, seconds=8.0) == times

@@ -1,0 +1,36 @@
+"""The tip's trace: the last ten seconds, and nothing from before a gap."""
+
+import numpy as np
+
+from server.scene.trace import EVERY_S, KEPT_S, Trace
+
+
+def filled(seconds: float, rate_hz: float = 30.0) -> Trace:
+    trace = Trace()
+    for number in range(round(seconds * rate_hz)):
+        trace.take(np.array([number / rate_hz, 0.0, 0.0]), at_s=number / rate_hz)
+    return trace
+
+
+def test_the_last_ten_seconds_are_kept_and_no_more() -> None:
+    segments = filled(25.0).segments_mm
+    assert segments[-1, 1, 0] - segments[0, 0, 0] <= KEPT_S
+    assert len(segments) <= KEPT_S / EVERY_S
+    assert len(segments) > 0.7 * KEPT_S / EVERY_S
+
+
+def test_segments_hang_together() -> None:
+    segments = filled(3.0).segments_mm
+    np.testing.assert_array_equal(segments[1:, 0], segments[:-1, 1])
+
+
+def test_a_tip_that_was_away_begins_anew() -> None:
+    trace = filled(5.0)
+    assert trace.take(np.array([99.0, 0.0, 0.0]), at_s=6.5)
+    assert len(trace.segments_mm) == 0
+
+
+def test_time_that_runs_backwards_begins_anew() -> None:
+    trace = filled(5.0)
+    trace.take(np.zeros(3), at_s=1.0)
+    assert len(trace.segments_mm) == 0

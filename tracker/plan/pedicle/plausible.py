@@ -1,0 +1,84 @@
+"""Whether a section can be the pedicle's at all, judged by the solid bone around it and not by the fit.
+
+Beside a pedicle lies the canal. A section that has closed around the side wall of the body, where a
+transverse process joins it, is as narrow and as closed as an isthmus; but beyond its medial wall there is the
+body.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.plan.pedicle.neighbourhood import Neighbourhood
+from tracker.plan.pedicle.outlines import planes_across
+from tracker.plan.pedicle.record import Side
+from tracker.plan.pedicle.search import Bar
+from tracker.plan.pedicle.section import Isthmus
+from tracker.plan.pedicle.solid import Solid
+
+FARTHEST_MM, STEP_MM = 30.0, 0.25
+LIFTS_MM = (-2.5, 0.0, 2.5)
+# The solid closes gaps that are narrower than a voxel or two, so that its canal is the narrower by so much.
+MOST_BEYOND_MM = 4.0
+# Two starts tell of one pedicle where they differ by less than so many standard deviations, or than this.
+MOST_SDS, ALIKE_MM, ALIKE_PLACE_MM, ALIKE_DEG = 3.0, 2.0, 5.0, 10.0
+
+
+def most_beyond_mm(near: Neighbourhood) -> float:
+    """How far bone may seem to go on beyond the medial wall of a pedicle."""
+    return MOST_BEYOND_MM + float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max())
+
+
+def beyond_medial_wall_mm(
+    solid: Solid, centre_mm: Array, axis: Array, half_width_mm: float, side: Side
+) -> float:
+    """How far bone goes on beyond a section's medial wall, where the canal should begin."""
+    (left,), (up,) = planes_across(axis[None])
+    medial = -left if side == "left" else left
+    along = np.arange(0.0, FARTHEST_MM, STEP_MM)
+    reach = []
+    for lift in LIFTS_MM:
+        outside = np.flatnonzero(solid.depth_at(centre_mm + lift * up + along[:, None] * medial) < 0.0)
+        reach.append(float(along[outside[0]]) if len(outside) else FARTHEST_MM)
+    return float(np.median(reach)) - half_width_mm
+
+
+def is_beside_canal(near: Neighbourhood, solid: Solid, bar: Bar, side: Side) -> bool:
+    """Whether bone ends at the medial wall of a bar's narrowest section."""
+    smooth = bar.sections.smooth_mm[int(np.argmin(np.abs(bar.along_mm)))]
+    # The first ray leads to the patient's left.
+    medial_mm = float(smooth[len(smooth) // 2 if side == "left" else 0])
+    return beyond_medial_wall_mm(solid, bar.centre_mm, bar.axis, medial_mm, side) <= most_beyond_mm(near)
+
+
+def agrees(one: Isthmus, other: Isthmus) -> bool:
+    """Whether two sections can be of one pedicle: their sizes, places and axes, each by its spread."""
+    sizes = np.abs([one.width_mm - other.width_mm, one.height_mm - other.height_mm])
+    size_sds = np.hypot([one.width_sd_mm, one.height_sd_mm], [other.width_sd_mm, other.height_sd_mm])
+    apart_mm = float(np.linalg.norm(one.centre_mm - other.centre_mm))
+    turned_deg = float(np.degrees(np.arccos(np.clip(one.axis @ other.axis, -1.0, 1.0))))
+    turn_sd = float(np.linalg.norm([*one.slope_sd_deg, *other.slope_sd_deg]))
+    return bool(
+        (sizes <= np.maximum(MOST_SDS * size_sds, ALIKE_MM)).all()
+        and apart_mm <= ALIKE_PLACE_MM
+        and turned_deg <= max(MOST_SDS * turn_sd, ALIKE_DEG)
+    )
+
+
+def unsure_as(one: Isthmus, other: Isthmus) -> Isthmus:
+    """The first section, its spreads widened by how far the second differs."""
+    apart = one.centre_mm - other.centre_mm
+    turned = np.degrees(one.axis - other.axis)
+    share = 1.0 / np.sqrt(2.0)
+    (left,), (up,) = planes_across(one.axis[None])
+    return replace(
+        one,
+        width_sd_mm=float(np.hypot(one.width_sd_mm, share * (one.width_mm - other.width_mm))),
+        height_sd_mm=float(np.hypot(one.height_sd_mm, share * (one.height_mm - other.height_mm))),
+        centre_sd_mm=float(np.hypot(one.centre_sd_mm, share * np.linalg.norm(apart))),
+        slope_sd_deg=(
+            float(np.hypot(one.slope_sd_deg[0], share * (turned @ left))),
+            float(np.hypot(one.slope_sd_deg[1], share * (turned @ up))),
+        ),
+    )
