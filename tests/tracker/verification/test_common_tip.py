@@ -125,5 +125,5 @@ def test_without_knowing_of_the_common_tip_too_much_is_stated_or_too_little() ->
     assert _covered(turned_deg=180.0, knows=False)["tip"] < 0.92
 
 
-def test_quarter_of_the_covariance_would_be_noticed() -> None:
+def test_a_quarter_of_the_covariance_would_be_noticed() -> None:
     assert _covered(turned_deg=180.0, width=0.25)["tip"] < 0.9

@@ -42,12 +42,12 @@ class SceneSettings:
     """What counts as moved.
 
     Attributes:
-        most_px: in pixels of the whole image; about a milliradian for a usual lens.
+        most_px: in pixels of the whole image; 0.7 milliradian for a usual lens; noise is a third.
         least_in_sight_ratio: with fewer of its patches in sight, the scene says nothing.
         confirmed_by: so many checks in a row must say "moved".
     """
 
-    most_px: float = 1.5
+    most_px: float = 1.0
     least_in_sight_ratio: float = 0.3
     confirmed_by: int = 2
 
