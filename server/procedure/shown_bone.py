@@ -53,7 +53,7 @@ class ShownBone:
         threading.Thread(target=self._read, args=(wanted, document), name="shown bone", daemon=True).start()
 
     def _documents(self) -> tuple[Document | None, Document | None]:
-        """The channel that is drilled, and the surface of its case; None for what is not there, or not now."""
+        """The channel that is drilled, and the surface of its case; None for what is not there now."""
         case = self._store.opened()
         if case is None:
             return None, None

@@ -21,8 +21,7 @@ QUANTITIES = {"entry": "mm", "angle": "deg", "depth": "mm", "tip": "mm"}
 class Share:
     """How many of how many, with the 95 % interval of the ratio.
 
-    Images of one theatre share its registration: the interval counts as many of them as are worth one that
-    stands alone.
+    Images of one theatre share its registration: in the interval all of them count as one at most.
     """
 
     count: int
@@ -168,7 +167,8 @@ def share_of(covered: Sequence[bool], seeds: Sequence[int]) -> Share:
     count = int(theatre.max()) + 1
     off = np.bincount(theatre, weights=true - ratio)
     spread = float((off**2).sum()) / of**2 * count / max(count - 1, 1)
-    alone = float(np.clip(ratio * (1.0 - ratio) / spread, 1.0, of)) if spread > 0.0 else float(count)
+    # One registration stands behind all images of a theatre: they never count for more than it does.
+    alone = float(np.clip(ratio * (1.0 - ratio) / spread, 1.0, count)) if spread > 0.0 else float(count)
     z = float(norm.ppf(0.975))
     middle = (ratio + z**2 / (2.0 * alone)) / (1.0 + z**2 / alone)
     half = z / (1.0 + z**2 / alone) * np.sqrt(ratio * (1.0 - ratio) / alone + (z / (2.0 * alone)) ** 2)

@@ -89,7 +89,11 @@ def _covered(*, turned_deg: float, knows: bool = True, width: float = 1.0) -> di
         )
         tool = _tool(TIP_MM + random.normal(0.0, TIP_SD_MM, 3))
         registration, turn = _registered(pose, tool, random)
-        registration = replace(registration, covariance=width * registration.covariance)
+        registration = replace(
+            registration,
+            covariance=width * registration.covariance,
+            tip_slope=np.sqrt(width) * registration.tip_slope,
+        )
         turn = rotation_from_vector(np.radians(turned_deg) * np.array([0.6, 0.0, 0.8])) @ turn
         at = pose.move_points(CHANNEL.entry_in_vertebra_mm)
         true, seen = _marker_at(at, turn, random)
@@ -121,5 +125,5 @@ def test_without_knowing_of_the_common_tip_too_much_is_stated_or_too_little() ->
     assert _covered(turned_deg=180.0, knows=False)["tip"] < 0.92
 
 
-def test_half_the_covariance_would_be_noticed() -> None:
-    assert _covered(turned_deg=60.0, width=0.5)["tip"] < 0.92
+def test_quarter_of_the_covariance_would_be_noticed() -> None:
+    assert _covered(turned_deg=180.0, width=0.25)["tip"] < 0.9
