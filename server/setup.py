@@ -167,6 +167,7 @@ class Preparation:
             channel=self.channel,
             registration=self.registration,
             reference=self.reference,
+            screw=None if self.guide is None else self.guide.screw,
             withheld=self.withheld,
             most_tip_sd_mm=self.most_tip_sd_mm,
         )

@@ -12,7 +12,7 @@ from server.procedure.plan import ActiveChannel, kept_channel
 from server.procedure.surface import MAIN_SURFACE
 from server.store import CaseStore, Current, Document, DocumentKind
 from tracker.errors import NavigationError
-from tracker.navigation import Guide
+from tracker.navigation import Guide, ScrewSize
 from tracker.navigation.certainty import Room
 from tracker.navigation.clearance import ChosenWall, choose_wall
 from tracker.plan import PedicleMeasure, ScrewPlan, plan_from_mapping
@@ -132,7 +132,9 @@ def _guide(planned: _Planned, chosen: ChosenWall) -> Guide:
     return Guide(
         wall=chosen.wall,
         room=None if screw is None else Room.of_tolerance(screw.tolerance),
-        screw_radius_mm=None if screw is None else 0.5 * screw.diameter_mm,
+        screw=None
+        if screw is None
+        else ScrewSize(radius_mm=0.5 * screw.diameter_mm, length_mm=screw.length_mm),
         side=planned.active.side,
         wall_sd_mm=WALL_SD_MM,
     )

@@ -12,6 +12,7 @@ from viser.transforms import SO3
 
 from tracker.camera import CameraModel
 from tracker.geometry import Array, rotation_between
+from tracker.navigation import ScrewSize
 from tracker.plan import Channel, Surface
 from tracker.pose import ToolModel
 
@@ -19,6 +20,7 @@ BONE_NODE = "/vertebra"
 CHANNEL_NODE = "/channel"
 
 BONE = (244, 228, 196)
+SCREW = (190, 200, 212)
 CHANNEL = (64, 140, 255)
 CHANNEL_OPACITY = 0.4
 DRILL = (255, 138, 31)
@@ -106,6 +108,22 @@ def add_channel(scene: viser.SceneApi, root: str, channel: Channel) -> None:
         color=CHANNEL,
         wxyz=turned,
         position=vector(channel.entry_in_vertebra_mm - axis * CHANNEL_LEAD_MM / 2),
+        cast_shadow=False,
+        receive_shadow=False,
+    )
+
+
+def add_screw(scene: viser.SceneApi, root: str, channel: Channel, screw: ScrewSize) -> None:
+    """The planned screw in its channel."""
+    axis = channel.axis_in_vertebra
+    scene.add_cylinder(
+        f"{root}/screw",
+        radius=screw.radius_mm,
+        height=screw.length_mm,
+        color=SCREW,
+        opacity=0.55,
+        wxyz=quaternion(rotation_between([0.0, 0.0, 1.0], axis)),
+        position=vector(channel.entry_in_vertebra_mm + axis * screw.length_mm / 2),
         cast_shadow=False,
         receive_shadow=False,
     )

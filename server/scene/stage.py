@@ -13,6 +13,7 @@ from server.scene.nodes import (
     add_camera,
     add_channel,
     add_reference,
+    add_screw,
     quaternion,
     vector,
 )
@@ -151,6 +152,8 @@ class Stage:
                 add_bone(scene, root, self._surface)
             if isinstance(setup.channel, Channel):
                 add_channel(scene, root, setup.channel)
+                if setup.screw is not None:
+                    add_screw(scene, root, setup.channel, setup.screw)
         if setup.camera_calibrated:
             self._camera = add_camera(scene, root, setup.camera)
             if setup.reference:
@@ -204,6 +207,7 @@ def _key(setup: Setup) -> tuple[object, ...]:
     return (
         setup.camera_calibrated,
         setup.reference,
+        setup.screw,
         setup.camera.size_wh_px,
         setup.camera.matrix.tobytes(),
         tuple((name, tool.radius_mm, tool.length_mm) for name, tool in setup.tools.items()),

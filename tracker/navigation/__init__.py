@@ -3,7 +3,7 @@
 from tracker.navigation.along import AlongChannel, seen_along
 from tracker.navigation.concluding import navigate
 from tracker.navigation.deviation import Deviation, deviation_from_channel
-from tracker.navigation.guide import Guide, Verdict, verdict_of
+from tracker.navigation.guide import Guide, ScrewSize, Verdict, verdict_of
 from tracker.navigation.moves import MovesSeen, moves_seen_by
 from tracker.navigation.snapshot import (
     Absent,
@@ -26,6 +26,7 @@ __all__ = [
     "MovesSeen",
     "NavigationSnapshot",
     "PlacedVertebra",
+    "ScrewSize",
     "Setup",
     "Steadying",
     "ToolInView",

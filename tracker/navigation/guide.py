@@ -15,20 +15,28 @@ from tracker.pose import ToolModel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ScrewSize:
+    """A screw that is planned on the channel's axis, from its entry on."""
+
+    radius_mm: float
+    length_mm: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Guide:
     """All that is known of the pedicle besides its channel; too large to go with each image.
 
     Attributes:
         wall: distances to the bone; where it is not known, to the pedicle's outline or to the channel.
         room: what the pedicle leaves to navigation; None takes what the channel leaves to the drill.
-        screw_radius_mm: of the planned screw; None where none is planned.
+        screw: that is planned; None where none is.
         side: the plan's side of the patient; None where nobody said it.
         wall_sd_mm: how far the wall may be from where the CT has it: half a voxel, and the threshold.
     """
 
     wall: WallField
     room: Room | None = None
-    screw_radius_mm: float | None = None
+    screw: ScrewSize | None = None
     side: Side | None = None
     wall_sd_mm: float = 0.0
 
@@ -41,7 +49,9 @@ class Guide:
         """Clearance, uncertainty and chance of a breach of a drill that is placed in the plan."""
         room = self.room or Room.of_channel(channel, radius_mm=model.radius_mm)
         drill = Drill(
-            radius_mm=model.radius_mm, length_mm=model.length_mm, screw_radius_mm=self.screw_radius_mm
+            radius_mm=model.radius_mm,
+            length_mm=model.length_mm,
+            screw_radius_mm=None if self.screw is None else self.screw.radius_mm,
         )
         return judge(tool, channel, self.wall, room, drill, side=self.side, wall_sd_mm=self.wall_sd_mm)
 

@@ -20,6 +20,7 @@ from tracker.geometry import (
 )
 from tracker.navigation.certainty import Judged
 from tracker.navigation.deviation import Deviation
+from tracker.navigation.guide import ScrewSize
 from tracker.navigation.watch import NeverSeen, SceneState
 from tracker.plan import Channel
 from tracker.pose import Sighting, ToolModel
@@ -73,6 +74,7 @@ class Setup:
         camera_calibrated: whether poses in mm may be derived from it.
         tools: by name; each names the marker that it carries.
         channel: the planned channel.
+        screw: that is planned in it; None where none is.
         registration: of plan and patient, fixed to the camera or to the patient's reference.
         reference: name of the marker that is fixed to the patient; empty when there is none.
         withheld: why no number is given although all of this is known; None when nothing is in the way.
@@ -85,6 +87,7 @@ class Setup:
     channel: Channel | Absent
     registration: Registration | Absent
     reference: str = ""
+    screw: ScrewSize | None = None
     withheld: AbsentReason | None = None
     most_tip_sd_mm: float = 3.0
 

@@ -3,6 +3,7 @@
 import asyncio
 import pickle
 from collections.abc import Callable, Coroutine
+from dataclasses import replace
 from typing import Any
 
 import msgspec
@@ -14,7 +15,7 @@ from server.live import Instant
 from server.scene.door import Door
 from server.scene.stage import NUMBER_NODE, Stage
 from tests.server.scene.scene_theatre import Theatre
-from tracker.navigation import Absent
+from tracker.navigation import Absent, ScrewSize
 from tracker.plan import Channel
 
 Batch = list[dict[str, Any]]
@@ -179,6 +180,27 @@ def test_registration_brings_bone_and_channel_and_moves_to_the_vertebras_frame(t
         np.testing.assert_allclose(camera["position"], [0.0, 400.0, 0.0], atol=1e-6)
 
     on_stage(before, play)
+
+
+def test_the_planned_screw_lies_in_its_channel_from_the_entry_on(theatre: Theatre) -> None:
+    screwed = replace(theatre, setup=replace(theatre.setup, screw=ScrewSize(radius_mm=2.5, length_mm=30.0)))
+
+    async def play(stage: Stage, viewer: Viewer) -> None:
+        batch = await viewer.batches.get()
+        assert of_kind(batch, "CylinderMessage", "/setup_1/screw") is None
+        stage.show(screwed.instant(1, image_number=3))
+        batch = await viewer.batches.get()
+        screw = of_kind(batch, "CylinderMessage", "/setup_2/screw")
+        assert screw is not None
+        assert (screw["props"]["radius"], screw["props"]["height"]) == (2.5, 30.0)
+        place = of_kind(batch, "SetPositionMessage", "/setup_2/screw")
+        assert place is not None
+        channel = theatre.setup.channel
+        assert isinstance(channel, Channel)
+        middle = channel.entry_in_vertebra_mm + 15.0 * channel.axis_in_vertebra
+        np.testing.assert_allclose(place["position"], middle, atol=1e-4)
+
+    on_stage(theatre, play)
 
 
 def test_a_setup_that_comes_back_stands_where_it_stood_at_first(theatre: Theatre) -> None:
