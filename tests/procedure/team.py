@@ -189,7 +189,7 @@ class Team:
         def held() -> bool:
             self.server.until("the tip at rest", lambda: self.touched() == landmark)
             self.server.ask("POST", CHECK, 201, json={**DRILL, "landmark": landmark})
-            return self._captured_at(CHECK)["capture"]["state"] == "taken"
+            return str(self._captured_at(CHECK)["capture"]["state"]) == "taken"
 
         self.server.until("a tip that was held still", held)
         return dict(self.server.ask("POST", f"{CHECK}/conclusion", 201, json=BY)["content"])

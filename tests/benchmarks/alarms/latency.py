@@ -1,6 +1,7 @@
 """From the image that shows a breach to a client that hears its alarm, with a running server."""
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from websockets.sync.client import connect
@@ -20,6 +21,8 @@ RATE_HZ = 30.0
 EVERY_S, LASTS_S, JUMP_MM = 1.9, 0.5, 7.0
 # An alarm that is over clears after a second; a breach sooner than that is the same one.
 APART_S = 1.2
+# Less deep than this a breach is a matter of the tracker's noise, not of time.
+LEAST_MM = 0.3
 GOAL_MS = 250.0
 
 
@@ -29,7 +32,7 @@ class Breach:
 
     Attributes:
         first_number: of the first image that shows it.
-        depth_mm: how far it is through the wall in that image.
+        depth_mm: how far it is through the wall where it is deepest.
         late_ms: from the grab of that image to the message in the client's hands; None if nothing came.
     """
 
@@ -57,7 +60,8 @@ def breach_table(asked: Asked, *, seconds: float) -> Table:
         ],
         note=(
             "The image that shows it is the first one, taken or skipped, in which the true drill is through "
-            "the true wall. Two images in a row must show it, so that one spoilt image raises nothing."
+            f"the true wall; breaches that stay under {LEAST_MM:g} mm are left out. Two images in a row must "
+            "show it, so that one spoilt image raises nothing."
         ),
     )
 
@@ -87,8 +91,8 @@ def _breaches(asked: Asked, *, seconds: float) -> list[Breach]:
     return [_announced(start, depth, list(heard.values())) for start, depth in starts]
 
 
-def _true_starts(asked: Asked, played: dict[str, object], *, last_number: int) -> list[tuple[int, float]]:
-    """The first image of each breach, and how deep it is there."""
+def _true_starts(asked: Asked, played: Mapping[str, object], *, last_number: int) -> list[tuple[int, float]]:
+    """The first image of each breach, and how deep it becomes."""
     rehearsal = {"seed": asked.seeds[0], "rate_hz": RATE_HZ, **played}
     preparation = build_setup(Config.model_validate({"rehearsal": rehearsal}))
     theatre, channel = preparation.theatre, preparation.channel
@@ -101,12 +105,14 @@ def _true_starts(asked: Asked, played: dict[str, object], *, last_number: int) -
     for image in range(last_number - round(RATE_HZ)):
         truth = theatre.truth_at(image / RATE_HZ)
         placed = truth.camera_from_vertebra.inverse @ truth.camera_from_tool
-        clearance = clearance_mm(placed, channel, wall, theatre)
-        if clearance < 0.0:
-            if image - through_last > APART_S * RATE_HZ:
-                starts.append((image, -clearance))
-            through_last = image
-    return starts
+        depth_mm = -clearance_mm(placed, channel, wall, theatre)
+        if depth_mm <= 0.0:
+            continue
+        if image - through_last > APART_S * RATE_HZ:
+            starts.append((image, depth_mm))
+        starts[-1] = (starts[-1][0], max(starts[-1][1], depth_mm))
+        through_last = image
+    return [one for one in starts if one[1] >= LEAST_MM]
 
 
 def _announced(start: int, depth_mm: float, heard: list[tuple[int, float, float]]) -> Breach:
