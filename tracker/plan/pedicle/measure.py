@@ -15,6 +15,7 @@ from tracker.plan.pedicle.plausible import (
     agrees,
     beyond_medial_wall_mm,
     is_beside_canal,
+    medial_wall_mm,
     most_beyond_mm,
     unsure_as,
 )
@@ -84,7 +85,8 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     refusals.refuse_outside(near, bar, fitted, seed)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
-    beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, 0.5 * isthmus.width_mm, named)
+    wall_mm = medial_wall_mm(isthmus, named)
+    beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, wall_mm, named)
     refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
     if isthmus.width_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)

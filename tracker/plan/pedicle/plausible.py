@@ -30,10 +30,8 @@ def most_beyond_mm(near: Neighbourhood) -> float:
     return MOST_BEYOND_MM + float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max())
 
 
-def beyond_medial_wall_mm(
-    solid: Solid, centre_mm: Array, axis: Array, half_width_mm: float, side: Side
-) -> float:
-    """How far bone goes on beyond a section's medial wall, where the canal should begin."""
+def beyond_medial_wall_mm(solid: Solid, centre_mm: Array, axis: Array, wall_mm: float, side: Side) -> float:
+    """How far bone goes on beyond a section's medial wall (that far from its centre), not to the canal."""
     (left,), (up,) = planes_across(axis[None])
     medial = -left if side == "left" else left
     along = np.arange(0.0, FARTHEST_MM, STEP_MM)
@@ -41,7 +39,14 @@ def beyond_medial_wall_mm(
     for lift in LIFTS_MM:
         outside = np.flatnonzero(solid.depth_at(centre_mm + lift * up + along[:, None] * medial) < 0.0)
         reach.append(float(along[outside[0]]) if len(outside) else FARTHEST_MM)
-    return float(np.median(reach)) - half_width_mm
+    return float(np.median(reach)) - wall_mm
+
+
+def medial_wall_mm(isthmus: Isthmus, side: Side) -> float:
+    """How far a section's outline reaches to the middle from its centre, also where it stands aslant."""
+    (left,), _ = planes_across(isthmus.axis[None])
+    reach = (isthmus.outline_mm - isthmus.centre_mm) @ left
+    return float(-reach.min() if side == "left" else reach.max())
 
 
 def is_beside_canal(near: Neighbourhood, solid: Solid, bar: Bar, side: Side) -> bool:
