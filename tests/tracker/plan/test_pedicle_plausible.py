@@ -18,6 +18,7 @@ from tracker.plan.pedicle.plausible import (
     most_beyond_mm,
     unsure_as,
 )
+from tracker.plan.pedicle.remarks import canal_remarks
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.rehearsal.ct import VertebraPhantom, pedicle_tube, usual_bones
@@ -84,6 +85,11 @@ def test_a_section_that_stands_upright_is_as_sure_as_its_walls() -> None:
     assert not wide.is_aslant
     assert wide.width_mm == pytest.approx(16.0, abs=0.05)
     assert wide.width_sd_mm < 0.15
+
+
+def test_a_canal_that_begins_late_is_said_before_it_is_refused() -> None:
+    assert canal_remarks(6.9, 7.0) == []
+    assert "for 8 mm beyond the medial wall" in canal_remarks(8.0, 7.0)[0]
 
 
 def test_two_starts_agree_within_their_spreads_and_their_difference_widens_them() -> None:

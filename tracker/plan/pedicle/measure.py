@@ -18,6 +18,7 @@ from tracker.plan.pedicle.plausible import (
     medial_wall_mm,
     most_beyond_mm,
     unsure_as,
+    usual_beyond_mm,
 )
 from tracker.plan.pedicle.record import (
     LEAST_AHEAD_MM,
@@ -32,6 +33,7 @@ from tracker.plan.pedicle.record import (
 from tracker.plan.pedicle.remarks import (
     FEW_VOXELS,
     LEAST_FACED,
+    canal_remarks,
     fit_remarks,
     front_remarks,
     length_remarks,
@@ -88,6 +90,7 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     wall_mm = medial_wall_mm(isthmus, named)
     beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, wall_mm, named)
     refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
+    warnings += canal_remarks(beyond_mm, usual_beyond_mm(near))
     if isthmus.width_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)

@@ -20,14 +20,24 @@ from tracker.plan.pedicle.solid import Solid
 FARTHEST_MM, STEP_MM = 30.0, 0.25
 LIFTS_MM = (-2.5, 0.0, 2.5)
 # The solid closes gaps that are narrower than a voxel or two, so that its canal is the narrower by so much.
-MOST_BEYOND_MM = 4.0
+USUAL_BEYOND_MM = 4.0
 # Two starts tell of one pedicle where they differ by less than so many standard deviations, or than this.
 MOST_SDS, ALIKE_MM, ALIKE_PLACE_MM, ALIKE_DEG = 3.0, 2.0, 5.0, 10.0
 
 
+def usual_beyond_mm(near: Neighbourhood) -> float:
+    """How far bone may seem to go on beyond the medial wall of a pedicle, before it is said."""
+    return USUAL_BEYOND_MM + coarsest_mm(near)
+
+
 def most_beyond_mm(near: Neighbourhood) -> float:
-    """How far bone may seem to go on beyond the medial wall of a pedicle."""
-    return MOST_BEYOND_MM + float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max())
+    """How far bone may seem to go on beyond the medial wall, before the section is taken for no pedicle's."""
+    return USUAL_BEYOND_MM + 2.0 * coarsest_mm(near)
+
+
+def coarsest_mm(near: Neighbourhood) -> float:
+    """The longest side of a voxel."""
+    return float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max())
 
 
 def beyond_medial_wall_mm(solid: Solid, centre_mm: Array, axis: Array, wall_mm: float, side: Side) -> float:
@@ -54,7 +64,7 @@ def is_beside_canal(near: Neighbourhood, solid: Solid, bar: Bar, side: Side) -> 
     smooth = bar.sections.smooth_mm[int(np.argmin(np.abs(bar.along_mm)))]
     # The first ray leads to the patient's left.
     medial_mm = float(smooth[len(smooth) // 2 if side == "left" else 0])
-    return beyond_medial_wall_mm(solid, bar.centre_mm, bar.axis, medial_mm, side) <= most_beyond_mm(near)
+    return beyond_medial_wall_mm(solid, bar.centre_mm, bar.axis, medial_mm, side) <= usual_beyond_mm(near)
 
 
 def agrees(one: Isthmus, other: Isthmus) -> bool:
