@@ -62,7 +62,8 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     smallest closed one begins a line that is refitted through the sections' centres; around the narrowest
     section a bar with cortex, marrow and what lies around is fitted to the voxels themselves, with the
     blur of voxel and scanner in it, so that walls are placed far below a voxel. No number of the scanner
-    and no threshold is presumed: cortex, marrow and outside are each fitted where they are.
+    and no threshold is presumed: cortex, marrow and outside are each fitted where they are. What was found is
+    judged by what the fit has not seen: the canal beside it, and where voxels are few, a second start.
 
     Args:
         volume: the CT.
