@@ -70,7 +70,7 @@ def test_lumbar_pedicles_converge_as_their_level_does_even_in_thick_voxels(
 def test_a_section_on_the_side_wall_of_the_body_is_refused_and_not_measured() -> None:
     # L5's process joins the side wall of its body, where a narrow closed section stands beside no canal.
     with pytest.raises(PlanError) as caught:
-        measure_pedicle(lumbar(), (-22.5, -119.6, 249.6), "right")
+        measure_pedicle(lumbar(), (-23.0, -120.0, 251.0), "right")
     assert caught.value.code == "PEDICLE_DOUBTFUL"
 
 

@@ -11,7 +11,14 @@ from tracker.plan.pedicle import axis_from_angles, checked_side, refusals, tube
 from tracker.plan.pedicle.fit import FittedBar, narrowest
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.outlines import planes_across
-from tracker.plan.pedicle.plausible import agrees, beyond_medial_wall_mm, most_beyond_mm, unsure_as
+from tracker.plan.pedicle.plausible import (
+    agrees,
+    beyond_medial_wall_mm,
+    medial_wall_mm,
+    most_beyond_mm,
+    unsure_as,
+)
+from tracker.plan.pedicle.remarks import canal_remarks
 from tracker.plan.pedicle.section import Isthmus, isthmus_of
 from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.rehearsal.ct import VertebraPhantom, pedicle_tube, usual_bones
@@ -69,6 +76,8 @@ def test_of_a_section_that_stands_aslant_the_lesser_extent_is_the_width_and_the_
     assert one.is_aslant
     assert (one.width_mm, one.height_mm) == pytest.approx((11.0, 16.0), abs=0.05)
     assert one.width_sd_mm > 2.0
+    # Its wall lies further aside than half of what is called its width.
+    assert medial_wall_mm(one, "left") == pytest.approx(6.9, abs=0.2)
 
 
 def test_a_section_that_stands_upright_is_as_sure_as_its_walls() -> None:
@@ -76,6 +85,11 @@ def test_a_section_that_stands_upright_is_as_sure_as_its_walls() -> None:
     assert not wide.is_aslant
     assert wide.width_mm == pytest.approx(16.0, abs=0.05)
     assert wide.width_sd_mm < 0.15
+
+
+def test_a_canal_that_begins_late_is_said_before_it_is_refused() -> None:
+    assert canal_remarks(6.9, 7.0) == []
+    assert "for 8 mm beyond the medial wall" in canal_remarks(8.0, 7.0)[0]
 
 
 def test_two_starts_agree_within_their_spreads_and_their_difference_widens_them() -> None:

@@ -15,8 +15,10 @@ from tracker.plan.pedicle.plausible import (
     agrees,
     beyond_medial_wall_mm,
     is_beside_canal,
+    medial_wall_mm,
     most_beyond_mm,
     unsure_as,
+    usual_beyond_mm,
 )
 from tracker.plan.pedicle.record import (
     LEAST_AHEAD_MM,
@@ -31,6 +33,7 @@ from tracker.plan.pedicle.record import (
 from tracker.plan.pedicle.remarks import (
     FEW_VOXELS,
     LEAST_FACED,
+    canal_remarks,
     fit_remarks,
     front_remarks,
     length_remarks,
@@ -59,7 +62,8 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     smallest closed one begins a line that is refitted through the sections' centres; around the narrowest
     section a bar with cortex, marrow and what lies around is fitted to the voxels themselves, with the
     blur of voxel and scanner in it, so that walls are placed far below a voxel. No number of the scanner
-    and no threshold is presumed: cortex, marrow and outside are each fitted where they are.
+    and no threshold is presumed: cortex, marrow and outside are each fitted where they are. What was found is
+    judged by what the fit has not seen: the canal beside it, and where voxels are few, a second start.
 
     Args:
         volume: the CT.
@@ -84,8 +88,10 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     refusals.refuse_outside(near, bar, fitted, seed)
     refusals.refuse_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
-    beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, 0.5 * isthmus.width_mm, named)
+    wall_mm = medial_wall_mm(isthmus, named)
+    beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, wall_mm, named)
     refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
+    warnings += canal_remarks(beyond_mm, usual_beyond_mm(near))
     if isthmus.width_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)

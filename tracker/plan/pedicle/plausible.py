@@ -20,20 +20,28 @@ from tracker.plan.pedicle.solid import Solid
 FARTHEST_MM, STEP_MM = 30.0, 0.25
 LIFTS_MM = (-2.5, 0.0, 2.5)
 # The solid closes gaps that are narrower than a voxel or two, so that its canal is the narrower by so much.
-MOST_BEYOND_MM = 4.0
+USUAL_BEYOND_MM = 4.0
 # Two starts tell of one pedicle where they differ by less than so many standard deviations, or than this.
 MOST_SDS, ALIKE_MM, ALIKE_PLACE_MM, ALIKE_DEG = 3.0, 2.0, 5.0, 10.0
 
 
+def usual_beyond_mm(near: Neighbourhood) -> float:
+    """How far bone may seem to go on beyond the medial wall of a pedicle, before it is said."""
+    return USUAL_BEYOND_MM + coarsest_mm(near)
+
+
 def most_beyond_mm(near: Neighbourhood) -> float:
-    """How far bone may seem to go on beyond the medial wall of a pedicle."""
-    return MOST_BEYOND_MM + float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max())
+    """How far bone may seem to go on beyond the medial wall, before the section is taken for no pedicle's."""
+    return USUAL_BEYOND_MM + 2.0 * coarsest_mm(near)
 
 
-def beyond_medial_wall_mm(
-    solid: Solid, centre_mm: Array, axis: Array, half_width_mm: float, side: Side
-) -> float:
-    """How far bone goes on beyond a section's medial wall, where the canal should begin."""
+def coarsest_mm(near: Neighbourhood) -> float:
+    """The longest side of a voxel."""
+    return float(np.linalg.norm(near.lps_from_index[:3, :3], axis=0).max())
+
+
+def beyond_medial_wall_mm(solid: Solid, centre_mm: Array, axis: Array, wall_mm: float, side: Side) -> float:
+    """How far bone goes on beyond a section's medial wall (that far from its centre), not to the canal."""
     (left,), (up,) = planes_across(axis[None])
     medial = -left if side == "left" else left
     along = np.arange(0.0, FARTHEST_MM, STEP_MM)
@@ -41,7 +49,14 @@ def beyond_medial_wall_mm(
     for lift in LIFTS_MM:
         outside = np.flatnonzero(solid.depth_at(centre_mm + lift * up + along[:, None] * medial) < 0.0)
         reach.append(float(along[outside[0]]) if len(outside) else FARTHEST_MM)
-    return float(np.median(reach)) - half_width_mm
+    return float(np.median(reach)) - wall_mm
+
+
+def medial_wall_mm(isthmus: Isthmus, side: Side) -> float:
+    """How far a section's outline reaches to the middle from its centre, also where it stands aslant."""
+    (left,), _ = planes_across(isthmus.axis[None])
+    reach = (isthmus.outline_mm - isthmus.centre_mm) @ left
+    return float(-reach.min() if side == "left" else reach.max())
 
 
 def is_beside_canal(near: Neighbourhood, solid: Solid, bar: Bar, side: Side) -> bool:
@@ -49,7 +64,7 @@ def is_beside_canal(near: Neighbourhood, solid: Solid, bar: Bar, side: Side) -> 
     smooth = bar.sections.smooth_mm[int(np.argmin(np.abs(bar.along_mm)))]
     # The first ray leads to the patient's left.
     medial_mm = float(smooth[len(smooth) // 2 if side == "left" else 0])
-    return beyond_medial_wall_mm(solid, bar.centre_mm, bar.axis, medial_mm, side) <= most_beyond_mm(near)
+    return beyond_medial_wall_mm(solid, bar.centre_mm, bar.axis, medial_mm, side) <= usual_beyond_mm(near)
 
 
 def agrees(one: Isthmus, other: Isthmus) -> bool:

@@ -16,7 +16,7 @@ LEAST_AHEAD_MM = 3.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PedicleSpread:
-    """Standard deviation of each number, as the fit to the voxels states it."""
+    """Standard deviation of each number: of the fit, and of what else there would have done as well."""
 
     width_mm: float
     height_mm: float

@@ -18,6 +18,16 @@ BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
 TOUCHED_MM, PROCESS_MM = 4.0, 4.0
 
 
+def canal_remarks(beyond_mm: float, usual_mm: float) -> list[str]:
+    """What is said where bone seems to go on beside the medial wall, and the canal begins late."""
+    if beyond_mm <= usual_mm:
+        return []
+    return [
+        f"bone seems to go on for {beyond_mm:.0f} mm beyond the medial wall ({usual_mm:.0f} mm are usual in "
+        "such voxels); the isthmus may lie too far in front, check it on the slices"
+    ]
+
+
 def fit_remarks(
     near: Neighbourhood, solid: Solid, bar: Bar, fitted: FittedBar, isthmus: Isthmus
 ) -> list[str]:
