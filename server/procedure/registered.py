@@ -6,7 +6,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field, ValidationError
 
-from server.config import Section
+from server.config import Point, Section
 from server.store import Document
 from tracker.errors import InvalidInput, NavigationError, RegistrationError
 from tracker.geometry import Rigid
@@ -60,6 +60,10 @@ class KeptRegistration(Section):
     """The marker that it is fixed to; empty where it is fixed to the camera."""
     anchor_from_vertebra: Annotated[list[Row4], Field(min_length=4, max_length=4)]
     covariance: Annotated[list[Row6], Field(min_length=6, max_length=6)]
+    tip_slope: Annotated[list[Point], Field(min_length=6, max_length=6)] = [[0.0] * 3] * 6
+    """How it follows an error of the tip that touched; 0 where no tip did."""
+    tool: str = ""
+    """Whose tip that was."""
     run: str
     """Which run of the server it was made in: past its end nobody knows whether a camera was moved."""
     from_s: float | None = None
@@ -91,6 +95,8 @@ class KeptRegistration(Section):
             reference=reference,
             anchor_from_vertebra=registration.anchor_from_vertebra.matrix.tolist(),
             covariance=registration.covariance.tolist(),
+            tip_slope=registration.tip_slope.tolist(),
+            tool=registration.tool,
             run=run,
             numbers=numbers,
             made_from=made_from,
@@ -110,6 +116,8 @@ class KeptRegistration(Section):
             anchored_to=self.anchored_to,
             anchor_from_vertebra=Rigid.from_matrix(self.anchor_from_vertebra),
             covariance=np.array(self.covariance),
+            tip_slope=np.array(self.tip_slope),
+            tool=self.tool,
         )
 
 

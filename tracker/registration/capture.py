@@ -1,13 +1,13 @@
 """Capture of a landmark: the tip is held on it, and taken only if it was seen and still in every image."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
 from tracker.errors import RegistrationError
-from tracker.geometry import Array
+from tracker.geometry import Array, nearest_rotation
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,12 +40,16 @@ class TipSample:
     Attributes:
         at_s: when.
         tip_in_anchor_mm: (3,).
-        covariance_mm2: (3, 3).
+        covariance_mm2: (3, 3), of all that is unsure, the tip behind its marker with it.
+        anchor_from_marker: (3, 3), how the tool's marker is turned.
+        tip_covariance_mm2: (3, 3) of the tip behind its marker, in the marker's frame.
     """
 
     at_s: float
     tip_in_anchor_mm: Array
     covariance_mm2: Array
+    anchor_from_marker: Array = field(default_factory=lambda: np.eye(3))
+    tip_covariance_mm2: Array = field(default_factory=lambda: np.zeros((3, 3)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +67,9 @@ class CapturedLandmark:
     Attributes:
         tip_in_anchor_mm: (3,) the mean.
         covariance_mm2: (3, 3) of the mean: what is common to all images, and what is left of the rest.
+        anchor_from_marker: (3, 3), how the tool's marker was turned.
+        tip_covariance_mm2: (3, 3) of the tip behind its marker, in the marker's frame; it is in
+            `covariance_mm2`, and common to all landmarks that this tool touches.
         images: how many.
         spread_mm: (3,) standard deviation along the anchor's axes.
         most_off_mm: the farthest single image from the mean.
@@ -75,6 +82,16 @@ class CapturedLandmark:
     spread_mm: Array
     most_off_mm: float
     lasted_s: float
+    anchor_from_marker: Array = field(default_factory=lambda: np.eye(3))
+    tip_covariance_mm2: Array = field(default_factory=lambda: np.zeros((3, 3)))
+
+    @property
+    def own_covariance_mm2(self) -> Array:
+        """(3, 3), of what this touch errs by itself: all but the tip behind its marker."""
+        of_tip = self.anchor_from_marker @ self.tip_covariance_mm2 @ self.anchor_from_marker.T
+        values, vectors = np.linalg.eigh(self.covariance_mm2 - of_tip)
+        # Turned a little from image to image, the tip's part may be larger than what is taken away here.
+        return np.asarray((vectors * np.maximum(values, 0.0)) @ vectors.T)
 
 
 class LandmarkCollector:
@@ -139,6 +156,8 @@ def captured(
         spread_mm=spread,
         most_off_mm=off,
         lasted_s=seen[-1].at_s - seen[0].at_s,
+        anchor_from_marker=nearest_rotation(np.mean([sample.anchor_from_marker for sample in seen], axis=0)),
+        tip_covariance_mm2=seen[0].tip_covariance_mm2,
     )
 
 

@@ -1,8 +1,14 @@
 """The tip in one image, seen from what a registration is fixed to."""
 
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
 from tracker.geometry import inverse_covariance, point_covariance_mm2
 from tracker.pose import Seen, ToolModel
-from tracker.registration.capture import TipSample
+from tracker.registration.capture import CapturedLandmark, TipSample
+from tracker.registration.points import CommonTip, PairedPoints
 
 
 def tip_in_anchor(tool: ToolModel, seen: Seen, reference: Seen | None, *, at_s: float) -> TipSample:
@@ -15,7 +21,13 @@ def tip_in_anchor(tool: ToolModel, seen: Seen, reference: Seen | None, *, at_s: 
     covariance = point_covariance_mm2(pose, seen.pose_covariance, tip)
     covariance = covariance + pose.rotation @ tool.tip_covariance_mm2 @ pose.rotation.T
     if reference is None:
-        return TipSample(at_s=at_s, tip_in_anchor_mm=in_camera, covariance_mm2=covariance)
+        return TipSample(
+            at_s=at_s,
+            tip_in_anchor_mm=in_camera,
+            covariance_mm2=covariance,
+            anchor_from_marker=pose.rotation,
+            tip_covariance_mm2=tool.tip_covariance_mm2,
+        )
     back = reference.camera_from_marker.inverse
     of_back = inverse_covariance(reference.camera_from_marker, reference.pose_covariance)
     return TipSample(
@@ -23,4 +35,29 @@ def tip_in_anchor(tool: ToolModel, seen: Seen, reference: Seen | None, *, at_s: 
         tip_in_anchor_mm=back.move_points(in_camera),
         covariance_mm2=point_covariance_mm2(back, of_back, in_camera)
         + back.rotation @ covariance @ back.rotation.T,
+        anchor_from_marker=back.rotation @ pose.rotation,
+        tip_covariance_mm2=tool.tip_covariance_mm2,
+    )
+
+
+def pairs_of_touches(
+    fixed_mm: npt.ArrayLike, touched: Sequence[CapturedLandmark], *, labels: Sequence[str], tool: str
+) -> PairedPoints:
+    """Landmarks (n, 3) on the CT and where one tool touched them, with what its tip errs at all alike.
+
+    Taken for noise of each touch, that error would be stated too small for the registration, and once more
+    for the drill.
+    """
+    return PairedPoints(
+        fixed_mm=np.asarray(fixed_mm, dtype=np.float64).reshape(-1, 3),
+        moving_mm=np.array([one.tip_in_anchor_mm for one in touched]).reshape(-1, 3),
+        moving_covariances_mm2=np.array([one.own_covariance_mm2 for one in touched]).reshape(-1, 3, 3),
+        labels=tuple(labels),
+        common=None
+        if not touched
+        else CommonTip(
+            tool=tool,
+            covariance_mm2=touched[-1].tip_covariance_mm2,
+            anchor_from_marker=np.array([one.anchor_from_marker for one in touched]),
+        ),
     )

@@ -1,12 +1,10 @@
 """Registration in the theatre: by landmarks that the tip touches, and by needles in the image."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from tracker.errors import RegistrationError
-from tracker.geometry import Array
 from tracker.plan import Channel, Landmark
 from tracker.pose import Seen, ToolModel
 from tracker.registration import AnchoredTo, Method, Registration
@@ -19,8 +17,8 @@ from tracker.registration.needles import (
     register_needles,
     view_from_ruler,
 )
-from tracker.registration.points import CommonTip, PairedPoints, PointGate, register_points
-from tracker.registration.tip import tip_in_anchor
+from tracker.registration.points import PointGate, register_points
+from tracker.registration.tip import pairs_of_touches, tip_in_anchor
 from tracker.rehearsal import Scene, Theatre
 from tracker.verification.eyes import Eyes, Look
 from tracker.verification.people import clicked, marked_on_ct, measured_by_ruler, needle_entries
@@ -81,36 +79,16 @@ def by_points(
     Raises:
         RegistrationError: a capture, the fit or the gate refuses.
     """
-    # What the tip errs is common to all touches: it is no noise of each.
-    sure = replace(tool, tip_covariance_mm2=np.zeros((3, 3)))
-    taken = [tip_on(touched[one.name], sure, anchor) for one in plan]
+    taken = [tip_on(touched[one.name], tool, anchor) for one in plan]
     fit = register_points(
-        PairedPoints(
-            fixed_mm=np.stack([one.point_lps_mm for one in plan]),
-            moving_mm=np.stack([one.tip_in_anchor_mm for one in taken]),
-            moving_covariances_mm2=np.stack([one.covariance_mm2 for one in taken]),
-            labels=tuple(one.name for one in plan),
-            common=CommonTip(
-                tool=tool.name,
-                covariance_mm2=tool.tip_covariance_mm2,
-                anchor_from_marker=np.stack([_turned(touched[one.name], tool, anchor) for one in plan]),
-            ),
+        pairs_of_touches(
+            [one.point_lps_mm for one in plan], taken, labels=[one.name for one in plan], tool=tool.name
         )
     )
     failures = fit.failures(PointGate(), [channel.entry_in_vertebra_mm, channel.target_in_vertebra_mm])
     for failure in failures:
         raise failure
     return fit.registration(anchor)
-
-
-def _turned(looks: Sequence[Look], tool: ToolModel, anchor: AnchoredTo) -> Array:
-    """How the marker was turned in the anchor's frame (3, 3) while the tip rested."""
-    drill, reference = looks[-1].sightings[tool.marker], looks[-1].sightings["reference"]
-    if not isinstance(drill, Seen):
-        return np.eye(3)
-    if anchor is AnchoredTo.CAMERA or not isinstance(reference, Seen):
-        return drill.camera_from_marker.rotation
-    return np.asarray(reference.camera_from_marker.rotation.T @ drill.camera_from_marker.rotation)
 
 
 def by_needles(

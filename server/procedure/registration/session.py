@@ -4,15 +4,14 @@ import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from server.live import LiveHub, Trouble
 from server.procedure.registration.ground import Ground
 from server.procedure.registration.touching import Touch, TouchState, TouchStatus
 from tracker.errors import RegistrationError
 from tracker.geometry import Array
 from tracker.registration.capture import CapturedLandmark, CaptureSettings
-from tracker.registration.points import PairedPoints, PointRegistration, register_points
+from tracker.registration.points import PointRegistration, register_points
+from tracker.registration.tip import pairs_of_touches
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,7 +139,7 @@ class PointsSession:
         )
         fit, trouble = None, None
         try:
-            fit = fit_of(landmarks)
+            fit = fit_of(landmarks, self.ground.tool)
         except RegistrationError as error:
             trouble = Trouble.from_error(error)
         return PointsStatus(
@@ -180,21 +179,19 @@ class PointsSession:
             )
 
 
-def fit_of(landmarks: tuple[TouchedLandmark, ...]) -> PointRegistration:
-    """The fit of those that are used; those that are not have residuals all the same.
+def fit_of(landmarks: tuple[TouchedLandmark, ...], tool: str) -> PointRegistration:
+    """The fit of those that are used, touched by this tool; those that are not have residuals all the same.
 
     Raises:
         RegistrationError: as `register_points`.
     """
     pairs = [(one, one.touched) for one in landmarks if one.touched is not None]
     return register_points(
-        PairedPoints(
-            fixed_mm=np.array([one.point_lps_mm for one, _ in pairs]).reshape(-1, 3),
-            moving_mm=np.array([touched.tip_in_anchor_mm for _, touched in pairs]).reshape(-1, 3),
-            moving_covariances_mm2=np.array([touched.covariance_mm2 for _, touched in pairs]).reshape(
-                -1, 3, 3
-            ),
-            labels=tuple(one.name for one, _ in pairs),
+        pairs_of_touches(
+            [one.point_lps_mm for one, _ in pairs],
+            [touched for _, touched in pairs],
+            labels=[one.name for one, _ in pairs],
+            tool=tool,
         ),
         excluded=[index for index, (one, _) in enumerate(pairs) if not one.used],
     )
