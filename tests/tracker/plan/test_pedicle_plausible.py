@@ -106,6 +106,16 @@ def test_two_starts_agree_within_their_spreads_and_their_difference_widens_them(
     assert not agrees(one, replace(one, axis=aslant))
 
 
+def test_where_two_starts_differ_in_which_extent_is_the_width_the_lesser_is() -> None:
+    wide = isthmus_of(bar(width_mm=17.0, height_mm=12.0, roll_deg=35.0), 3.0)
+    high = isthmus_of(bar(width_mm=12.0, height_mm=17.0, roll_deg=0.0), 3.0)
+    both = unsure_as(wide, high)
+    assert (both.width_mm, both.height_mm) == (wide.height_mm, wide.width_mm)
+    assert both.is_aslant
+    assert min(both.width_sd_mm, both.height_sd_mm) > 3.0
+    assert unsure_as(high, wide).width_mm == high.width_mm
+
+
 def test_the_narrowest_place_of_a_bar_with_hardly_a_waist_never_jumps() -> None:
     slope, bends = -0.017, np.linspace(-0.02, 0.08, 200)
     places = [narrowest(bar(width_mm=9.0, height_mm=12.0, roll_deg=0.0, growth=(slope, b))) for b in bends]

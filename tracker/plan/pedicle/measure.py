@@ -92,7 +92,8 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, wall_mm, named)
     refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
     warnings += canal_remarks(beyond_mm, usual_beyond_mm(near))
-    if isthmus.width_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
+    least_mm = min(isthmus.width_mm, isthmus.height_mm)
+    if least_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
 

@@ -82,12 +82,15 @@ def agrees(one: Isthmus, other: Isthmus) -> bool:
 
 
 def unsure_as(one: Isthmus, other: Isthmus) -> Isthmus:
-    """The first section, its spreads widened by how far the second differs."""
+    """The first section, its spreads widened by how far the second differs.
+
+    Where they differ in which extent is the width, the section stands aslant, and the lesser one is.
+    """
     apart = one.centre_mm - other.centre_mm
     turned = np.degrees(one.axis - other.axis)
     share = 1.0 / np.sqrt(2.0)
     (left,), (up,) = planes_across(one.axis[None])
-    return replace(
+    widened = replace(
         one,
         width_sd_mm=float(np.hypot(one.width_sd_mm, share * (one.width_mm - other.width_mm))),
         height_sd_mm=float(np.hypot(one.height_sd_mm, share * (one.height_mm - other.height_mm))),
@@ -97,3 +100,13 @@ def unsure_as(one: Isthmus, other: Isthmus) -> Isthmus:
             float(np.hypot(one.slope_sd_deg[1], share * (turned @ up))),
         ),
     )
+    if one.width_mm > one.height_mm and other.width_mm < other.height_mm:
+        return replace(
+            widened,
+            width_mm=one.height_mm,
+            height_mm=one.width_mm,
+            width_sd_mm=widened.height_sd_mm,
+            height_sd_mm=widened.width_sd_mm,
+            other_way_ratio=0.5,
+        )
+    return widened
