@@ -48,9 +48,10 @@ export function NumbersPane(): ReactNode {
       <div className="numbers" data-testid="numbers" data-live="false" ref={pane}>
         <div className="numbers-state">
           {view.numbers.live ? (
-            <p className="state-verdict" data-testid="verdict" ref={verdict} />
+            // Keys, because the painter writes into one of them, and the other must not inherit what it wrote.
+            <p className="state-verdict" data-testid="verdict" key="verdict" ref={verdict} />
           ) : (
-            <p className="state-bad" data-testid="no-tracking">
+            <p className="state-bad" data-testid="no-tracking" key="no-tracking">
               <span aria-hidden="true">▲▲</span>{" "}
               {isSeen(view.numbers) ? words.numbers.noNumbers : words.numbers.none} <Since span={since} />
             </p>
