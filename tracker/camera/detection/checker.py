@@ -15,6 +15,7 @@ from tracker.geometry import Array
 SECTOR_FLAGS = cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_ACCURACY
 QUAD_FLAGS = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
 LEAST_CORNERS = 12
+ENLARGED, LARGEST_ENLARGED_PX = 1.5, 2_000_000
 LEAST_SIDE = 3
 MOST_GRIDS = 4
 LEAST_REGULAR_RATIO, LEAST_CONTRAST_RATIO = 0.75, 0.6
@@ -26,9 +27,17 @@ def find_checker(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFo
     """The inner corners of the board in an image, or why not."""
     corners = _whole(grey, board)
     if corners is not None:
-        row, column = np.divmod(np.arange(len(corners)), board.columns)
-        return _viewed(grey, board, corners, np.column_stack([column, row]), is_whole=True)
-    return _in_part(grey, board)
+        return _whole_viewed(grey, board, corners)
+    part = _in_part(grey, board)
+    if isinstance(part, BoardView):
+        return part
+    enlarged = _whole_enlarged(grey, board)
+    return part if enlarged is None else _whole_viewed(grey, board, enlarged)
+
+
+def _whole_viewed(grey: GreyImage, board: CheckerBoard, corners: Array) -> BoardView | BoardNotFound:
+    row, column = np.divmod(np.arange(len(corners)), board.columns)
+    return _viewed(grey, board, corners, np.column_stack([column, row]), is_whole=True)
 
 
 def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
@@ -91,6 +100,22 @@ def _whole(grey: GreyImage, board: CheckerBoard) -> Array | None:
     if not found:
         found, corners = cv2.findChessboardCorners(grey, size, flags=QUAD_FLAGS)
     return np.asarray(corners, dtype=np.float64).reshape(-1, 2) if found else None
+
+
+def _whole_enlarged(grey: GreyImage, board: CheckerBoard) -> Array | None:
+    """The corners of a small board beside others that drew all corner finders to themselves.
+
+    Its squares hang together only where the gaps between them are wide enough to be opened: enlarged.
+    """
+    size = (board.columns, board.rows)
+    if min(size) < LEAST_SIDE or grey.size > LARGEST_ENLARGED_PX:
+        return None
+    larger = cv2.resize(grey, None, fx=ENLARGED, fy=ENLARGED, interpolation=cv2.INTER_CUBIC)
+    found, corners = cv2.findChessboardCorners(larger, size, flags=QUAD_FLAGS & ~cv2.CALIB_CB_FAST_CHECK)
+    if not found:
+        return None
+    # The middle of the first pixel is at (0, 0) in both.
+    return (np.asarray(corners, dtype=np.float64).reshape(-1, 2) + 0.5) / ENLARGED - 0.5
 
 
 def _viewed(
