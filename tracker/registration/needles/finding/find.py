@@ -17,7 +17,9 @@ from tracker.registration.needles.seen import NeedleSeen
 from tracker.registration.needles.view import View
 
 Image8 = npt.NDArray[np.uint8]
-LONGEST_PX, LONGEST_GAP_PX = 400.0, 14
+LONGEST_PX = 400.0
+# A cut without a bar speaks this much stronger against a needle than one with it speaks for it.
+GAP_WEIGHT = 1.5
 UP_PX = (0.0, -1.0)
 LEAST_LENGTH_IN_WIDTHS = 14.0
 # Bare metal has hardly a colour of its own, and a wire has one shade all along but for its shine.
@@ -194,15 +196,17 @@ def _of_one_shade(sections: Sections) -> Sections:
 
 
 def _run(sections: Sections) -> slice:
-    """The cuts from end to end of the bar around the middle; short gaps are bridged."""
-    good = np.flatnonzero(sections.is_bar)
-    if not len(good):
-        return slice(0, 0)
-    breaks = np.flatnonzero(np.diff(good) > LONGEST_GAP_PX)
-    starts, stops = np.append(0, breaks + 1), np.append(breaks + 1, len(good))
-    # The longest piece, not the nearest: the seed may lie on a stretch with little contrast.
-    best = int(np.argmax(stops - starts))
-    return slice(int(good[starts[best]]), int(good[stops[best] - 1]) + 1)
+    """The cuts from end to end of the bar: where those that show it outweigh those that do not by most.
+
+    So another needle before it is bridged where enough of it is seen on both sides, and what lies beyond its
+    head is not.
+    """
+    weights = np.where(sections.is_bar, 1.0, -GAP_WEIGHT)
+    sums = np.concatenate([[0.0], np.cumsum(weights)])
+    lowest = np.minimum.accumulate(sums)
+    stop = int(np.argmax(sums - lowest))
+    start = int(np.argmin(sums[: stop + 1]))
+    return slice(start, stop)
 
 
 def _bar_of(needle: FoundNeedle) -> Bar:
