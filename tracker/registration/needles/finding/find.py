@@ -1,6 +1,7 @@
 """Thin straight bars with a head, ranked; what does not look like a needle is not claimed."""
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -10,7 +11,7 @@ import numpy.typing as npt
 from tracker.camera import CameraModel
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
-from tracker.registration.needles.finding.bars import Bar, bars, is_on
+from tracker.registration.needles.finding.bars import Bar, bars, half_bars, is_on
 from tracker.registration.needles.finding.head import head_length_px
 from tracker.registration.needles.finding.sections import Sections, cut
 from tracker.registration.needles.seen import NeedleSeen
@@ -21,7 +22,7 @@ LONGEST_PX = 400.0
 # A cut without a bar speaks this much stronger against a needle than one with it speaks for it.
 GAP_WEIGHT = 1.5
 UP_PX = (0.0, -1.0)
-LEAST_LENGTH_IN_WIDTHS = 14.0
+LEAST_LENGTH_IN_WIDTHS = 12.0
 # Bare metal has hardly a colour of its own, and a wire has one shade all along but for its shine.
 MOST_COLOUR_RATIO, MOST_SHADE_CHANGE = 0.25, 45.0
 MOST_PIECES = 120
@@ -89,16 +90,35 @@ def find_needles(
     span = width or WidthRange()
     heads = np.asarray(heads_to, dtype=np.float64).reshape(2)
     grey = np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY), dtype=np.uint8)
-    found: list[tuple[Bar, FoundNeedle]] = []
     pieces = bars(grey, span.narrowest_px, span.widest_px)
     likely = [bar for bar in pieces if _is_metal(picture, bar) and (near is None or _is_near(bar, near))]
-    for bar in likely[:MOST_PIECES]:
-        if any(is_on(one, bar.middle_px, bar.along) for one, _ in found):
+    found = _grown(picture, camera, likely[:MOST_PIECES], heads)
+    headed = [one for one in found if one.has_head]
+    if near is None and headed:
+        width_px = float(np.median([one.seen.width_px for one in headed]))
+        halves = half_bars(grey, width_px, [_bar_of(one) for one in headed])
+        found += _grown(picture, camera, halves[:MOST_PIECES], heads, found)
+    return tuple(_each_once(sorted(found, key=lambda one: -one.score_ratio)))
+
+
+def _grown(
+    picture: Image8,
+    camera: CameraModel,
+    pieces: Sequence[Bar],
+    heads_to: Array,
+    known: Sequence[FoundNeedle] = (),
+) -> list[FoundNeedle]:
+    """The needles of which these are pieces, but for those that are known."""
+    out: list[FoundNeedle] = []
+    taken = [_bar_of(one) for one in known]
+    for bar in pieces:
+        if any(is_on(one, bar.middle_px, bar.along) for one in taken):
             continue
-        needle = _needle(picture, camera, bar, heads)
+        needle = _needle(picture, camera, bar, heads_to)
         if needle is not None:
-            found.append((_bar_of(needle), needle))
-    return tuple(_each_once(sorted((one for _, one in found), key=lambda one: -one.score_ratio)))
+            taken.append(_bar_of(needle))
+            out.append(needle)
+    return out
 
 
 def _needle(picture: Image8, camera: CameraModel, bar: Bar, heads_to: Array) -> FoundNeedle | None:
