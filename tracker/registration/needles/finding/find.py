@@ -31,6 +31,7 @@ MOST_BEND_PX = 0.6
 # Noise alone would make the line far surer; uneven light on a wire moves both sides alike.
 LEAST_ACROSS_SD_PX, ALONG_SD_PX = 0.3, 2.0
 NEAR_PX, NEAR_DEG = 12.0, 12.0
+SAME_PX, SAME_END_PX = 3.5, 20.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,7 +99,9 @@ def find_needles(
         width_px = float(np.median([one.seen.width_px for one in headed]))
         halves = half_bars(grey, width_px, [_bar_of(one) for one in headed])
         found += _grown(picture, camera, halves[:MOST_PIECES], heads, found)
-    return tuple(_each_once(sorted(found, key=lambda one: -one.score_ratio)))
+    # Of two that lie on one another the longer: what crosses a needle makes it short, and leads it astray.
+    longest = sorted(found, key=lambda one: -one.score_ratio * one.seen.length_px)
+    return tuple(sorted(_each_once(longest), key=lambda one: -one.score_ratio))
 
 
 def _grown(
@@ -244,9 +247,18 @@ def _each_once(found: list[FoundNeedle]) -> list[FoundNeedle]:
     kept: list[FoundNeedle] = []
     for one in found:
         bar = _bar_of(one)
-        if not any(is_on(_bar_of(other), bar.middle_px, bar.along) for other in kept):
+        if not any(_lies_on(bar, _bar_of(other)) for other in kept):
             kept.append(one)
     return kept
+
+
+def _lies_on(bar: Bar, longer: Bar) -> bool:
+    """Whether all of a bar lies on another one: it is then a piece of the same needle."""
+    beside = np.array([-longer.along[1], longer.along[0]])
+    half = 0.5 * bar.length_px * bar.along
+    ends = np.stack([bar.middle_px - half, bar.middle_px + half]) - longer.middle_px
+    within = np.abs(ends @ longer.along) < 0.5 * longer.length_px + SAME_END_PX
+    return bool((np.abs(ends @ beside) < SAME_PX).all() and within.all())
 
 
 def _is_near(bar: Bar, near: NeedleSeen) -> bool:
