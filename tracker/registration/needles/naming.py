@@ -9,15 +9,18 @@ import numpy.typing as npt
 
 from tracker.camera import CameraModel
 from tracker.geometry import Array, rotation_from_vector
+from tracker.registration.needles.equations import Task
 from tracker.registration.needles.finding import FoundNeedle
 from tracker.registration.needles.places import NeedlePlace
 from tracker.registration.needles.seen import HIDDEN_MM, HIDDEN_SD_MM
-from tracker.registration.needles.view import MeasuredView, view_from_ruler, frame_of_sight
+from tracker.registration.needles.solutions import nearest_solution
+from tracker.registration.needles.view import MeasuredView, TouchedPoint, frame_of_sight, view_from_ruler
 
-MOST_CANDIDATES, MOST_NAMINGS = 24, 40_000
+MOST_CANDIDATES, MOST_NAMINGS, MOST_FITTED = 24, 40_000, 40
 DRAWN = 1200
-# How far needles stand out of the bone: they are of one make, and each is driven in as deep as it goes.
-OUT_MM, OUT_SD_MM, EACH_SD_MM, SHORTEST_OUT_MM = 45.0, 12.0, 5.0, 15.0
+# How far needles stand out of the bone: they are of one make, each driven in as deep as it goes, and what
+# crosses one before the other may hide a part.
+OUT_MM, OUT_SD_MM, EACH_SD_MM, SHORTEST_OUT_MM = 45.0, 12.0, 10.0, 15.0
 # All needles are of one wire: their widths in the image differ by depth and noise alone.
 WIDTH_SD_RATIO = 0.15
 
@@ -27,35 +30,69 @@ def likely_namings(
     places: Sequence[NeedlePlace],
     camera: CameraModel,
     measured: MeasuredView,
+    *,
+    touched: tuple[TouchedPoint, ...] = (),
 ) -> list[tuple[float, tuple[int, ...]]]:
-    """Every choice and order of candidates as (cost, indices in the plan's order), the likeliest first.
+    """The likely choices and orders of candidates as (cost, indices in the plan's order), the likeliest first.
 
-    The costs are squared distances from what such a view shows: where needles come out of the bone beside
-    one another, how they lie in the image and how long they look; touched points are not asked.
+    All are compared with what such a view shows: where needles come out of the bone beside one another, how
+    they lie in the image and how long they look. The best of them are compared by the pose that fits them.
 
     Args:
         candidates: as found, the likeliest first.
         places: of the needles.
         camera: calibrated.
         measured: V, H and azimuth.
+        touched: points that the tool's tip was held on.
     """
-    count = min(len(candidates), MOST_CANDIDATES)
-    while count > len(places) and math.perm(count, len(places)) > MOST_NAMINGS:
+    choices = _choices(len(candidates), len(places))
+    shown, beside = _shown_costs(candidates, places, camera, measured, choices)
+    beside = beside + looks_costs(candidates, choices)
+    fine = []
+    for n in np.argsort(shown + beside, kind="stable")[:MOST_FITTED]:
+        choice = tuple(int(i) for i in choices[n])
+        seen = [candidates[i].seen for i in choice]
+        at_px = np.mean([one.entry_px for one in seen], axis=0)
+        view = view_from_ruler(measured, camera, at_px, touched=touched)
+        cost = nearest_solution(Task.of(places, seen, camera, view)).cost
+        fine.append((cost + float(beside[n]), choice))
+    return sorted(fine)
+
+
+def _choices(candidates: int, places: int) -> npt.NDArray[np.intp]:
+    """All ways (m, n) of choosing, of as many of the likeliest candidates as there is time for."""
+    count = min(candidates, MOST_CANDIDATES)
+    while count > places and math.perm(count, places) > MOST_NAMINGS:
         count -= 1
-    choices = np.array(list(itertools.permutations(range(count), len(places))), dtype=np.intp)
-    ends = np.stack([[one.seen.entry_px, one.seen.head_px] for one in candidates[:count]])
-    rays = np.column_stack([camera.normalised_from_px(ends.reshape(-1, 2)), np.ones(2 * count)])
-    seen = _features(_seen_beside(rays.reshape(count, 2, 3), choices))
+    return np.array(list(itertools.permutations(range(count), places)), dtype=np.intp)
+
+
+def _shown_costs(
+    candidates: Sequence[FoundNeedle],
+    places: Sequence[NeedlePlace],
+    camera: CameraModel,
+    measured: MeasuredView,
+    choices: npt.NDArray[np.intp],
+) -> tuple[Array, Array]:
+    """How far each choice (m) is from what is expected: by its lines, and what its lengths add to that."""
+    ends = np.stack([[one.seen.entry_px, one.seen.head_px] for one in candidates])
+    rays = np.column_stack([camera.normalised_from_px(ends.reshape(-1, 2)), np.ones(2 * len(ends))])
+    seen = _features(_seen_beside(rays.reshape(-1, 2, 3), choices))
     drawn = _features(_drawn(places, camera, measured))
     off = seen - drawn.mean(axis=0)
-    turns = slice(2 * len(places), 3 * len(places))
+    lines = 3 * len(places)
+    turns = slice(2 * len(places), lines)
     off[:, turns] = (off[:, turns] + np.pi) % (2.0 * np.pi) - np.pi
     spread = np.cov(drawn.T)
+    by_lines = _far(off[:, :lines], spread[:lines, :lines])
+    return by_lines, _far(off, spread) - by_lines
+
+
+def _far(off: Array, spread: Array) -> Array:
+    """Squared distances (m) of rows (m, k) in standard deviations."""
     # The entries are told from their middle, so that two of these numbers follow from the others.
     known = np.linalg.pinv(spread, rcond=1e-9, hermitian=True)
-    costs = np.einsum("ni,ij,nj->n", off, known, off) + looks_costs(candidates[:count], choices)
-    order = np.argsort(costs, kind="stable")
-    return [(float(costs[n]), tuple(int(i) for i in choices[n])) for n in order]
+    return np.asarray(np.einsum("ni,ij,nj->n", off, known, off))
 
 
 def looks_costs(candidates: Sequence[FoundNeedle], choices: npt.NDArray[np.intp]) -> Array:

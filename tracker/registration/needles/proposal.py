@@ -20,6 +20,8 @@ from tracker.registration.needles.view import MeasuredView, TouchedPoint, view_f
 MOST_PROPOSALS, MOST_TRIED = 3, 12
 # A naming that is so much worse than the likeliest is not worth a person's look.
 MOST_WORSE = 16.0
+# Costs take needles to lean independently and their ends to be seen; in rehearsals they are this too far apart.
+TOO_SURE = 1.75
 # Two lines that are this near at both ends are one needle.
 SAME_PX = 4.0
 # A person marks a needle within this many of the stated standard deviations, or has marked another one.
@@ -120,7 +122,7 @@ def propose_needles(
         )
     fits: list[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]] = []
     refusal: RegistrationError | None = None
-    namings = likely_namings(found, places, camera, measured)
+    namings = likely_namings(found, places, camera, measured, touched=touched)
     for cost, naming in namings[:MOST_TRIED]:
         if fits and cost - fits[0][0] > MOST_WORSE:
             break
@@ -157,7 +159,7 @@ def _proposals(
     fits: Sequence[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]], gate: NeedleLimits
 ) -> tuple[NeedleProposal, ...]:
     costs = np.array([cost for cost, _, _ in fits])
-    chances = np.exp(-0.5 * (costs - costs.min()))
+    chances = np.exp(-0.5 * (costs - costs.min()) / TOO_SURE)
     chances /= chances.sum()
     out = []
     for n, (cost, fit, needles) in enumerate(fits[:MOST_PROPOSALS]):
