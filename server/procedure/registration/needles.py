@@ -111,6 +111,23 @@ class LaidSlice:
     fit: NeedleFit | None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProposedSlice:
+    """One likely way of naming the needles that were found, for a person to pick.
+
+    Attributes:
+        laid: the fit, if this is which needle is which.
+        found: the needles in the image, in the plan's order.
+        chance_ratio: 0..1, how likely this one is among those that are proposed.
+        lead: by how much the likeliest other one is worse, as a difference of chi squared.
+    """
+
+    laid: LaidSlice
+    found: tuple[NeedleSeen, ...]
+    chance_ratio: float
+    lead: float
+
+
 class NeedleStep:
     """Registers by needles in the newest image. Safe to use from any thread; holds nothing.
 
@@ -166,13 +183,13 @@ class NeedleStep:
             touched=touched,
         )
 
-    def propose(self, scene: NeedleScene, *, radius_mm: float) -> LaidSlice:
-        """Find the needles in the image, and lay the slice over them; nothing is kept.
+    def propose(self, scene: NeedleScene, *, radius_mm: float) -> tuple[ProposedSlice, ...]:
+        """Find the needles in the image, and lay the slice over each likely naming; nothing is kept.
 
         Raises:
-            RegistrationError: NEEDLES_NOT_FOUND, NEEDLES_UNSURE, or as `register_needles`.
+            RegistrationError: NEEDLES_NOT_FOUND, or as `register_needles` where nothing fits.
         """
-        proposal = propose_needles(
+        proposals = propose_needles(
             scene.image,
             scene.places,
             scene.camera,
@@ -180,10 +197,22 @@ class NeedleStep:
             touched=scene.touched,
             radius_mm=radius_mm,
         )
-        return _fitted(scene, proposal.fit, [one.seen for one in proposal.needles])
+        out = []
+        for one in proposals:
+            seen = tuple(needle.seen for needle in one.needles)
+            laid = _fitted(scene, one.fit, seen)
+            out.append(ProposedSlice(laid=laid, found=seen, chance_ratio=one.chance_ratio, lead=one.lead))
+        return tuple(out)
 
-    def mark(self, scene: NeedleScene, marked: Sequence[NeedleSeen]) -> LaidSlice:
+    def mark(
+        self, scene: NeedleScene, marked: Sequence[NeedleSeen], *, order_is_sure: bool = False
+    ) -> LaidSlice:
         """Fit to needles that a person has marked, each in the order of the plan; nothing is kept.
+
+        Args:
+            scene: the image.
+            marked: the needles.
+            order_is_sure: whether the person has picked this naming in the picture, beside others.
 
         Raises:
             InvalidInput: NEEDLES_UNPAIRED.
@@ -198,7 +227,8 @@ class NeedleStep:
             )
         seen = refine_marked(scene.image, scene.camera, marked)
         at_px = np.mean([one.entry_px for one in seen], axis=0)
-        fit = register_needles(scene.places, seen, scene.camera, scene.view(at_px))
+        view = scene.view(at_px)
+        fit = register_needles(scene.places, seen, scene.camera, view, order_is_sure=order_is_sure)
         return _fitted(scene, fit, seen)
 
     def lay(

@@ -33,7 +33,7 @@ def likely_namings(
     *,
     touched: tuple[TouchedPoint, ...] = (),
 ) -> list[tuple[float, tuple[int, ...]]]:
-    """The likely choices and orders of candidates as (cost, indices in the plan's order), the likeliest first.
+    """The likely choices and orders of candidates as (cost, indices in the plan's order), likeliest first.
 
     All are compared with what such a view shows: where needles come out of the bone beside one another, how
     they lie in the image and how long they look. The best of them are compared by the pose that fits them.
@@ -123,7 +123,7 @@ def _seen_beside(rays: Array, choices: npt.NDArray[np.intp]) -> Array:
 
 
 def _drawn(places: Sequence[NeedlePlace], camera: CameraModel, measured: MeasuredView) -> Array:
-    """Ends (DRAWN, n, 2, 2) as they might be seen: view, places, leans and lengths drawn with their spreads."""
+    """Ends (DRAWN, n, 2, 2) as they might be seen: view, places, leans and lengths drawn as they spread."""
     view = view_from_ruler(measured, camera, camera.matrix[:2, 2])
     frame = frame_of_sight(np.array([0.0, 0.0, 1.0]))
     random = np.random.default_rng(0)

@@ -20,7 +20,7 @@ from tracker.registration.needles.view import MeasuredView, TouchedPoint, view_f
 MOST_PROPOSALS, MOST_TRIED = 3, 12
 # A naming that is so much worse than the likeliest is not worth a person's look.
 MOST_WORSE = 16.0
-# Costs take needles to lean independently and their ends to be seen; in rehearsals they are this too far apart.
+# Costs take all ends for seen where they are found; in rehearsals they are this much too far apart.
 TOO_SURE = 1.75
 # Two lines that are this near at both ends are one needle.
 SAME_PX = 4.0
@@ -64,20 +64,20 @@ def _beside_px(line: NeedleSeen, mark: NeedleSeen) -> float:
 class NeedleProposal:
     """One fit that a person may take or correct; where needles look alike it is one of several.
 
+    The covariance of the fit holds if its naming is right, and that only a person tells.
+
     Attributes:
         fit: the registration, with each needle's residual, if this is which needle is which.
         needles: as found in the image, in the plan's order.
         chance_ratio: 0..1, how likely this naming is among those that are proposed.
         lead: by how much the likeliest other naming is worse, as a difference of chi squared; negative where
             the other one is likelier, infinite where there is no other.
-        is_sure: whether the lead is so large that no other naming needs a look.
     """
 
     fit: NeedleFit
     needles: tuple[FoundNeedle, ...]
     chance_ratio: float
     lead: float
-    is_sure: bool
 
 
 def propose_needles(
@@ -137,7 +137,7 @@ def propose_needles(
         fits.append((cost, fit, needles))
     if refusal is not None and not fits:
         raise refusal
-    return _proposals(fits, gate)
+    return _proposals(fits)
 
 
 def _fit(
@@ -156,7 +156,7 @@ def _fit(
 
 
 def _proposals(
-    fits: Sequence[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]], gate: NeedleLimits
+    fits: Sequence[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]],
 ) -> tuple[NeedleProposal, ...]:
     costs = np.array([cost for cost, _, _ in fits])
     chances = np.exp(-0.5 * (costs - costs.min()) / TOO_SURE)
@@ -170,7 +170,6 @@ def _proposals(
                 needles=needles,
                 chance_ratio=float(chances[n]),
                 lead=lead,
-                is_sure=lead >= gate.least_lead,
             )
         )
     return tuple(out)
