@@ -10,7 +10,8 @@ from pydantic import Field, model_validator
 from server.api.case_messages import MadeBy
 from server.api.registration_messages import LandmarkName, VertebraName
 from server.procedure.registered import Value
-from server.procedure.registration.needles import LaidSlice, NeedleOrder, ProposedSlice, numbers_of
+from server.procedure.registration.needle_records import LaidSlice, NeedleOrder, ProposedSlice
+from server.procedure.registration.needles import numbers_of
 from server.stream.messages import Message
 from tracker.registration.needles import MeasuredView, NeedleSeen, SliceOverlay, Standing, clicked_needle
 

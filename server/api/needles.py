@@ -25,7 +25,7 @@ from server.api.registration_messages import VertebraName
 from server.procedure.ct import OpenedCt
 from server.procedure.registration import RegistrationSteps, touched_points
 from server.procedure.registration.needle_picture import overlay_picture
-from server.procedure.registration.needles import LaidSlice, NeedleScene
+from server.procedure.registration.needle_records import LaidSlice, NeedleScene
 from server.store import Current
 from tracker.registration.needles import Standing
 

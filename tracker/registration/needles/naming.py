@@ -98,7 +98,8 @@ def _far(off: Array, spread: Array) -> Array:
 def looks_costs(candidates: Sequence[FoundNeedle], choices: npt.NDArray[np.intp]) -> Array:
     """What speaks against each choice (m, n) being needles of one kind: (m)."""
     widths = np.array([one.seen.width_px for one in candidates])[choices]
-    uneven = (widths / widths.mean(axis=1, keepdims=True) - 1.0) / WIDTH_SD_RATIO
+    mean = np.maximum(widths.mean(axis=1, keepdims=True), 1e-9)
+    uneven = (widths / mean - 1.0) / WIDTH_SD_RATIO
     doubt = -2.0 * np.log([max(one.score_ratio, 1e-3) for one in candidates])
     return np.asarray((uneven**2).sum(axis=1) + doubt[choices].sum(axis=1))
 

@@ -21,7 +21,7 @@ MOST_PROPOSALS, MOST_TRIED = 3, 12
 # A naming that is so much worse than the likeliest is not worth a person's look.
 MOST_WORSE = 16.0
 # Costs take all ends for seen where they are found; in rehearsals they are this much too far apart.
-TOO_SURE = 1.75
+TOO_SURE = 3.0
 # Two lines that are this near at both ends are one needle.
 SAME_PX = 4.0
 # A person marks a needle within this many of the stated standard deviations, or has marked another one.
