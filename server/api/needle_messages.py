@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Annotated, Self, TypeAlias
 
 import numpy as np
@@ -89,11 +90,14 @@ class MarkedNeedleMessage(Message):
     """Where it comes out of the bone."""
     head_px: PixelPoint
     entry_is_seen: bool = True
+    along_sd_px: Spread = 1.0
+    """How well the end at the bone is known along the needle: less well where the software found it."""
 
     @property
     def record(self) -> NeedleSeen:
         """The same for the step; InvalidInput NEEDLE_SEEN_INVALID."""
-        return clicked_needle(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
+        clicked = clicked_needle(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
+        return replace(clicked, along_sd_px=self.along_sd_px)
 
 
 class LaidRequest(NeedlesRequest):
@@ -236,6 +240,7 @@ def proposals_message(proposed: Sequence[ProposedSlice]) -> ProposalsMessage:
                         entry_px=seen.entry_px.tolist(),
                         head_px=seen.head_px.tolist(),
                         entry_is_seen=seen.entry_is_seen,
+                        along_sd_px=seen.along_sd_px,
                     )
                     for seen in one.found
                 ],

@@ -196,6 +196,10 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     picked = {**asked, "marked": best["marked"], "picked": True, **BY}
     document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json=picked)
     assert document["content"]["made_from"]["way"] == "picked"
+    # As sure as it was proposed, although a person's own mark is surer.
+    proposed, kept = best["laid"]["numbers"], document["content"]["numbers"]
+    assert kept["across_sd_mm"] == pytest.approx(proposed["across_sd_mm"], rel=0.05)
+    assert kept["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)
     assert registered(server) is not None
     swapped = [best["marked"][number] for number in (1, 0, 2)]
     refused = server.ask("POST", f"{NEEDLES}/conclusion", 409, json={**asked, "marked": swapped, **BY})

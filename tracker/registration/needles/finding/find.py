@@ -28,8 +28,9 @@ MOST_COLOUR_RATIO, MOST_SHADE_CHANGE = 0.25, 45.0
 MOST_PIECES = 120
 LEAST_WHOLE_RATIO = 0.7
 MOST_BEND_PX = 0.6
-# Noise alone would make the line far surer; uneven light on a wire moves both sides alike.
-LEAST_ACROSS_SD_PX, ALONG_SD_PX = 0.3, 2.0
+# Noise alone would make the line far surer; uneven light on a wire moves both sides alike. Another needle
+# before it, or fat as bright as it is, may end a needle early.
+LEAST_ACROSS_SD_PX, ALONG_SD_PX = 0.5, 8.0
 NEAR_PX, NEAR_DEG = 12.0, 12.0
 SAME_PX, SAME_END_PX = 3.5, 20.0
 
