@@ -1,5 +1,8 @@
 """What is asked and answered about registration by needles."""
 
+import math
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Annotated, Self, TypeAlias
 
 import numpy as np
@@ -8,7 +11,8 @@ from pydantic import Field, model_validator
 from server.api.case_messages import MadeBy
 from server.api.registration_messages import LandmarkName, VertebraName
 from server.procedure.registered import Value
-from server.procedure.registration.needles import LaidSlice, NeedleOrder, numbers_of
+from server.procedure.registration.needle_records import LaidSlice, NeedleOrder, ProposedSlice
+from server.procedure.registration.needles import numbers_of
 from server.stream.messages import Message
 from tracker.registration.needles import MeasuredView, NeedleSeen, SliceOverlay, Standing, clicked_needle
 
@@ -86,11 +90,14 @@ class MarkedNeedleMessage(Message):
     """Where it comes out of the bone."""
     head_px: PixelPoint
     entry_is_seen: bool = True
+    along_sd_px: Spread = 1.0
+    """How well the end at the bone is known along the needle: less well where the software found it."""
 
     @property
     def record(self) -> NeedleSeen:
         """The same for the step; InvalidInput NEEDLE_SEEN_INVALID."""
-        return clicked_needle(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
+        clicked = clicked_needle(self.entry_px, self.head_px, entry_is_seen=self.entry_is_seen)
+        return replace(clicked, along_sd_px=self.along_sd_px)
 
 
 class LaidRequest(NeedlesRequest):
@@ -103,14 +110,20 @@ class LaidRequest(NeedlesRequest):
 
 
 class NeedlesConclusion(LaidRequest):
-    """How to register: by marked needles, by the overlay, or, without both, by what the software finds."""
+    """How to register: by marked needles, or by the overlay."""
 
     made_by: MadeBy
+    picked: bool = False
+    """Whether the marked needles are a proposal that somebody picked in the picture: their order is sure."""
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:
-        if self.overlay is not None and self.marked:
-            raise ValueError("give the overlay or the marked needles, not both")
+        if (self.overlay is None) == (not self.marked):
+            raise ValueError(
+                "give the overlay or the marked needles, and not both; a proposal is picked first"
+            )
+        if self.picked and not self.marked:
+            raise ValueError("give the needles of the proposal that was picked as marked")
         return self
 
 
@@ -195,4 +208,45 @@ def laid_message(laid: LaidSlice) -> LaidMessage:
             for one in directions
         ],
         numbers={} if fit is None else numbers_of(laid, fit),
+    )
+
+
+class ProposalMessage(Message):
+    """One likely way of naming the needles that were found; its spreads hold if it is the right one."""
+
+    laid: LaidMessage
+    marked: list[MarkedNeedleMessage]
+    """The needles in the image, in the plan's order: for the conclusion, where this one is picked."""
+    chance_ratio: float
+    """0..1, how likely this one is among those that are proposed."""
+    lead: float | None
+    """By how much the likeliest other one is worse in chi squared; null where there is no other."""
+
+
+class ProposalsMessage(Message):
+    """The likely ways of naming the needles that were found, the likeliest first; a person picks."""
+
+    proposals: list[ProposalMessage]
+
+
+def proposals_message(proposed: Sequence[ProposedSlice]) -> ProposalsMessage:
+    """The proposals, as they are told."""
+    return ProposalsMessage(
+        proposals=[
+            ProposalMessage(
+                laid=laid_message(one.laid),
+                marked=[
+                    MarkedNeedleMessage(
+                        entry_px=seen.entry_px.tolist(),
+                        head_px=seen.head_px.tolist(),
+                        entry_is_seen=seen.entry_is_seen,
+                        along_sd_px=seen.along_sd_px,
+                    )
+                    for seen in one.found
+                ],
+                chance_ratio=one.chance_ratio,
+                lead=one.lead if math.isfinite(one.lead) else None,
+            )
+            for one in proposed
+        ]
     )

@@ -15,15 +15,17 @@ from server.api.needle_messages import (
     NeedlesRequest,
     OverlayMessage,
     Pixel,
+    ProposalsMessage,
     ViewMessage,
     laid_message,
+    proposals_message,
 )
 from server.api.pictures import asked_window
 from server.api.registration_messages import VertebraName
 from server.procedure.ct import OpenedCt
 from server.procedure.registration import RegistrationSteps, touched_points
 from server.procedure.registration.needle_picture import overlay_picture
-from server.procedure.registration.needles import LaidSlice, NeedleScene
+from server.procedure.registration.needle_records import LaidSlice, NeedleScene
 from server.store import Current
 from tracker.registration.needles import Standing
 
@@ -44,14 +46,16 @@ def needles_router(steps: RegistrationSteps, opened: OpenedCt) -> APIRouter:
         scene = scene_of(asked)
         if asked.overlay is not None:
             return step.take(scene, asked.overlay.record), "overlay"
-        if asked.marked:
-            return step.mark(scene, [one.record for one in asked.marked]), "marked"
-        return step.propose(scene, radius_mm=asked.radius_mm), "found"
+        marked = [one.record for one in asked.marked]
+        return step.mark(scene, marked, order_is_sure=asked.picked), "picked" if asked.picked else "marked"
 
     @router.post("/proposal", responses=SEEN)
-    def propose(asked: NeedlesRequest) -> LaidMessage:
-        """Find the needles in the newest image, with each one's residual; nothing is kept."""
-        return laid_message(step.propose(scene_of(asked), radius_mm=asked.radius_mm))
+    def propose(asked: NeedlesRequest) -> ProposalsMessage:
+        """Find the needles in the newest image: each likely naming with its residuals; nothing is kept.
+
+        A person picks one in the picture, and sends its needles to the conclusion as `marked`, `picked`.
+        """
+        return proposals_message(step.propose(scene_of(asked), radius_mm=asked.radius_mm))
 
     @router.post("/overlay", responses=SEEN)
     def lay(asked: LaidRequest) -> LaidMessage:

@@ -162,6 +162,50 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
     assert registered(server) is not None
 
 
+def drawn(names: list[str]) -> Any:  # noqa: ANN401  an image
+    """Wires with heads, drawn finer than the image is."""
+    fine: Any = np.full((IMAGE.shape[0] * 4, IMAGE.shape[1] * 4, 3), (110, 90, 40), np.uint8)
+    for one in marked(names):
+        entry, head = (
+            tuple(round(4.0 * value + 1.5) for value in one[end]) for end in ("entry_px", "head_px")
+        )
+        cv2.line(fine, entry, head, (180, 178, 176), 16, cv2.LINE_AA)
+        cv2.circle(fine, head, 30, (60, 180, 230), -1, cv2.LINE_AA)
+    return cv2.resize(fine, IMAGE.shape[1::-1], interpolation=cv2.INTER_AREA)
+
+
+def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has_picked(
+    server: Server,
+) -> None:
+    ready(server)
+    patient = Patient(server=server, camera_from_vertebra=truth())
+    patient.show(None, image=drawn(STANDING_ON))
+    asked = {"view": VIEW, "landmarks": STANDING_ON}
+    proposals = server.ask("POST", f"{NEEDLES}/proposal", 200, json=asked)["proposals"]
+    best = proposals[0]
+    assert best["chance_ratio"] == max(one["chance_ratio"] for one in proposals)
+    assert [one["name"] for one in best["laid"]["needles"]] == STANDING_ON
+    assert all(abs(one["offset_mm"]) < 3.0 for one in best["laid"]["needles"])
+    for found, true in zip(best["marked"], marked(STANDING_ON), strict=True):
+        assert np.linalg.norm(np.subtract(found["entry_px"], true["entry_px"])) < 6.0
+    # Nobody has looked at it yet.
+    assert server.ask("POST", f"{NEEDLES}/conclusion", 422, json={**asked, **BY})["code"] == "REQUEST_INVALID"
+    alone = {**asked, "picked": True, "overlay": best["laid"]["overlay"], **BY}
+    assert server.ask("POST", f"{NEEDLES}/conclusion", 422, json=alone)["code"] == "REQUEST_INVALID"
+    assert registered(server) is None
+    picked = {**asked, "marked": best["marked"], "picked": True, **BY}
+    document = server.ask("POST", f"{NEEDLES}/conclusion", 201, json=picked)
+    assert document["content"]["made_from"]["way"] == "picked"
+    # As sure as it was proposed, although a person's own mark is surer.
+    proposed, kept = best["laid"]["numbers"], document["content"]["numbers"]
+    assert kept["across_sd_mm"] == pytest.approx(proposed["across_sd_mm"], rel=0.05)
+    assert kept["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)
+    assert registered(server) is not None
+    swapped = [best["marked"][number] for number in (1, 0, 2)]
+    refused = server.ask("POST", f"{NEEDLES}/conclusion", 409, json={**asked, "marked": swapped, **BY})
+    assert refused["code"] == "NEEDLES_SWAPPED"
+
+
 def test_what_needles_cannot_do_is_refused_with_a_remedy(server: Server) -> None:
     case_id = ready(server)
     patient = Patient(server=server)

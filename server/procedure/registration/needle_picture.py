@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from server.procedure.registration.needles import LaidSlice
+from server.procedure.registration.needle_records import LaidSlice
 from tracker.plan import Volume
 from tracker.plan.slices import Window, shown
 from tracker.registration.needles import image_from_slice

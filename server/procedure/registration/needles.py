@@ -1,33 +1,26 @@
 """The step in which plan and patient are registered by three needles in the live image, as in the paper."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from server.errors import CaptureError
 from server.live import LiveHub
 from server.procedure.registered import Value
 from server.procedure.registration.ground import Ground, GroundFinder
+from server.procedure.registration.needle_records import LaidSlice, NeedleOrder, NeedleScene, ProposedSlice
 from server.procedure.registration.shelf import RegistrationShelf
 from server.store import Document
-from tracker.camera import CameraModel
 from tracker.errors import CalibrationError, InvalidInput, PlanError, RegistrationError
-from tracker.geometry import Array, Camera, Rigid, Vertebra
-from tracker.navigation import NavigationSnapshot
+from tracker.geometry import Camera, Rigid, Vertebra
 from tracker.plan import ReferenceSlice
 from tracker.pose import Seen
 from tracker.registration.anchoring import fixed_to_reference
 from tracker.registration.needles import (
-    MeasuredView,
     NeedleFit,
-    NeedlePlace,
     NeedleSeen,
-    OverlayResidual,
     SliceOverlay,
     TouchedPoint,
-    View,
     first_overlay,
     needles_under,
     overlay_lines_px,
@@ -39,76 +32,7 @@ from tracker.registration.needles import (
     propose_needles,
     refine_marked,
     register_needles,
-    view_from_ruler,
 )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class NeedleOrder:
-    """What the needles are, and what a ruler tells of the camera.
-
-    Attributes:
-        vertebra: its name in the plan; the one that is to be drilled if None.
-        landmarks: where the needles go in; none takes the three lines of the reference slice.
-        measured: tilt and distance of the camera.
-        radius_mm: of the needles' wire.
-    """
-
-    vertebra: str | None
-    landmarks: tuple[str, ...]
-    measured: MeasuredView
-    radius_mm: float = 0.8
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class NeedleScene:
-    """One image, and the needles that are planned to be in it.
-
-    Attributes:
-        ground: what the registration stands on.
-        places: of the needles.
-        reference: the slice with its lines; None where the needles stand on landmarks.
-        camera: calibrated.
-        image: (h, w, 3) BGR, as the camera gave it.
-        snapshot: what the image says.
-        measured: tilt and distance of the camera.
-        touched: landmarks that the tool's tip was held on, before the camera.
-    """
-
-    ground: Ground
-    places: tuple[NeedlePlace, ...]
-    reference: ReferenceSlice | None
-    camera: CameraModel
-    image: npt.NDArray[np.uint8]
-    snapshot: NavigationSnapshot
-    measured: MeasuredView
-    touched: tuple[TouchedPoint, ...]
-
-    def view(self, at_px: npt.ArrayLike | None = None) -> View:
-        """Tilt and distance for needles that are seen here (2,), by default in the middle."""
-        middle = 0.5 * np.array(self.camera.size_wh_px) if at_px is None else at_px
-        return view_from_ruler(self.measured, self.camera, middle, touched=self.touched)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LaidSlice:
-    """The slice as it lies over the image.
-
-    Attributes:
-        scene: what it lies over.
-        overlay: where it lies.
-        camera_from_vertebra: the pose that it stands for.
-        lines_px: (needles, points, 2) where the needles' lines run.
-        residuals: how each needle that was marked lies beside its line.
-        fit: of the needles to the plan; None where it was only laid.
-    """
-
-    scene: NeedleScene
-    overlay: SliceOverlay
-    camera_from_vertebra: Rigid[Camera, Vertebra]
-    lines_px: Array
-    residuals: tuple[OverlayResidual, ...]
-    fit: NeedleFit | None
 
 
 class NeedleStep:
@@ -166,13 +90,13 @@ class NeedleStep:
             touched=touched,
         )
 
-    def propose(self, scene: NeedleScene, *, radius_mm: float) -> LaidSlice:
-        """Find the needles in the image, and lay the slice over them; nothing is kept.
+    def propose(self, scene: NeedleScene, *, radius_mm: float) -> tuple[ProposedSlice, ...]:
+        """Find the needles in the image, and lay the slice over each likely naming; nothing is kept.
 
         Raises:
-            RegistrationError: NEEDLES_NOT_FOUND, NEEDLES_UNSURE, or as `register_needles`.
+            RegistrationError: NEEDLES_NOT_FOUND, or as `register_needles` where nothing fits.
         """
-        proposal = propose_needles(
+        proposals = propose_needles(
             scene.image,
             scene.places,
             scene.camera,
@@ -180,10 +104,22 @@ class NeedleStep:
             touched=scene.touched,
             radius_mm=radius_mm,
         )
-        return _fitted(scene, proposal.fit, [one.seen for one in proposal.needles])
+        out = []
+        for one in proposals:
+            seen = tuple(needle.seen for needle in one.needles)
+            laid = _fitted(scene, one.fit, seen)
+            out.append(ProposedSlice(laid=laid, found=seen, chance_ratio=one.chance_ratio, lead=one.lead))
+        return tuple(out)
 
-    def mark(self, scene: NeedleScene, marked: Sequence[NeedleSeen]) -> LaidSlice:
+    def mark(
+        self, scene: NeedleScene, marked: Sequence[NeedleSeen], *, order_is_sure: bool = False
+    ) -> LaidSlice:
         """Fit to needles that a person has marked, each in the order of the plan; nothing is kept.
+
+        Args:
+            scene: the image.
+            marked: the needles.
+            order_is_sure: whether the person has picked this naming in the picture, beside others.
 
         Raises:
             InvalidInput: NEEDLES_UNPAIRED.
@@ -198,7 +134,8 @@ class NeedleStep:
             )
         seen = refine_marked(scene.image, scene.camera, marked)
         at_px = np.mean([one.entry_px for one in seen], axis=0)
-        fit = register_needles(scene.places, seen, scene.camera, scene.view(at_px))
+        view = scene.view(at_px)
+        fit = register_needles(scene.places, seen, scene.camera, view, order_is_sure=order_is_sure)
         return _fitted(scene, fit, seen)
 
     def lay(

@@ -1,7 +1,6 @@
-"""The software's own fit: the needles that it finds in the image, told apart by the plan and the ruler."""
+"""The software's own fits: needles that it finds in the image, told apart by the plan and the ruler."""
 
 import dataclasses
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,18 +9,21 @@ import numpy.typing as npt
 
 from tracker.camera import CameraModel
 from tracker.errors import RegistrationError
-from tracker.registration.needles.equations import Task
 from tracker.registration.needles.finding import FoundNeedle, expected_width_px, find_needles
 from tracker.registration.needles.fit import NeedleFit, register_needles
 from tracker.registration.needles.limits import NeedleLimits
+from tracker.registration.needles.naming import likely_namings
 from tracker.registration.needles.places import NeedlePlace, refuse_poor_places
 from tracker.registration.needles.seen import NeedleSeen
-from tracker.registration.needles.solutions import linear_cost, nearest_solution
-from tracker.registration.needles.view import MeasuredView, TouchedPoint, View, view_from_ruler
+from tracker.registration.needles.view import MeasuredView, TouchedPoint, view_from_ruler
 
-MOST_CANDIDATES, MOST_TRIED = 9, 12
-# All needles are of one wire: their widths in the image differ by depth and noise alone.
-WIDTH_SD_RATIO = 0.15
+MOST_PROPOSALS, MOST_TRIED = 3, 12
+# A naming that is so much worse than the likeliest is not worth a person's look.
+MOST_WORSE = 16.0
+# Costs take all ends for seen where they are found; in rehearsals they are this much too far apart.
+TOO_SURE = 3.0
+# Two lines that are this near at both ends are one needle.
+SAME_PX = 4.0
 # A person marks a needle within this many of the stated standard deviations, or has marked another one.
 MOST_MARKED_SD = 3.0
 
@@ -60,18 +62,21 @@ def _beside_px(line: NeedleSeen, mark: NeedleSeen) -> float:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedleProposal:
-    """A fit that a person may take or correct.
+    """One fit that a person may take or correct; where needles look alike it is one of several.
+
+    The covariance of the fit holds if its naming is right, and that only a person tells.
 
     Attributes:
-        fit: the registration, with each needle's residual.
+        fit: the registration, with each needle's residual, if this is which needle is which.
         needles: as found in the image, in the plan's order.
-        candidates: everything that looked like a needle, the likeliest first.
-        lead: by how much the next best choice or order of needles is worse, as a difference of chi squared.
+        chance_ratio: 0..1, how likely this naming is among those that are proposed.
+        lead: by how much the likeliest other naming is worse, as a difference of chi squared; negative where
+            the other one is likelier, infinite where there is no other.
     """
 
     fit: NeedleFit
     needles: tuple[FoundNeedle, ...]
-    candidates: tuple[FoundNeedle, ...]
+    chance_ratio: float
     lead: float
 
 
@@ -84,97 +89,95 @@ def propose_needles(
     touched: tuple[TouchedPoint, ...] = (),
     radius_mm: float = 0.8,
     limits: NeedleLimits | None = None,
-) -> NeedleProposal:
-    """Finds the planned needles in one image, and fits the vertebra to them.
+) -> tuple[NeedleProposal, ...]:
+    """Finds the planned needles in one image, and fits the vertebra to each likely way of naming them.
 
     Args:
         image: (h, w, 3) BGR or (h, w) grey, uint8, of the calibrated camera.
-        places: three or four needles of the plan.
+        places: three or more needles of the plan.
         camera: calibrated.
         measured: V, H and azimuth.
         touched: points that the tool's tip was held on.
         radius_mm: of the needles' wire.
         limits: the gate.
 
+    Returns:
+        At least one and at most three that name the needles differently, the likeliest first.
+
     Raises:
         InvalidInput: IMAGE_INVALID, RULER_INVALID, VIEW_INVALID.
-        RegistrationError: NEEDLES_NOT_FOUND, NEEDLES_UNSURE, and what `register_needles` refuses.
+        RegistrationError: NEEDLES_NOT_FOUND, and what `register_needles` refuses, where nothing fits.
     """
     gate = limits or NeedleLimits()
     refuse_poor_places(places)
     middle = 0.5 * np.array(camera.size_wh_px, dtype=np.float64)
-    view = view_from_ruler(measured, camera, middle, touched=touched)
-    width = expected_width_px(view, camera, radius_mm=radius_mm)
+    width = expected_width_px(view_from_ruler(measured, camera, middle), camera, radius_mm=radius_mm)
     found = find_needles(image, camera, width=width)
-    candidates = tuple(one for one in found if one.has_head)[:MOST_CANDIDATES]
-    if len(candidates) < len(places):
+    if len(found) < len(places):
         raise RegistrationError(
             "NEEDLES_NOT_FOUND",
-            f"{len(candidates)} needles were found in the image, {len(places)} are planned",
+            f"{len(found)} needles were found in the image, {len(places)} are planned",
             "Mark each needle by hand, or take the drill and other instruments out of their way.",
-            {"found": len(candidates), "planned": len(places)},
+            {"found": len(found), "planned": len(places)},
         )
-    ranked = _ranked(candidates, places, camera, measured, touched)
-    chosen = ranked[0][1]
-    lead = ranked[1][0] - ranked[0][0] if len(ranked) > 1 else np.inf
-    _refuse_unsure([candidates[i] for i in chosen], lead, gate)
-    needles = tuple(candidates[i] for i in chosen)
-    final = _view(needles, camera, measured, touched)
-    fit = register_needles(places, [one.seen for one in needles], camera, final, limits=gate)
-    return NeedleProposal(fit=fit, needles=needles, candidates=found, lead=float(lead))
+    fits: list[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]] = []
+    refusal: RegistrationError | None = None
+    namings = likely_namings(found, places, camera, measured, touched=touched)
+    for cost, naming in namings[:MOST_TRIED]:
+        if fits and cost - fits[0][0] > MOST_WORSE:
+            break
+        needles = tuple(found[i] for i in naming)
+        if any(_is_same(needles, others) for _, _, others in fits):
+            continue
+        try:
+            fit = _fit(needles, places, camera, measured, touched, gate)
+        except RegistrationError as refused:
+            refusal = refusal or refused
+            continue
+        fits.append((cost, fit, needles))
+    if refusal is not None and not fits:
+        raise refusal
+    return _proposals(fits)
 
 
-def _refuse_unsure(needles: Sequence[FoundNeedle], lead: float, gate: NeedleLimits) -> None:
-    if lead >= gate.least_lead:
-        return
-    raise RegistrationError(
-        "NEEDLES_UNSURE",
-        f"two ways of naming what looks like needles fit nearly alike: the second is worse by {lead:.1f} in "
-        f"chi squared, needed {gate.least_lead:g}",
-        "Mark each needle by hand, under its name.",
-        {
-            "lead": float(lead),
-            "needles_px": [[one.seen.entry_px.tolist(), one.seen.head_px.tolist()] for one in needles],
-        },
-    )
-
-
-def _ranked(
-    candidates: Sequence[FoundNeedle],
+def _fit(
+    needles: Sequence[FoundNeedle],
     places: Sequence[NeedlePlace],
     camera: CameraModel,
     measured: MeasuredView,
     touched: tuple[TouchedPoint, ...],
-) -> list[tuple[float, tuple[int, ...]]]:
-    """Which candidates are which needles: cost and choice, the likeliest first."""
-    rough = []
-    tasks: dict[tuple[int, ...], Task] = {}
-    for choice in itertools.permutations(range(len(candidates)), len(places)):
-        needles = [candidates[i] for i in choice]
-        view = _view(needles, camera, measured, touched)
-        tasks[choice] = Task.of(places, [one.seen for one in needles], camera, view)
-        rough.append((linear_cost(tasks[choice]) + _looks_cost(needles), choice))
-    rough.sort()
-    fine = [
-        (nearest_solution(tasks[choice]).cost + _looks_cost([candidates[i] for i in choice]), choice)
-        for _, choice in rough[:MOST_TRIED]
-    ]
-    return sorted(fine)
+    gate: NeedleLimits,
+) -> NeedleFit:
+    seen = [one.seen for one in needles]
+    at_px = np.mean([one.entry_px for one in seen], axis=0)
+    view = view_from_ruler(measured, camera, at_px, touched=touched)
+    # Other orders are proposals of their own.
+    return register_needles(places, seen, camera, view, limits=gate, order_is_sure=True)
 
 
-def _looks_cost(needles: Sequence[FoundNeedle]) -> float:
-    """What speaks against these being needles of one kind."""
-    widths = np.array([one.seen.width_px for one in needles])
-    uneven = (widths / widths.mean() - 1.0) / WIDTH_SD_RATIO
-    doubt = -2.0 * np.log([max(one.score_ratio, 1e-3) for one in needles])
-    return float((uneven**2).sum() + doubt.sum())
+def _proposals(
+    fits: Sequence[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]],
+) -> tuple[NeedleProposal, ...]:
+    costs = np.array([cost for cost, _, _ in fits])
+    chances = np.exp(-0.5 * (costs - costs.min()) / TOO_SURE)
+    chances /= chances.sum()
+    out = []
+    for n, (cost, fit, needles) in enumerate(fits[:MOST_PROPOSALS]):
+        lead = float(np.delete(costs, n).min(initial=np.inf) - cost)
+        out.append(
+            NeedleProposal(
+                fit=fit,
+                needles=needles,
+                chance_ratio=float(chances[n]),
+                lead=lead,
+            )
+        )
+    return tuple(out)
 
 
-def _view(
-    needles: Sequence[FoundNeedle],
-    camera: CameraModel,
-    measured: MeasuredView,
-    touched: tuple[TouchedPoint, ...],
-) -> View:
-    at_px = np.mean([one.seen.entry_px for one in needles], axis=0)
-    return view_from_ruler(measured, camera, at_px, touched=touched)
+def _is_same(needles: Sequence[FoundNeedle], others: Sequence[FoundNeedle]) -> bool:
+    """Whether both name the same lines alike: one needle may have been found twice, a little differently."""
+    return all(
+        max(_beside_px(one.seen, other.seen), _beside_px(other.seen, one.seen)) < SAME_PX
+        for one, other in zip(needles, others, strict=True)
+    )

@@ -49,16 +49,6 @@ def nearest_solution(task: Task) -> Solution:
     return _settled(task, _placed(task, task.view.rotation), rounds=3)
 
 
-def linear_cost(task: Task) -> float:
-    """About what the nearest solution will cost, from one step without taking it: to throw most away by."""
-    pose = _placed(task, task.view.rotation)
-    equations = Equations(task, pose)
-    residuals, slopes = equations.residuals(pose), equations.slopes(pose)
-    down = slopes.T @ residuals
-    gained = down @ np.linalg.solve(slopes.T @ slopes, down)
-    return float(residuals @ residuals - gained + equations.log_spread)
-
-
 def _settled(task: Task, start: Rigid[Camera, Vertebra], *, rounds: int = ROUNDS) -> Solution:
     pose = start
     for _ in range(rounds):

@@ -132,7 +132,7 @@ def view_from_ruler(
     to_camera = np.cos(elevation) * flat + np.sin(elevation) * up
     x, y = camera.normalised_from_px(np.asarray(seen_at_px, dtype=np.float64).reshape(1, 2))[0]
     sight = np.array([x, y, 1.0]) / np.linalg.norm([x, y, 1.0])
-    rotation = _frame(sight, np.array([0.0, -1.0, 0.0])) @ _frame(-to_camera, up).T
+    rotation = frame_of_sight(sight) @ _frame(-to_camera, up).T
     up_seen = rotation @ up
     level = np.cross(sight, up_seen)
     level /= np.linalg.norm(level)
@@ -151,6 +151,11 @@ def view_from_ruler(
         distance_sd_mm=measured.ruler_sd_mm,
         touched=touched,
     )
+
+
+def frame_of_sight(sight: Array) -> Array:
+    """Columns (3, 3), camera frame: to the right, up in the image, and along a line of sight (3,)."""
+    return _frame(sight, np.array([0.0, -1.0, 0.0]))
 
 
 def _frame(along: Array, up: Array) -> Array:

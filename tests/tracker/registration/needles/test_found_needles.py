@@ -6,9 +6,10 @@ import pytest
 
 from tests.tracker.registration.needles.needle_scenes import CAMERA
 from tracker.errors import InvalidInput, RegistrationError
-from tracker.geometry import Array
+from tracker.geometry import Array, vector_from_rotation
 from tracker.plan import Landmark
 from tracker.registration.needles import (
+    FoundNeedle,
     MeasuredView,
     clicked_needle,
     find_needles,
@@ -17,6 +18,7 @@ from tracker.registration.needles import (
     refine_marked,
 )
 from tracker.rehearsal import Theatre, TheatreSettings
+from tracker.verification.people import measured_by_ruler, needle_entries
 
 BACKGROUND, METAL, HEAD = (110, 90, 40), (180, 178, 176), (60, 180, 230)
 
@@ -84,3 +86,42 @@ def test_needles_marked_roughly_in_a_theatre_are_laid_onto_their_wires(seed: int
         assert one is not mark
         assert abs((one.entry_px - ends[0]) @ beside) < 1.5
         assert abs((one.head_px - ends[0]) @ beside) < 1.5
+
+
+def test_a_theatres_needles_are_proposed_under_their_names_among_the_first_two() -> None:
+    theatre = Theatre(TheatreSettings(seed=4))
+    image = theatre.renderer().image_at(0.0)
+    entries = needle_entries(theatre.needles)
+    landmarks = [Landmark(name=str(n), point_lps_mm=at) for n, at in enumerate(entries)]
+    random = np.random.default_rng(4)
+    measured = measured_by_ruler(theatre, entries.mean(axis=0), random)
+    proposals = propose_needles(image, places_at_landmarks(landmarks), theatre.camera, measured)
+    chances = [one.chance_ratio for one in proposals]
+    assert chances == sorted(chances, reverse=True)
+    assert sum(chances) <= 1.0 + 1e-9
+    assert len(chances) >= 2
+    assert proposals[0].lead == pytest.approx(-proposals[1].lead)
+    right = [all(map(_is_on_line, one.needles, _lines_px(theatre))) for one in proposals]
+    assert any(right[:2])
+    fit = proposals[right.index(True)].fit
+    assert max(one.offset_mm for one in fit.residuals) < 3.0
+    pose = fit.registration.anchor_from_vertebra
+    truth = theatre.camera_from_vertebra
+    off = np.append(
+        truth.translation_mm - pose.translation_mm, vector_from_rotation(truth.rotation @ pose.rotation.T)
+    )
+    assert off @ np.linalg.solve(fit.registration.covariance, off) < 22.5
+
+
+def _lines_px(theatre: Theatre) -> list[Array]:
+    pose, needles = theatre.camera_from_vertebra, theatre.needles
+    ends = [np.stack([one.tip_in_vertebra_mm, one.head_in_vertebra_mm]) for one in needles]
+    return [theatre.camera.px_from_camera(pose.move_points(one)) for one in ends]
+
+
+def _is_on_line(needle: FoundNeedle, line: Array) -> bool:
+    along = (line[1] - line[0]) / np.linalg.norm(line[1] - line[0])
+    beside = np.array([-along[1], along[0]])
+    return all(
+        abs(float((end - line[0]) @ beside)) < 3.0 for end in (needle.seen.entry_px, needle.seen.head_px)
+    )

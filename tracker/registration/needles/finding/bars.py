@@ -1,5 +1,6 @@
 """Where a thin straight bar may be: two edges side by side that face away from each other."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -13,6 +14,8 @@ SHORTEST_EDGE_PX = 7.0
 MOST_SKEW_DEG = 7.0
 LEAST_SHARED_PX = 6.0
 SAME_PX, SAME_DEG = 2.5, 6.0
+SHORTEST_HALF_PX = 10.0
+BESIDE_PX, MOST_CROSSED_DEG = 25.0, 50.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,10 +37,7 @@ class Bar:
 
 def bars(grey: Image8, narrowest_px: float, widest_px: float) -> list[Bar]:
     """Pieces of bars of such a width in a grey image (h, w), the longest first, each bar once."""
-    found: object = cv2.createLineSegmentDetector(cv2.LSD_REFINE_STD).detect(grey)[0]
-    if found is None:
-        return []
-    edges = np.asarray(found, dtype=np.float64).reshape(-1, 4)
+    edges = straight_edges(grey)
     line = edges[:, 2:] - edges[:, :2]
     length = np.hypot(line[:, 0], line[:, 1])
     edges, line, length = (one[length >= SHORTEST_EDGE_PX] for one in (edges, line, length))
@@ -69,6 +69,48 @@ def bars(grey: Image8, narrowest_px: float, widest_px: float) -> list[Bar]:
                     )
                 )
     return _each_once(sorted(pieces, key=lambda one: -one.length_px))
+
+
+def straight_edges(grey: Image8) -> Array:
+    """Straight edges (n, 4) of a grey image (h, w): x and y of both ends."""
+    found: object = cv2.createLineSegmentDetector(cv2.LSD_REFINE_STD).detect(grey)[0]
+    return np.zeros((0, 4)) if found is None else np.asarray(found, dtype=np.float64).reshape(-1, 4)
+
+
+def half_bars(grey: Image8, width_px: float, beside: Sequence[Bar]) -> list[Bar]:
+    """Bars of which one edge is seen alone, near others: two needles that cross hide an edge of each other.
+
+    Args:
+        grey: (h, w).
+        width_px: that such a bar should have.
+        beside: the bars near which they are looked for.
+    """
+    edges = straight_edges(grey)
+    middles, lines = 0.5 * (edges[:, :2] + edges[:, 2:]), edges[:, 2:] - edges[:, :2]
+    lengths = np.hypot(lines[:, 0], lines[:, 1])
+    out = []
+    for n in np.argsort(-lengths):
+        if lengths[n] < SHORTEST_HALF_PX:
+            break
+        along = lines[n] / lengths[n]
+        if not any(_is_beside(bar, middles[n], along) for bar in beside):
+            continue
+        aside = 0.5 * width_px * np.array([-along[1], along[0]])
+        out += [
+            Bar(middle_px=at, along=along, width_px=width_px, length_px=float(lengths[n]))
+            for at in (middles[n] + aside, middles[n] - aside)
+            if not any(is_on(bar, at, along) for bar in beside)
+        ]
+    return out
+
+
+def _is_beside(bar: Bar, middle_px: Array, along: Array) -> bool:
+    """Whether an edge may be of a needle that stands beside or before another."""
+    off = middle_px - bar.middle_px
+    reach = 0.5 * bar.length_px + BESIDE_PX
+    return bool(np.hypot(off[0], off[1]) < reach) and abs(float(along @ bar.along)) > np.cos(
+        np.radians(MOST_CROSSED_DEG)
+    )
 
 
 def is_on(bar: Bar, middle_px: Array, along: Array) -> bool:

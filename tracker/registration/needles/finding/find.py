@@ -1,6 +1,7 @@
 """Thin straight bars with a head, ranked; what does not look like a needle is not claimed."""
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -10,24 +11,28 @@ import numpy.typing as npt
 from tracker.camera import CameraModel
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
-from tracker.registration.needles.finding.bars import Bar, bars, is_on
+from tracker.registration.needles.finding.bars import Bar, bars, half_bars, is_on
 from tracker.registration.needles.finding.head import head_length_px
 from tracker.registration.needles.finding.sections import Sections, cut
 from tracker.registration.needles.seen import NeedleSeen
 from tracker.registration.needles.view import View
 
 Image8 = npt.NDArray[np.uint8]
-LONGEST_PX, LONGEST_GAP_PX = 400.0, 14
+LONGEST_PX = 400.0
+# A cut without a bar speaks this much stronger against a needle than one with it speaks for it.
+GAP_WEIGHT = 1.5
 UP_PX = (0.0, -1.0)
-LEAST_LENGTH_IN_WIDTHS = 14.0
+LEAST_LENGTH_IN_WIDTHS = 12.0
 # Bare metal has hardly a colour of its own, and a wire has one shade all along but for its shine.
 MOST_COLOUR_RATIO, MOST_SHADE_CHANGE = 0.25, 45.0
 MOST_PIECES = 120
 LEAST_WHOLE_RATIO = 0.7
 MOST_BEND_PX = 0.6
-# Noise alone would make the line far surer; uneven light on a wire moves both sides alike.
-LEAST_ACROSS_SD_PX, ALONG_SD_PX = 0.3, 2.0
+# Noise alone would make the line far surer; uneven light on a wire moves both sides alike. Another needle
+# before it, or fat as bright as it is, may end a needle early.
+LEAST_ACROSS_SD_PX, ALONG_SD_PX = 0.5, 8.0
 NEAR_PX, NEAR_DEG = 12.0, 12.0
+SAME_PX, SAME_END_PX = 3.5, 20.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,16 +92,37 @@ def find_needles(
     span = width or WidthRange()
     heads = np.asarray(heads_to, dtype=np.float64).reshape(2)
     grey = np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY), dtype=np.uint8)
-    found: list[tuple[Bar, FoundNeedle]] = []
     pieces = bars(grey, span.narrowest_px, span.widest_px)
     likely = [bar for bar in pieces if _is_metal(picture, bar) and (near is None or _is_near(bar, near))]
-    for bar in likely[:MOST_PIECES]:
-        if any(is_on(one, bar.middle_px, bar.along) for one, _ in found):
+    found = _grown(picture, camera, likely[:MOST_PIECES], heads)
+    headed = [one for one in found if one.has_head]
+    if near is None and headed:
+        width_px = float(np.median([one.seen.width_px for one in headed]))
+        halves = half_bars(grey, width_px, [_bar_of(one) for one in headed])
+        found += _grown(picture, camera, halves[:MOST_PIECES], heads, found)
+    # Of two that lie on one another the longer: what crosses a needle makes it short, and leads it astray.
+    longest = sorted(found, key=lambda one: -one.score_ratio * one.seen.length_px)
+    return tuple(sorted(_each_once(longest), key=lambda one: -one.score_ratio))
+
+
+def _grown(
+    picture: Image8,
+    camera: CameraModel,
+    pieces: Sequence[Bar],
+    heads_to: Array,
+    known: Sequence[FoundNeedle] = (),
+) -> list[FoundNeedle]:
+    """The needles of which these are pieces, but for those that are known."""
+    out: list[FoundNeedle] = []
+    taken = [_bar_of(one) for one in known]
+    for bar in pieces:
+        if any(is_on(one, bar.middle_px, bar.along) for one in taken):
             continue
-        needle = _needle(picture, camera, bar, heads)
+        needle = _needle(picture, camera, bar, heads_to)
         if needle is not None:
-            found.append((_bar_of(needle), needle))
-    return tuple(_each_once(sorted((one for _, one in found), key=lambda one: -one.score_ratio)))
+            taken.append(_bar_of(needle))
+            out.append(needle)
+    return out
 
 
 def _needle(picture: Image8, camera: CameraModel, bar: Bar, heads_to: Array) -> FoundNeedle | None:
@@ -194,15 +220,17 @@ def _of_one_shade(sections: Sections) -> Sections:
 
 
 def _run(sections: Sections) -> slice:
-    """The cuts from end to end of the bar around the middle; short gaps are bridged."""
-    good = np.flatnonzero(sections.is_bar)
-    if not len(good):
-        return slice(0, 0)
-    breaks = np.flatnonzero(np.diff(good) > LONGEST_GAP_PX)
-    starts, stops = np.append(0, breaks + 1), np.append(breaks + 1, len(good))
-    # The longest piece, not the nearest: the seed may lie on a stretch with little contrast.
-    best = int(np.argmax(stops - starts))
-    return slice(int(good[starts[best]]), int(good[stops[best] - 1]) + 1)
+    """The cuts from end to end of the bar: where those that show it outweigh those that do not by most.
+
+    So another needle before it is bridged where enough of it is seen on both sides, and what lies beyond its
+    head is not.
+    """
+    weights = np.where(sections.is_bar, 1.0, -GAP_WEIGHT)
+    sums = np.concatenate([[0.0], np.cumsum(weights)])
+    lowest = np.minimum.accumulate(sums)
+    stop = int(np.argmax(sums - lowest))
+    start = int(np.argmin(sums[: stop + 1]))
+    return slice(start, stop)
 
 
 def _bar_of(needle: FoundNeedle) -> Bar:
@@ -220,9 +248,18 @@ def _each_once(found: list[FoundNeedle]) -> list[FoundNeedle]:
     kept: list[FoundNeedle] = []
     for one in found:
         bar = _bar_of(one)
-        if not any(is_on(_bar_of(other), bar.middle_px, bar.along) for other in kept):
+        if not any(_lies_on(bar, _bar_of(other)) for other in kept):
             kept.append(one)
     return kept
+
+
+def _lies_on(bar: Bar, longer: Bar) -> bool:
+    """Whether all of a bar lies on another one: it is then a piece of the same needle."""
+    beside = np.array([-longer.along[1], longer.along[0]])
+    half = 0.5 * bar.length_px * bar.along
+    ends = np.stack([bar.middle_px - half, bar.middle_px + half]) - longer.middle_px
+    within = np.abs(ends @ longer.along) < 0.5 * longer.length_px + SAME_END_PX
+    return bool((np.abs(ends @ beside) < SAME_PX).all() and within.all())
 
 
 def _is_near(bar: Bar, near: NeedleSeen) -> bool:
