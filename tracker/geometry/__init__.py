@@ -8,6 +8,7 @@ from tracker.geometry.rigid import (
     inverse_covariance,
     inverse_slopes,
     point_covariance_mm2,
+    slopes_of_product,
 )
 from tracker.geometry.rotations import (
     Array,
@@ -40,5 +41,6 @@ __all__ = [
     "rotation_between",
     "rotation_from_vector",
     "skew",
+    "slopes_of_product",
     "vector_from_rotation",
 ]

@@ -119,12 +119,17 @@ def chained_covariance(
 
     All three as in `point_covariance_mm2`, each in the frame that its transform leads to.
     """
-    turn = np.zeros((6, 6))
-    turn[:3, :3] = turn[3:, 3:] = first.rotation
-    lever = np.eye(6)
-    lever[:3, 3:] = -skew(first.turn_directions(second.translation_mm))
+    lever, turn = slopes_of_product(first, second)
     near, far = np.asarray(of_first, dtype=np.float64), np.asarray(of_second, dtype=np.float64)
     return np.asarray(lever @ near @ lever.T + turn @ far @ turn.T)
+
+
+def slopes_of_product(first: Rigid[To, From], second: Rigid[From, Other]) -> tuple[Array, Array]:
+    """How errors (6) of the first and of the second become one of their product, (6, 6) each."""
+    outer, inner = np.eye(6), np.zeros((6, 6))
+    outer[:3, 3:] = -skew(first.turn_directions(second.translation_mm))
+    inner[:3, :3] = inner[3:, 3:] = first.rotation
+    return outer, inner
 
 
 def inverse_slopes(transform: Rigid[To, From]) -> Array:

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tracker.geometry import Array, Camera, Marker, Tool, Vertebra, inverse_slopes
+from tracker.geometry import Array, Camera, Marker, Tool, Vertebra, inverse_slopes, slopes_of_product
 from tracker.navigation.certainty import Drill, Judged, Placed, Room, judge, marker_from_tool
-from tracker.navigation.certainty.placed import ToolCertainty, slopes_of_product
+from tracker.navigation.certainty.placed import ToolCertainty
 from tracker.navigation.clearance import Nearest, WallField
 from tracker.navigation.clearance.outline import field_of_channel
 from tracker.plan import Channel

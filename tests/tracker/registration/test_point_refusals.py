@@ -130,7 +130,8 @@ def test_noise_of_a_bad_hand_is_never_called_a_swap() -> None:
     rng = np.random.default_rng(5)
     for _ in range(150):
         truth = touched(VERTEBRA, rng, 0.8)
-        register_points(PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm))
+        fit = register_points(PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm))
+        assert fit.used.all()
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,16 @@ from typing import Generic, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra, inverse_covariance, skew
+from tracker.geometry import (
+    Array,
+    Camera,
+    Marker,
+    Rigid,
+    Tool,
+    Vertebra,
+    chained_covariance,
+    inverse_covariance,
+)
 from tracker.pose import ToolModel
 
 To = TypeVar("To")
@@ -47,19 +56,10 @@ class Placed(Generic[To, From]):
 
     def __matmul__(self, other: "Placed[From, Other]") -> "Placed[To, Other]":
         """`a_from_b @ b_from_c` is `a_from_c`; the errors of both are taken as independent."""
-        outer, inner = slopes_of_product(self.pose, other.pose)
         return Placed(
             pose=self.pose @ other.pose,
-            covariance=outer @ self.covariance @ outer.T + inner @ other.covariance @ inner.T,
+            covariance=chained_covariance(self.pose, self.covariance, other.pose, other.covariance),
         )
-
-
-def slopes_of_product(first: Rigid[To, From], second: Rigid[From, Other]) -> tuple[Array, Array]:
-    """How errors (6) of the first and of the second become one of their product, (6, 6) each."""
-    outer, inner = np.eye(6), np.zeros((6, 6))
-    outer[:3, 3:] = -skew(first.rotation @ second.translation_mm)
-    inner[:3, :3] = inner[3:, 3:] = first.rotation
-    return outer, inner
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
