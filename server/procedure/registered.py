@@ -7,6 +7,7 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from server.config import Point, Section
+from server.procedure.read import read_document
 from server.store import Document
 from tracker.errors import InvalidInput, NavigationError, RegistrationError
 from tracker.geometry import Rigid
@@ -189,12 +190,6 @@ def kept_check(document: Document) -> KeptCheck:
     Raises:
         InvalidInput: CHECK_DOCUMENT_INVALID.
     """
-    try:
-        return KeptCheck.model_validate(dict(document.content), strict=False)
-    except ValidationError as error:
-        raise InvalidInput(
-            "CHECK_DOCUMENT_INVALID",
-            f"{document.title} cannot be read: {error.error_count()} of its values are wrong",
-            "Check the registration again.",
-            {"document_id": document.id},
-        ) from None
+    return read_document(
+        KeptCheck, document, code="CHECK_DOCUMENT_INVALID", remedy="Check the registration again."
+    )

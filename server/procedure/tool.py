@@ -4,13 +4,14 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated
 
 import numpy as np
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from server.config import Point, ToolConfig
 from server.live import LiveHub
 from server.procedure.camera import MAIN_CAMERA
 from server.procedure.held import Held
 from server.procedure.opened import opened_case
+from server.procedure.read import read_document
 from server.procedure.tool_collection import ToolCollection
 from server.store import CaseStore, Current, Document, DocumentKind
 from server.tool_file import ToolFile, pivot_part, spin_part
@@ -51,16 +52,7 @@ def kept_tool(document: Document) -> KeptTool:
     Raises:
         InvalidInput: TOOL_DOCUMENT_INVALID.
     """
-    try:
-        # As JSON, where times are text.
-        return KeptTool.model_validate(dict(document.content), strict=False)
-    except ValidationError as error:
-        raise InvalidInput(
-            "TOOL_DOCUMENT_INVALID",
-            f"{document.title} cannot be read: {error.error_count()} of its values are wrong",
-            "Calibrate the tool again.",
-            {"document_id": document.id},
-        ) from None
+    return read_document(KeptTool, document, code="TOOL_DOCUMENT_INVALID", remedy="Calibrate the tool again.")
 
 
 class ToolStep:
