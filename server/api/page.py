@@ -14,6 +14,8 @@ SERVER_FOLDER = Path(__file__).resolve().parent.parent
 # Installed, the page lies in the package; in a checkout, where its build puts it.
 PAGE_FOLDERS = (SERVER_FOLDER / "page", SERVER_FOLDER.parent / "web" / "dist")
 # Vite writes the hash of the content into the names of these.
+# Addresses that the page itself understands: they all show its one file.
+VIEWS = frozenset({"theatre", "operator", "supervisor", "enter"})
 FOREVER = "public, max-age=31536000, immutable"
 ASK_AGAIN = "no-cache"
 
@@ -32,6 +34,8 @@ class PageFiles(StaticFiles):
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file with its lifetime."""
+        if path.split("/", 1)[0] in VIEWS:
+            path = "index.html"
         response = await super().get_response(path, scope)
         hashed = path.startswith("assets/") and response.status_code < 400
         response.headers["Cache-Control"] = FOREVER if hashed else ASK_AGAIN

@@ -5,5 +5,6 @@ People, roles and sessions will live here too.
 
 from server.security.headers import SecurityHeaders
 from server.security.hosts import HostGuard, KnownHosts
+from server.security.person import ANYBODY, Person, Role, person_of
 
-__all__ = ["HostGuard", "KnownHosts", "SecurityHeaders"]
+__all__ = ["ANYBODY", "HostGuard", "KnownHosts", "Person", "Role", "SecurityHeaders", "person_of"]

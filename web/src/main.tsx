@@ -5,14 +5,44 @@ import "@mantine/core/styles/UnstyledButton.css";
 import "@mantine/core/styles/CloseButton.css";
 import "@mantine/core/styles/Alert.css";
 import "@mantine/core/styles/Table.css";
+import "@mantine/core/styles/Button.css";
+import "@mantine/core/styles/Loader.css";
+import "@mantine/core/styles/Progress.css";
+import "@mantine/core/styles/Input.css";
+import "@mantine/core/styles/InlineInput.css";
+import "@mantine/core/styles/Checkbox.css";
+import "@mantine/core/styles/Combobox.css";
+import "@mantine/core/styles/Popover.css";
+import "@mantine/core/styles/ScrollArea.css";
+import "@mantine/core/styles/Slider.css";
+import "@mantine/core/styles/SegmentedControl.css";
+import "@mantine/core/styles/NumberInput.css";
+import "@mantine/core/styles/ModalBase.css";
+import "@mantine/core/styles/Modal.css";
+import "@mantine/core/styles/Overlay.css";
+import "@mantine/core/styles/Switch.css";
+import "@mantine/core/styles/Badge.css";
+import "@mantine/core/styles/Paper.css";
+import "@mantine/core/styles/ActionIcon.css";
+import "@mantine/core/styles/Radio.css";
+import "@mantine/core/styles/Tabs.css";
 import "./theme/page.css";
 import "./theme/panes.css";
+import "./theme/shell.css";
+import "./theme/enter.css";
+import "./theme/theatre.css";
+import "./theme/operator.css";
+import "./theme/case.css";
+import "./theme/calibration.css";
+import "./theme/planning.css";
+import "./theme/registration.css";
+import "./theme/supervisor.css";
 
 import { MantineProvider } from "@mantine/core";
 import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
-import { LiveProvider } from "./live/LiveContext";
-import { Page } from "./Page";
+import { App } from "./app/App";
+import { SessionProvider } from "./app/session";
 import { theme } from "./theme/theme";
 import { wordsFor } from "./words/choose";
 import { WordsProvider } from "./words/WordsContext";
@@ -26,9 +56,9 @@ createRoot(root).render(
   <StrictMode>
     <MantineProvider theme={theme} forceColorScheme="dark">
       <WordsProvider value={words}>
-        <LiveProvider>
-          <Page />
-        </LiveProvider>
+        <SessionProvider>
+          <App />
+        </SessionProvider>
       </WordsProvider>
     </MantineProvider>
   </StrictMode>,

@@ -27,6 +27,16 @@ def test_the_page_is_asked_for_again_and_its_hashed_files_are_kept(built: Path) 
     assert client.get("/assets/gone.js").status_code == 404
 
 
+@pytest.mark.parametrize("address", ["/theatre", "/operator", "/operator/plan", "/supervisor", "/enter"])
+def test_every_view_of_the_page_has_an_address_of_its_own(built: Path, address: str) -> None:
+    app = FastAPI()
+    mount_page(app, camera="main", folder=built)
+    answer = TestClient(app).get(address)
+    assert "<title>Coaxial</title>" in answer.text
+    assert answer.headers["cache-control"] == "no-cache"
+    assert TestClient(app).get("/nonsense").status_code == 404
+
+
 def test_files_outside_the_page_are_not_given(built: Path) -> None:
     (built.parent / "secret.txt").write_text("secret")
     app = FastAPI()

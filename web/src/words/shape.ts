@@ -11,6 +11,21 @@ import type {
   Wall,
 } from "../live/messages";
 
+import type { CameraWords } from "./camera/en";
+import type { CaseWords } from "./case/en";
+import type { CheckWords } from "./check/en";
+import type { EnterWords } from "./enter/en";
+import type { NavigateWords } from "./navigate/en";
+import type { OperatorWords } from "./operator/en";
+import type { PlanWords } from "./plan/en";
+import type { RegistrationWords } from "./registration/en";
+import type { ReportWords } from "./report/en";
+import type { RestWords } from "./rest/en";
+import type { ShellWords } from "./shell/en";
+import type { SupervisorWords } from "./supervisor/en";
+import type { TheatreWords } from "./theatre/en";
+import type { ToolWords } from "./tool/en";
+
 /** A short state in big words, and a sentence that says what it means or what to do. */
 export interface Saying {
   state: string;
@@ -104,4 +119,18 @@ export interface Words {
   cause: Record<Cause, Saying>;
   absent: Record<AbsentReason, Saying>;
   unseen: Record<UnseenReason, string>;
+  shell: ShellWords;
+  enter: EnterWords;
+  rest: RestWords;
+  operator: OperatorWords;
+  theatre: TheatreWords;
+  case: CaseWords;
+  camera: CameraWords;
+  tool: ToolWords;
+  plan: PlanWords;
+  registration: RegistrationWords;
+  check: CheckWords;
+  navigate: NavigateWords;
+  report: ReportWords;
+  supervisor: SupervisorWords;
 }

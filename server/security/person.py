@@ -1,0 +1,42 @@
+"""Who it is that asks: a name and a role, put into each request by the session's guard."""
+
+from collections.abc import MutableMapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+STATE_KEY = "coaxial_person"
+
+
+class Role(StrEnum):
+    """What somebody is here for; `server/security` has the table of what each may do."""
+
+    OPERATOR = "operator"  # sets up, registers, confirms
+    SUPERVISOR = "supervisor"  # sees all, points, co-signs, asks to hold; moves nothing
+    VIEWER = "viewer"  # sees
+    SCREEN = "screen"  # the screen in theatre: sees, sounds, acknowledges
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Person:
+    """Somebody who is signed in.
+
+    Attributes:
+        id: of the session's owner, the same over all their sessions.
+        name: as they are called in the log.
+        role: what they may do.
+    """
+
+    id: str
+    name: str
+    role: Role
+
+
+# Where nobody has to sign in (a server on this computer alone, by its settings).
+ANYBODY = Person(id="anybody", name="this computer", role=Role.OPERATOR)
+
+
+def person_of(scope: MutableMapping[str, Any]) -> Person:
+    """Who asks, of an ASGI scope; `ANYBODY` where nobody has to sign in."""
+    person = scope.get("state", {}).get(STATE_KEY)
+    return person if isinstance(person, Person) else ANYBODY

@@ -1,0 +1,54 @@
+import type { ReactNode } from "react";
+import { useLocation } from "wouter";
+import { AlarmBand } from "../alarms/AlarmBand";
+import { ViewSwitch } from "../app/ViewSwitch";
+import { AlertBand } from "../panes/AlertBand";
+import { Announcer } from "../panes/Announcer";
+import { useWords } from "../words/WordsContext";
+import { pageAt, PAGES } from "./pages";
+import { ProcedureProvider, useProcedure } from "./procedure";
+import { StepHead } from "./StepHead";
+import { StepRail } from "./StepRail";
+
+/** The operator's view: the procedure step by step. */
+export function OperatorView(): ReactNode {
+  return (
+    <ProcedureProvider>
+      <Steps />
+    </ProcedureProvider>
+  );
+}
+
+function Steps(): ReactNode {
+  const words = useWords();
+  const [path] = useLocation();
+  const { data } = useProcedure();
+  const next = data?.case_id == null ? "case" : data.next_step;
+  const page = pageAt(path) ?? PAGES.find((one) => one.step === next || one.name === next) ?? null;
+  return (
+    <div className="operator">
+      <a className="skip" href="#step">
+        {words.operator.skip}
+      </a>
+      <header className="operator-top">
+        <h1>{words.product}</h1>
+        <p className="notice">{words.notice}</p>
+        <ViewSwitch />
+      </header>
+      <AlarmBand />
+      <AlertBand />
+      <div className="operator-body">
+        <StepRail now={page} />
+        <main id="step" className="step">
+          {page !== null && (
+            <>
+              <StepHead page={page} />
+              <page.Page />
+            </>
+          )}
+        </main>
+      </div>
+      <Announcer />
+    </div>
+  );
+}

@@ -1,0 +1,36 @@
+// The pages of the operator's view, in the order of the procedure; `/operator/<name>` shows one.
+import type { ReactNode } from "react";
+import { CameraPage } from "./camera/CameraPage";
+import { CasePage } from "./case/CasePage";
+import { CheckPage } from "./check/CheckPage";
+import { NavigatePage } from "./navigate/NavigatePage";
+import { PlanPage } from "./plan/PlanPage";
+import type { Step } from "./procedure";
+import { RegistrationPage } from "./registration/RegistrationPage";
+import { ReportPage } from "./report/ReportPage";
+import { ToolPage } from "./tool/ToolPage";
+
+export type PageName = "case" | "camera" | "tool" | "plan" | "register" | "check" | "navigate" | "report";
+
+export interface OperatorPage {
+  name: PageName;
+  /** The step of the procedure that it serves; null where it is no step. */
+  step: Step["step"] | null;
+  Page: () => ReactNode;
+}
+
+export const PAGES: readonly OperatorPage[] = [
+  { name: "case", step: null, Page: CasePage },
+  { name: "camera", step: "camera", Page: CameraPage },
+  { name: "tool", step: "tool", Page: ToolPage },
+  { name: "plan", step: "plan", Page: PlanPage },
+  { name: "register", step: "register", Page: RegistrationPage },
+  { name: "check", step: "check", Page: CheckPage },
+  { name: "navigate", step: "navigate", Page: NavigatePage },
+  { name: "report", step: null, Page: ReportPage },
+];
+
+export function pageAt(path: string): OperatorPage | null {
+  const name = path.split("/")[2] ?? "";
+  return PAGES.find((page) => page.name === name) ?? null;
+}

@@ -1,0 +1,27 @@
+import { Button, Progress } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../words/WordsContext";
+import { Refusal } from "./client";
+import { RefusalNote } from "./RefusalNote";
+import { isOver, type JobFollowed } from "./useJob";
+
+/** How far long work is, with a way to stop it; why it failed, if it did. */
+export function JobProgress({ followed }: { followed: JobFollowed }): ReactNode {
+  const words = useWords().rest;
+  const { job, cancel } = followed;
+  if (job === null) return null;
+  if (job.trouble !== null) return <RefusalNote refusal={new Refusal(job.trouble)} />;
+  if (isOver(job)) return job.state === "cancelled" ? <p role="status">{words.cancelled}</p> : null;
+  const percent = Math.round(job.progress_ratio * 100);
+  return (
+    <div className="job" role="status">
+      <p>
+        {job.title} · {job.doing || words.waiting} · {percent} %
+      </p>
+      <Progress value={percent} size="lg" aria-label={job.title} />
+      <Button size="lg" variant="default" disabled={job.state === "concluding"} onClick={cancel}>
+        {words.cancel}
+      </Button>
+    </div>
+  );
+}

@@ -1,0 +1,21 @@
+import { Alert } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../words/WordsContext";
+import type { Refusal } from "./client";
+
+/** What was refused, why, and what to do; nothing where nothing was. */
+export function RefusalNote({ refusal }: { refusal: Refusal | null }): ReactNode {
+  const words = useWords();
+  if (refusal === null) return null;
+  const { message, remedy, code } = refusal.trouble;
+  const silent = message === "";
+  return (
+    <Alert className="refusal" role="alert" title={silent ? words.rest.noAnswer : sentence(message)}>
+      {silent ? words.rest.noAnswerRemedy : remedy} <code>{code}</code>
+    </Alert>
+  );
+}
+
+function sentence(message: string): string {
+  return message.charAt(0).toUpperCase() + message.slice(1);
+}

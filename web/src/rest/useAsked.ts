@@ -1,0 +1,47 @@
+// A question to the server whose answer a page shows: asked at once, and again whenever somebody says so.
+import { useCallback, useEffect, useEffectEvent, useState } from "react";
+import { Refusal } from "./client";
+
+export interface Asked<Data> {
+  data: Data | null;
+  refusal: Refusal | null;
+  asking: boolean;
+  again: () => void;
+}
+
+/** `ask` is called when `key` changes, with `again()`, and every `everyMs` where that is given. */
+export function useAsked<Data>(
+  ask: (signal: AbortSignal) => Promise<Data>,
+  { key = "", everyMs = 0 }: { key?: string; everyMs?: number } = {},
+): Asked<Data> {
+  const [state, setState] = useState<Omit<Asked<Data>, "again">>({ data: null, refusal: null, asking: true });
+  const [round, setRound] = useState(0);
+  const onAsk = useEffectEvent(ask);
+
+  useEffect(() => {
+    const stop = new AbortController();
+    const run = async (): Promise<void> => {
+      try {
+        const data = await onAsk(stop.signal);
+        if (!stop.signal.aborted) setState({ data, refusal: null, asking: false });
+      } catch (error) {
+        if (stop.signal.aborted) return;
+        // What was known stands no more beside a refusal: old must not look like now.
+        if (error instanceof Refusal) setState({ data: null, refusal: error, asking: false });
+        else throw error;
+      }
+      if (everyMs > 0 && !stop.signal.aborted) timer = setTimeout(() => void run(), everyMs);
+    };
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    void run();
+    return () => {
+      stop.abort();
+      clearTimeout(timer);
+    };
+  }, [key, round, everyMs]);
+
+  const again = useCallback(() => {
+    setRound((before) => before + 1);
+  }, []);
+  return { ...state, again };
+}

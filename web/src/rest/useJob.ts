@@ -1,0 +1,65 @@
+// Long work: asked after until it is over, however often the line is lost meanwhile.
+import { useCallback, useEffect, useEffectEvent, useState } from "react";
+import type { components } from "../schema";
+import { answered, Refusal, server } from "./client";
+
+export type Job = components["schemas"]["JobMessage"];
+
+const ASK_EVERY_MS = 300;
+const OVER: ReadonlySet<Job["state"]> = new Set<Job["state"]>(["done", "failed", "cancelled"]);
+
+export const isOver = (job: Job): boolean => OVER.has(job.state);
+
+export interface JobFollowed {
+  job: Job | null;
+  /** Follow this one from now on. */
+  follow: (job: Job) => void;
+  cancel: () => void;
+  forget: () => void;
+}
+
+/** `onOver` is called once with the job as it ended. */
+export function useJob(onOver: (job: Job) => void): JobFollowed {
+  const [job, setJob] = useState<Job | null>(null);
+  const onEnd = useEffectEvent(onOver);
+  const id = job !== null && !isOver(job) ? job.id : null;
+
+  useEffect(() => {
+    if (id === null) return;
+    let stopped = false;
+    const timer = setInterval(() => {
+      answered(server.GET("/api/jobs/{job_id}", { params: { path: { job_id: id } } }))
+        .then((now) => {
+          if (stopped) return;
+          setJob(now);
+          if (!isOver(now)) return;
+          stopped = true;
+          onEnd(now);
+        })
+        .catch((error: unknown) => {
+          // A server that restarted remembers no jobs; one that does not answer may come back.
+          if (error instanceof Refusal && error.trouble.code !== "NO_ANSWER" && !stopped) setJob(null);
+        });
+    }, ASK_EVERY_MS);
+    return () => {
+      stopped = true;
+      clearInterval(timer);
+    };
+  }, [id]);
+
+  const cancel = useCallback(() => {
+    if (id === null) return;
+    void answered(server.DELETE("/api/jobs/{job_id}", { params: { path: { job_id: id } } })).then(
+      setJob,
+      () => undefined,
+    );
+  }, [id]);
+  const forget = useCallback(() => {
+    setJob(null);
+  }, []);
+  const follow = (begun: Job): void => {
+    setJob(begun);
+    if (isOver(begun)) onOver(begun);
+  };
+  return { job, follow, cancel, forget };
+}

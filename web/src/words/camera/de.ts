@@ -1,0 +1,3 @@
+import type { CameraWords } from "./en";
+
+export const cameraDe: CameraWords = { title: "Kamera" };

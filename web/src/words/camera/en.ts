@@ -1,0 +1,3 @@
+export const cameraEn = { title: "Camera" };
+
+export type CameraWords = typeof cameraEn;

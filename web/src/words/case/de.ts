@@ -1,0 +1,3 @@
+import type { CaseWords } from "./en";
+
+export const caseDe: CaseWords = { title: "Fälle" };

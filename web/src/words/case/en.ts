@@ -1,0 +1,3 @@
+export const caseEn = { title: "Cases" };
+
+export type CaseWords = typeof caseEn;

@@ -1,0 +1,3 @@
+import type { CheckWords } from "./en";
+
+export const checkDe: CheckWords = { title: "Prüfung an einem Punkt" };

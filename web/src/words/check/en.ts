@@ -1,0 +1,3 @@
+export const checkEn = { title: "Check on a landmark" };
+
+export type CheckWords = typeof checkEn;

@@ -1,0 +1,3 @@
+export const navigateEn = { title: "Navigation" };
+
+export type NavigateWords = typeof navigateEn;

@@ -1,0 +1,23 @@
+import type { OperatorWords } from "./en";
+
+export const operatorDe: OperatorWords = {
+  steps: "Schritte des Eingriffs",
+  skip: "Zum Schritt springen",
+  page: {
+    case: "Fall",
+    camera: "Kamera",
+    tool: "Instrument",
+    plan: "Planung",
+    register: "Registrierung",
+    check: "Prüfung",
+    navigate: "Navigation",
+    report: "Bericht",
+  },
+  state: {
+    missing: "offen",
+    out_of_date: "veraltet",
+    failed: "nicht bestanden",
+    due: "wieder fällig",
+    done: "erledigt",
+  },
+};

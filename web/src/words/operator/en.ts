@@ -1,0 +1,17 @@
+export const operatorEn = {
+  steps: "Steps of the procedure",
+  skip: "Skip to the step",
+  page: {
+    case: "Case",
+    camera: "Camera",
+    tool: "Tool",
+    plan: "Plan",
+    register: "Register",
+    check: "Check",
+    navigate: "Navigate",
+    report: "Report",
+  },
+  state: { missing: "to do", out_of_date: "out of date", failed: "failed", due: "due again", done: "done" },
+};
+
+export type OperatorWords = typeof operatorEn;

@@ -1,0 +1,3 @@
+import type { PlanWords } from "./en";
+
+export const planDe: PlanWords = { title: "Planung" };

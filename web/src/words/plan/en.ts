@@ -1,0 +1,3 @@
+export const planEn = { title: "Plan" };
+
+export type PlanWords = typeof planEn;

@@ -1,0 +1,3 @@
+import type { RegistrationWords } from "./en";
+
+export const registrationDe: RegistrationWords = { title: "Registrierung" };

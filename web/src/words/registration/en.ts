@@ -1,0 +1,3 @@
+export const registrationEn = { title: "Registration" };
+
+export type RegistrationWords = typeof registrationEn;

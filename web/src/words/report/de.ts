@@ -1,0 +1,3 @@
+import type { ReportWords } from "./en";
+
+export const reportDe: ReportWords = { title: "Bericht" };

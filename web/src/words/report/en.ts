@@ -1,0 +1,3 @@
+export const reportEn = { title: "Report" };
+
+export type ReportWords = typeof reportEn;

@@ -1,0 +1,10 @@
+import type { RestWords } from "./en";
+
+export const restDe: RestWords = {
+  noAnswer: "Der Server antwortet nicht.",
+  noAnswerRemedy:
+    "Nichts wurde ausgeführt. Prüfen Sie die Verbindung zum Server und versuchen Sie es erneut.",
+  waiting: "wartet",
+  cancel: "Abbrechen",
+  cancelled: "Abgebrochen. Nichts davon wurde behalten.",
+};

@@ -1,0 +1,3 @@
+import type { SupervisorWords } from "./en";
+
+export const supervisorDe: SupervisorWords = { title: "Aufsicht" };

@@ -1,0 +1,3 @@
+export const supervisorEn = { title: "Supervisor" };
+
+export type SupervisorWords = typeof supervisorEn;

@@ -1,0 +1,3 @@
+import type { TheatreWords } from "./en";
+
+export const theatreDe: TheatreWords = { title: "Operationssaal" };

@@ -1,0 +1,3 @@
+export const theatreEn = { title: "Theatre" };
+
+export type TheatreWords = typeof theatreEn;

@@ -1,0 +1,3 @@
+import type { ToolWords } from "./en";
+
+export const toolDe: ToolWords = { title: "Instrument" };

@@ -1,0 +1,3 @@
+export const toolEn = { title: "Tool" };
+
+export type ToolWords = typeof toolEn;
