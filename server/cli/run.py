@@ -70,7 +70,7 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
             store=kept.store,
             jobs=kept.jobs,
             config=config,
-            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            markers=preparation.models,
             adopt=tracked.adopt,
             know=alarms.know,
         )

@@ -111,7 +111,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             store=store,
             jobs=jobs,
             config=config,
-            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            markers=preparation.models,
             adopt=adopted.append,
         )
         app = create_app(AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps))
