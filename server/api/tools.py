@@ -43,6 +43,8 @@ class KnownToolMessage(Message):
 class KnownToolsMessage(Message):
     """All tools, by name."""
 
+    collecting: bool
+    """Whether poses of one are gathered: see `/api/tools/collection`."""
     tools: list[KnownToolMessage]
 
 
@@ -110,7 +112,9 @@ def tools_router(step: ToolStep) -> APIRouter:
     @router.get("", responses=refusals(503))
     def tools() -> KnownToolsMessage:
         """The tools that are known, with their newest calibrations."""
-        return KnownToolsMessage(tools=[_known(one, step) for one in step.all()])
+        return KnownToolsMessage(
+            collecting=step.is_collecting, tools=[_known(one, step) for one in step.all()]
+        )
 
     @router.post("/collection", status_code=201, responses=refusals(409, 422, 503))
     def begin(asked: GatheringRequest) -> GatheringMessage:

@@ -168,6 +168,11 @@ class ToolStep:
         """
         return self._held.get()
 
+    @property
+    def is_collecting(self) -> bool:
+        """Whether poses are held."""
+        return self._held.is_there
+
     def end(self) -> None:
         """Gather no more, and throw away what was gathered."""
         self._held.end()
