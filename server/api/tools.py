@@ -38,6 +38,8 @@ class KnownToolMessage(Message):
     length_mm: float | None
     kept: DocumentMessage | None
     """Its newest calibration in the open case, whether or not it holds."""
+    check: DocumentMessage | None
+    """The newest check of its tip."""
 
 
 class KnownToolsMessage(Message):
@@ -158,6 +160,7 @@ def _known(tool: KnownTool, step: ToolStep) -> KnownToolMessage:
         radius_mm=None if settled is None else settled.radius_mm,
         length_mm=None if settled is None else settled.length_mm,
         kept=None if document is None else document_message(document, step.standing(document)),
+        check=None if tool.check is None else document_message(tool.check, step.standing(tool.check)),
     )
 
 

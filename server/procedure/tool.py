@@ -56,11 +56,13 @@ class KnownTool:
         name: of the tool.
         settled: as the settings have it; None where they do not.
         document: as the open case keeps it, whether or not it holds; None where it does not.
+        check: the newest check of its tip there.
     """
 
     name: str
     settled: ToolConfig | None
     document: Document | None
+    check: Document | None
 
 
 def kept_tool(document: Document) -> KeptTool:
@@ -146,11 +148,14 @@ class ToolStep:
         case = self._store.opened()
         kept = () if case is None else self._store.all(case.id, DocumentKind.TOOL)
         document_from_name = {document.name: document for document in kept}
+        checks = () if case is None else self._store.all(case.id, DocumentKind.CHECK)
+        check_from_name = {document.name: document for document in checks}
         return tuple(
             KnownTool(
                 name=name,
                 settled=self._tools.get(name),
                 document=document_from_name.get(name),
+                check=check_from_name.get(tip_check_name(name)),
             )
             for name in sorted({*self._tools, *document_from_name})
         )
@@ -219,7 +224,7 @@ class ToolStep:
             return self._store.put(
                 case.id,
                 DocumentKind.CHECK,
-                f"tip of {tool}",
+                tip_check_name(tool),
                 {"tool": tool, **check_values(outcome)},
                 made_by=made_by,
                 stands_on=[] if before is None else [before.id],
@@ -297,6 +302,11 @@ class ToolStep:
             f"Name it; known are: {', '.join(known) or 'none'}.",
             {"tool": tool},
         )
+
+
+def tip_check_name(tool: str) -> str:
+    """The name of the document that keeps the check of a tool's tip."""
+    return f"tip of {tool}"
 
 
 def check_values(check: TipCheck) -> dict[str, object]:

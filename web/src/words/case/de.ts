@@ -52,6 +52,8 @@ export const caseDe: CaseWords = {
   standing: "Gültigkeit",
   made: "Erstellt",
   version: "Version",
+  another: "ein anderes Dokument",
+  standsOn: "beruht auf",
   standings: { current: "gültig", outOfDate: "veraltet", withdrawn: "zurückgezogen" },
   kinds: {
     patient: "Patient",

@@ -45,6 +45,8 @@ export const caseEn = {
   standing: "Standing",
   made: "Made",
   version: "version",
+  another: "another document",
+  standsOn: "stands on",
   standings: { current: "current", outOfDate: "out of date", withdrawn: "withdrawn" },
   kinds: {
     patient: "Patient",
