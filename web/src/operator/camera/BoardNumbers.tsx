@@ -96,6 +96,8 @@ interface NumberProps {
 function Count({ label, value, onChange }: NumberProps): ReactNode {
   return (
     <NumberInput
+      hideControls
+      inputMode="decimal"
       size="lg"
       label={label}
       min={2}
@@ -113,6 +115,8 @@ function Count({ label, value, onChange }: NumberProps): ReactNode {
 function Size({ label, value, onChange }: NumberProps): ReactNode {
   return (
     <NumberInput
+      hideControls
+      inputMode="decimal"
       size="lg"
       label={`${label} (mm)`}
       min={0.1}

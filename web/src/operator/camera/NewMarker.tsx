@@ -86,6 +86,8 @@ export function NewMarker({
           }}
         />
         <NumberInput
+          hideControls
+          inputMode="decimal"
           size="lg"
           label={`${words.side} (mm)`}
           min={0.1}
