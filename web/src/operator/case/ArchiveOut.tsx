@@ -19,7 +19,7 @@ export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
   };
   return (
     <div className="stack grow" data-testid="archive-out">
-      <div className="row">
+      <div className="row row-mid">
         <Button size="lg" variant="default" disabled={transfer.moved !== null} onClick={copyOut}>
           {words.copyOut}
         </Button>
