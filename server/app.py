@@ -9,6 +9,7 @@ from fastapi import FastAPI
 
 from server.alarms import AlarmDesk
 from server.api.alarms import alarms_router
+from server.api.audit import audit_router
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
@@ -20,12 +21,14 @@ from server.api.jobs import jobs_router
 from server.api.live import live_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.needles import needles_router
-from server.api.page import mount_page, page_folder
+from server.api.page import mount_page, page_addresses, page_folder
+from server.api.people import people_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.refused_uploads import RefusedUploads
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
+from server.api.session import session_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.surface import surface_router
 from server.api.sweep import sweep_router
@@ -38,7 +41,7 @@ from server.overlay.words import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.shown_bone import ShownBone
 from server.scene import mount_scene
-from server.security import HostGuard, KnownHosts, SecurityHeaders
+from server.security import HostGuard, KnownHosts, PeopleDesk, SecurityHeaders, SessionGuard
 from server.store import CaseStore
 from server.stream.mjpeg import Video
 from server.stream.viewers import Viewers
@@ -46,6 +49,7 @@ from tracker.navigation import Setup
 from tracker.plan import Surface
 
 OPENAPI_PATH = "/api/openapi.json"
+EVERY_ADDRESS = frozenset({"0.0.0.0", "::"})  # noqa: S104  compared with, not listened on
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,6 +66,7 @@ class AppParts:
         surface: the bone, for the scene.
         alarms: of this theatre; None makes some that nobody feeds.
         rehearsed: what is rehearsed; None for every other source.
+        people: who is signed in; None where there is no guard at all, as in tests of other rooms.
     """
 
     hub: LiveHub
@@ -73,6 +78,7 @@ class AppParts:
     surface: Surface | None = None
     alarms: AlarmDesk | None = None
     rehearsed: Rehearsed | None = None
+    people: PeopleDesk | None = None
 
 
 def create_app(parts: AppParts) -> FastAPI:
@@ -103,14 +109,13 @@ def create_app(parts: AppParts) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
-        responses=refusals(421, 500),
+        responses=refusals(401, 403, 421, 429, 500),
     )
     install_errors(app)
-    app.add_middleware(HostGuard, hosts=KnownHosts.of(config.server.host))
-    app.add_middleware(SecurityHeaders)
-    app.add_middleware(RefusedUploads)
+    _add_guards(app, parts)
     app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
     app.include_router(live_router(hub))
+    _add_people(app, parts)
     app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
@@ -129,6 +134,29 @@ def create_app(parts: AppParts) -> FastAPI:
         ShownBone(parts.store, app.state.scene.show_surface, own=parts.surface)
     mount_page(app, camera=config.camera.name, folder=page_folder())
     return app
+
+
+def _add_guards(app: FastAPI, parts: AppParts) -> None:
+    """What everything that is asked passes before it reaches a door; the last one here is passed first."""
+    server = parts.config.server
+    if parts.people is not None:
+        app.add_middleware(
+            SessionGuard,
+            people=parts.people,
+            is_page=page_addresses(page_folder()),
+            behind_proxy=server.behind_proxy is not None,
+        )
+    app.add_middleware(HostGuard, hosts=KnownHosts.of(server.host))
+    app.add_middleware(SecurityHeaders)
+    app.add_middleware(RefusedUploads)
+
+
+def _add_people(app: FastAPI, parts: AppParts) -> None:
+    """The doors to who is signed in and what they did."""
+    everywhere = parts.config.server.host in EVERY_ADDRESS
+    app.include_router(session_router(parts.people))
+    app.include_router(people_router(parts.people, listens_everywhere=everywhere))
+    app.include_router(audit_router(None if parts.people is None else parts.people.audit))
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:

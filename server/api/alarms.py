@@ -2,12 +2,13 @@
 
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Query, Response
+from fastapi import APIRouter, Query, Request, Response
 from pydantic import Field, StringConstraints
 
 from server.alarms import AlarmDesk
 from server.alarms.sound import BURSTS, burst_wav
 from server.api.errors import refusals
+from server.security import acting
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.message import Message
 from tracker.navigation.alarms import AlarmPicture, Priority
@@ -34,13 +35,14 @@ class SoundMessage(Message):
 class ByRequest(Message):
     """Who does it."""
 
-    by: Who
+    by: Who | None = None
+    """Where people sign in, their session says it, and this is not looked at."""
 
 
 class AcknowledgeRequest(Message):
     """Which alarms somebody has seen, and who."""
 
-    by: Who
+    by: Who | None = None
     numbers: Annotated[list[int], Field(min_length=1, max_length=100)]
     """Of the alarms that were in sight; one that was raised since is not meant."""
 
@@ -48,7 +50,7 @@ class AcknowledgeRequest(Message):
 class PauseRequest(Message):
     """For how long there shall be no sound."""
 
-    by: Who
+    by: Who | None = None
     seconds: float
     """At most 120."""
 
@@ -123,19 +125,19 @@ def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
 
 def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
     @router.post("/acknowledgement", responses=refusals(422, 503, 507))
-    def acknowledge(asked: AcknowledgeRequest) -> AlarmsMessage:
+    def acknowledge(asked: AcknowledgeRequest, request: Request) -> AlarmsMessage:
         """Say that these alarms were seen: their sound stops, and one that was over goes out of sight."""
-        return _logged(desk, desk.acknowledge(asked.numbers, by=asked.by))
+        return _logged(desk, desk.acknowledge(asked.numbers, by=acting(request.scope, asked.by)))
 
     @router.post("/pause", responses=refusals(422, 503, 507))
-    def pause(asked: PauseRequest) -> AlarmsMessage:
+    def pause(asked: PauseRequest, request: Request) -> AlarmsMessage:
         """No sound for at most two minutes; it comes back by itself, at once with a new or higher alarm."""
-        return _logged(desk, desk.pause(asked.seconds, by=asked.by))
+        return _logged(desk, desk.pause(asked.seconds, by=acting(request.scope, asked.by)))
 
     @router.post("/resumption", responses=refusals(422, 503, 507))
-    def resume(asked: ByRequest) -> AlarmsMessage:
+    def resume(asked: ByRequest, request: Request) -> AlarmsMessage:
         """End the pause now."""
-        return _logged(desk, desk.resume(by=asked.by))
+        return _logged(desk, desk.resume(by=acting(request.scope, asked.by)))
 
     @router.post("/screens", responses=refusals(422))
     def screen(asked: ScreenRequest) -> AlarmsMessage:
@@ -148,11 +150,11 @@ def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
 
 def _add_holding(router: APIRouter, desk: AlarmDesk) -> None:
     @router.post("/hold", responses=refusals(422, 503, 507))
-    def hold(asked: ByRequest) -> AlarmsMessage:
+    def hold(asked: ByRequest, request: Request) -> AlarmsMessage:
         """Ask those in theatre to hold. It raises an alarm, and stops or changes nothing."""
-        return _logged(desk, desk.ask_hold(by=asked.by))
+        return _logged(desk, desk.ask_hold(by=acting(request.scope, asked.by)))
 
     @router.post("/release", responses=refusals(422, 503, 507))
-    def release(asked: ByRequest) -> AlarmsMessage:
+    def release(asked: ByRequest, request: Request) -> AlarmsMessage:
         """Ask no more."""
-        return _logged(desk, desk.release_hold(by=asked.by))
+        return _logged(desk, desk.release_hold(by=acting(request.scope, asked.by)))

@@ -34,17 +34,31 @@ class Line:
     transport: asyncio.Transport
     is_endless: bool = False
 
+    @property
+    def unsent_bytes(self) -> int:
+        """What this process still holds of what was sent."""
+        below = below_tls(self.transport)
+        held = self.transport.get_write_buffer_size()
+        # What TLS has sealed lies below it, where it does not count it itself.
+        return held if below is None else held + below.get_write_buffer_size()
+
     async def drained(self) -> None:
         """Wait until everything was handed to the kernel: the next message is chosen only then.
 
         A server's own sending returns as soon as a message lies in its buffer, where it would grow old.
         """
-        while self.transport.get_write_buffer_size() > 0 and not self.transport.is_closing():
+        while self.unsent_bytes > 0 and not self.transport.is_closing():
             await asyncio.sleep(DRAIN_STEP_S)
 
     def cut(self) -> None:
         """End it now; what was not sent is thrown away."""
         self.transport.abort()
+
+
+def below_tls(transport: asyncio.Transport) -> asyncio.Transport | None:
+    """The transport of sealed bytes under a transport of TLS; None where there is none."""
+    below = getattr(getattr(transport, "_ssl_protocol", None), "_transport", None)
+    return below if isinstance(below, asyncio.Transport) else None
 
 
 def line_of(scope: MutableMapping[str, Any]) -> Line | None:
@@ -70,6 +84,9 @@ class ViewerProtocol(H11Protocol):
         self.loop.call_later(self.request_within_s, self._end_without_request)
         self.app_state = {**self.app_state, STATE_KEY: self._line}
         transport.set_write_buffer_limits(high=0)
+        below = below_tls(transport)
+        if below is not None:
+            below.set_write_buffer_limits(high=0)
         raw = cast("socket.socket | None", transport.get_extra_info("socket"))
         if raw is not None and hasattr(socket, "TCP_NOTSENT_LOWAT"):
             raw.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)
