@@ -86,6 +86,7 @@ def _serve(
             side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
             adopt=tracked.adopt,
             know=alarms.know,
+            tracked_from_s=lambda: tracked.tracks_from_s,
         )
         app = create_app(
             AppParts(

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from server.errors import SetupOrderError
+from server.procedure.confirmed import ConfirmationNeeded
 from server.procedure.state.records import HOLDS, Finding, StepName, StepState, StepStatus
 
 NO_CASE = Finding(
@@ -30,11 +31,13 @@ class ProcedureState:
         case_id: the open case; empty where none is open.
         steps: in their order.
         check_required: whether nothing is navigated by a registration that was never checked.
+        confirmation: what a person is asked before navigation goes on; None while nothing is to be asked.
     """
 
     case_id: str
     steps: tuple[StepStatus, ...]
     check_required: bool
+    confirmation: ConfirmationNeeded | None = None
 
     def status(self, step: StepName) -> StepStatus:
         """One of them."""
@@ -71,7 +74,11 @@ class ProcedureState:
 
 
 def judged(
-    case_id: str, findings: Mapping[StepName, Finding], *, check_required: bool = True
+    case_id: str,
+    findings: Mapping[StepName, Finding],
+    *,
+    check_required: bool = True,
+    confirmation: ConfirmationNeeded | None = None,
 ) -> ProcedureState:
     """The state that follows from what is found of each step but the last.
 
@@ -80,12 +87,17 @@ def judged(
         findings: of every step from the camera to the check.
         check_required: whether a registration must be checked before it is navigated by. One whose check
             failed is never navigated by.
+        confirmation: what a person has to confirm of the registration; asked only where its check lets pass,
+            because a check is more than a word.
     """
     blocking = _blocking(StepName.NAVIGATE, findings, check_required)
-    whole = {**findings, StepName.NAVIGATE: _navigation(findings, blocking)}
+    if not _lets_pass(StepName.CHECK, findings[StepName.CHECK], check_required):
+        confirmation = None
+    whole = {**findings, StepName.NAVIGATE: _navigation(findings, blocking, confirmation)}
     return ProcedureState(
         case_id=case_id,
         check_required=check_required,
+        confirmation=confirmation,
         steps=tuple(
             StepStatus(step=step, finding=whole[step], allowed=_blocking(step, whole, check_required) is None)
             for step in StepName
@@ -122,7 +134,16 @@ def _lets_pass(step: StepName, finding: Finding, check_required: bool) -> bool:
     return step is StepName.CHECK and not check_required and finding.state is StepState.MISSING
 
 
-def _navigation(findings: Mapping[StepName, Finding], blocking: StepName | None) -> Finding:
+def _navigation(
+    findings: Mapping[StepName, Finding], blocking: StepName | None, confirmation: ConfirmationNeeded | None
+) -> Finding:
+    if blocking is None and confirmation is not None:
+        return Finding(
+            state=StepState.MISSING,
+            said=f"navigation waits for a person: {confirmation.said}",
+            remedy=confirmation.remedy,
+            document_id=confirmation.registration.id,
+        )
     if blocking is None:
         return Finding(state=StepState.DONE, said="the tool is shown against the channel")
     first = findings[blocking]
