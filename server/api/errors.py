@@ -12,7 +12,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import JobUnknown
 from server.store import NotStored, OutOfDateError, StoreConflict, StoreError
-from server.stream.errors import CameraUnknown
+from server.stream.errors import CameraUnknown, TooManyViewers
+from server.stream.fitting.sizes import SizeUnknown
 from server.stream.messages import TroubleMessage
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
 
@@ -20,6 +21,8 @@ _log = structlog.get_logger(__name__)
 
 STATUS_OF: dict[type[NavigationError], int] = {
     CameraUnknown: 404,
+    TooManyViewers: 503,
+    SizeUnknown: 422,
     SetupOrderError: 409,
     CaptureError: 503,
     InvalidInput: 422,

@@ -4,7 +4,6 @@ import errno
 import socket
 import sys
 from contextlib import ExitStack
-from functools import partial
 
 import structlog
 import typer
@@ -58,7 +57,7 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
         from server.loop.rehearsed import Rehearsed  # noqa: PLC0415
-        from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
+        from server.overlay import draw_overlay  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
         alarm_log = StoredAlarmLog(kept.store)
@@ -89,7 +88,8 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
                 else Rehearsed(config.rehearsal, play=tracked.play, begun=lambda: tracked.begun),
             )
         )
-        picture = Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))
+        pictures = app.state.pictures
+        picture = Picture(draw=draw_overlay, encode=pictures.encode, wanted=pictures.wants_full)
         tracked.publish(picture, look=alarms.look)
         serve_until(app, listener, stopping, on_ready=lambda: _greet(listener))
 
