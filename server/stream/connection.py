@@ -7,6 +7,7 @@ another server the streams work as well, with longer buffers.
 
 import asyncio
 import socket
+import struct
 from collections.abc import MutableMapping
 from dataclasses import dataclass, field
 from typing import Any, cast
@@ -22,6 +23,7 @@ UNSENT_BYTES = 16_384
 DRAIN_STEP_S = 0.004
 # A line that takes little is let go as well, when one message needs so many times the patience.
 PATIENCES = 5
+RESET_ON_CLOSE = struct.pack("ii", 1, 0)
 # The largest message that anybody may send up: a camera message of the 3-D scene.
 LARGEST_UPWARD_BYTES = 65_536
 
@@ -70,7 +72,11 @@ class Line:
         return 0 if self.transport.is_closing() else self.transport.get_write_buffer_size()
 
     def cut(self) -> None:
-        """End it now; what was not sent is thrown away."""
+        """End it now; what was not sent is thrown away, here and in the kernel."""
+        raw = cast("socket.socket | None", self.transport.get_extra_info("socket"))
+        if raw is not None and not self.transport.is_closing():
+            # Closed quietly, the kernel would keep megabytes for minutes for somebody who takes nothing.
+            raw.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, RESET_ON_CLOSE)
         self.transport.abort()
 
 
