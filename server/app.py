@@ -43,7 +43,11 @@ from server.procedure.shown_bone import ShownBone
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, PeopleDesk, SecurityHeaders, SessionGuard
 from server.store import CaseStore
+from server.stream.connection import cut_line
+from server.stream.fitting.pictures import Pictures
+from server.stream.fitting.texts import Texts
 from server.stream.mjpeg import Video
+from server.stream.view_socket import View
 from server.stream.viewers import Viewers
 from tracker.navigation import Setup
 from tracker.plan import Surface
@@ -84,9 +88,11 @@ class AppParts:
 def create_app(parts: AppParts) -> FastAPI:
     """The application, ready to be served."""
     hub, config, limits = parts.hub, parts.config, parts.config.limits
-    viewers = Viewers()
-    metrics = Metrics(hub=hub, viewers=viewers)
-    video = Video(hub=hub, viewers=viewers, stale_after_ms=limits.video_stale_after_ms)
+    viewers = Viewers(most=config.video.most_viewers)
+    pictures = Pictures(quality=config.video.jpeg_quality)
+    metrics = Metrics(hub=hub, viewers=viewers, pictures=pictures)
+    video = Video(hub=hub, viewers=viewers, pictures=pictures, stale_after_ms=limits.video_stale_after_ms)
+    view = View(hub=hub, viewers=viewers, pictures=pictures, texts=Texts())
 
     @contextlib.asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -100,6 +106,7 @@ def create_app(parts: AppParts) -> FastAPI:
             await app.state.scene.stop()
             counting.cancel()
             await asyncio.wait([counting])
+            pictures.close()
 
     app = DocumentedApi(
         title=PRODUCT,
@@ -113,7 +120,8 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     install_errors(app)
     _add_guards(app, parts)
-    app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
+    app.state.pictures = pictures
+    app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
     app.include_router(live_router(hub))
     _add_people(app, parts)
     app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
@@ -129,6 +137,8 @@ def create_app(parts: AppParts) -> FastAPI:
         setup=parts.setup,
         surface=parts.surface,
         stale_after_ms=limits.scene_stale_after_ms,
+        most_viewers=config.video.most_viewers,
+        cut=cut_line,
     )
     if parts.store is not None:
         ShownBone(parts.store, app.state.scene.show_surface, own=parts.surface)

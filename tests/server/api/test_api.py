@@ -218,6 +218,7 @@ def test_each_route_documents_what_it_answers(client: TestClient) -> None:
     assert {(path, status) for path, status, _ in refused if path in watched} == {
         ("/video/{camera}.mjpg", "404"),
         ("/video/{camera}.mjpg", "422"),
+        ("/video/{camera}.mjpg", "503"),
         ("/api/live", "503"),
     }
     for _, _, answer in refused:
