@@ -100,6 +100,7 @@ class CaseInUse:
             ]
         )
         newest += [document for document in (active, *registered) if document is not None]
+        newest += self._store.all(case.id, DocumentKind.SIGNATURE)
         return [document for document in newest if isinstance(self._store.standing(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
@@ -118,19 +119,27 @@ class CaseInUse:
                     registered = kept_registration(document, reference=self._brought.reference)
                 elif document.kind is DocumentKind.CHECK:
                     check = kept_check(document)
+                elif document.kind is DocumentKind.SIGNATURE:
+                    continue  # what it lets pass, the procedure's state says
                 else:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        is_withheld = registered is not None and self._procedure.state().waits_for_check
         return CaseSetup(
             camera=cameras.get(MAIN_CAMERA),
             tools=tools,
             channel=channel,
             registration=None if registered is None else registered.registration,
             registered_from_s=None if registered is None else self._from_s(registered, check),
-            withheld=AbsentReason.NOT_CHECKED if is_withheld else None,
+            withheld=None if registered is None else self._withheld(),
         )
+
+    def _withheld(self) -> AbsentReason | None:
+        """Why no number is given by the registration yet."""
+        state = self._procedure.state()
+        if state.waits_for_check:
+            return AbsentReason.NOT_CHECKED
+        return None if state.unsigned is None else AbsentReason.NOT_COSIGNED
 
     def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:
         """Since when it stands, by the images' clock: touched, or checked since; None before this run."""

@@ -74,7 +74,8 @@ class Steps:
             know: told what the alarms shall know of the procedure.
         """
         brought = brought_by(config)
-        procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
+        gate, cosign = config.registration, config.supervision.cosign
+        procedure = Procedure(store, brought=brought, gate=gate, run=new_run(), cosign=cosign)
         _keep_in_use(
             CaseInUse(
                 store,
@@ -106,7 +107,7 @@ class Steps:
                 surfaces=surface,
                 procedure=procedure,
                 brought=brought,
-                gate=config.registration,
+                gate=gate,
             ),
         )
 

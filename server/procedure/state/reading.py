@@ -4,12 +4,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 
-from server.config import RegistrationConfig
+from server.config import CosignConfig, RegistrationConfig
 from server.procedure.camera import ACCURACY, MAIN_CAMERA, kept_camera
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.plan.kept import MAIN_PLAN
 from server.procedure.registered import check_name, kept_registration
 from server.procedure.state.checked import CHECK, check_finding
+from server.procedure.state.cosigned import lacking
 from server.procedure.state.judged import ProcedureState, judged, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import kept_tool
@@ -50,6 +51,7 @@ class Procedure:
         brought: what the settings bring.
         gate: the limits of registration and check.
         run: names this run of the server.
+        cosign: what a second person must have signed.
         clock: the wall clock, in UTC.
     """
 
@@ -60,12 +62,14 @@ class Procedure:
         brought: Brought,
         gate: RegistrationConfig,
         run: str,
+        cosign: CosignConfig | None = None,
         clock: Callable[[], datetime] = utc_now,
     ) -> None:
         self._store = store
         self._brought = brought
         self._gate = gate
         self.run = run
+        self.cosign = cosign or CosignConfig()
         self._clock = clock
 
     def state(self) -> ProcedureState:
@@ -82,7 +86,8 @@ class Procedure:
             StepName.REGISTER: self._registration(case.id, vertebra),
             StepName.CHECK: self._check(case.id, vertebra),
         }
-        return judged(case.id, findings, check_required=required)
+        lacks = lacking(self._store, case.id, findings, self.cosign)
+        return judged(case.id, findings, check_required=required, lacks=lacks)
 
     def active_vertebra(self, case_id: str) -> str | None:
         """The vertebra whose channel is to be drilled now."""

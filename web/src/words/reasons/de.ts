@@ -73,6 +73,10 @@ export const reasonsDe: Pick<Words, "cause" | "absent" | "unseen"> = {
       state: "NICHT GEPRÜFT",
       sentence: "Registriert, aber noch nicht an einer Landmarke geprüft. Zum Prüfen eine berühren.",
     },
+    NOT_COSIGNED: {
+      state: "NICHT GEGENGEZEICHNET",
+      sentence: "Planung oder Registrierung wartet auf die Unterschrift einer zweiten Person.",
+    },
   },
   unseen: {
     NO_CANDIDATE: "nichts im Bild sieht ihm ähnlich",
