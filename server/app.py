@@ -27,6 +27,7 @@ from server.api.refused_uploads import RefusedUploads
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
+from server.api.supervision import ROOM_IN_WORDS, room_router, signatures_router
 from server.api.surface import surface_router
 from server.api.sweep import sweep_router
 from server.api.tools import tools_router
@@ -42,6 +43,7 @@ from server.security import HostGuard, KnownHosts, SecurityHeaders
 from server.store import CaseStore
 from server.stream.mjpeg import Video
 from server.stream.viewers import Viewers
+from server.supervision import Holds, Lobby, SignatureDesk
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
@@ -98,7 +100,7 @@ def create_app(parts: AppParts) -> FastAPI:
     app = DocumentedApi(
         title=PRODUCT,
         version=product_version(),
-        description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}",
+        description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}{ROOM_IN_WORDS}",
         openapi_url=OPENAPI_PATH,
         docs_url=None,
         redoc_url=None,
@@ -111,7 +113,7 @@ def create_app(parts: AppParts) -> FastAPI:
     app.add_middleware(RefusedUploads)
     app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
     app.include_router(live_router(hub))
-    app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
+    _add_supervision(app, parts, viewers)
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
@@ -129,6 +131,23 @@ def create_app(parts: AppParts) -> FastAPI:
         ShownBone(parts.store, app.state.scene.show_surface, own=parts.surface)
     mount_page(app, camera=config.camera.name, folder=page_folder())
     return app
+
+
+def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
+    """The doors to alarms, to the room of those who watch, and to what is co-signed in a case."""
+    desk = parts.alarms or AlarmDesk(parts.config)
+    holds, signatures = Holds(desk), None
+    if parts.steps is not None and parts.store is not None:
+        signatures = SignatureDesk(parts.store, parts.steps.procedure)
+        app.include_router(signatures_router(signatures))
+    lobby = Lobby(
+        hub=parts.hub,
+        holds=holds,
+        signatures=signatures,
+        fades_after_s=parts.config.supervision.drawings_fade_after_s,
+    )
+    app.include_router(alarms_router(desk, holds))
+    app.include_router(room_router(lobby, viewers))
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:

@@ -19,6 +19,7 @@ class ViewerKind(StrEnum):
     MJPEG = "mjpeg"
     LIVE = "live"
     VIEW = "view"
+    ROOM = "room"
 
 
 @dataclass(slots=True)
