@@ -30,6 +30,7 @@ from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.session import session_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
+from server.api.supervision import ROOM_IN_WORDS, room_router, signatures_router
 from server.api.surface import surface_router
 from server.api.sweep import sweep_router
 from server.api.tools import tools_router
@@ -49,6 +50,7 @@ from server.stream.fitting.texts import Texts
 from server.stream.mjpeg import Video
 from server.stream.view_socket import View
 from server.stream.viewers import Viewers
+from server.supervision import Holds, Lobby, SignatureDesk
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
@@ -111,7 +113,7 @@ def create_app(parts: AppParts) -> FastAPI:
     app = DocumentedApi(
         title=PRODUCT,
         version=product_version(),
-        description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}",
+        description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}{ROOM_IN_WORDS}",
         openapi_url=OPENAPI_PATH,
         docs_url=None,
         redoc_url=None,
@@ -124,7 +126,7 @@ def create_app(parts: AppParts) -> FastAPI:
     app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
     app.include_router(live_router(hub))
     _add_people(app, parts)
-    app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
+    _add_supervision(app, parts, viewers)
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
@@ -167,6 +169,23 @@ def _add_people(app: FastAPI, parts: AppParts) -> None:
     app.include_router(session_router(parts.people))
     app.include_router(people_router(parts.people, listens_everywhere=everywhere))
     app.include_router(audit_router(None if parts.people is None else parts.people.audit))
+
+
+def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
+    """The doors to alarms, to the room of those who watch, and to what is co-signed in a case."""
+    desk = parts.alarms or AlarmDesk(parts.config)
+    holds, signatures = Holds(desk), None
+    if parts.steps is not None and parts.store is not None:
+        signatures = SignatureDesk(parts.store, parts.steps.procedure)
+        app.include_router(signatures_router(signatures))
+    lobby = Lobby(
+        hub=parts.hub,
+        holds=holds,
+        signatures=signatures,
+        fades_after_s=parts.config.supervision.drawings_fade_after_s,
+    )
+    app.include_router(alarms_router(desk, holds))
+    app.include_router(room_router(lobby, viewers))
 
 
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:

@@ -14,6 +14,13 @@ from server.setup import Unconfirmed
 from server.stream.messages import Message
 
 
+class LackMessage(Message):
+    """What a step that is done still lacks before anybody may navigate by it."""
+
+    said: str
+    remedy: str
+
+
 class StepMessage(Message):
     """One step."""
 
@@ -30,6 +37,8 @@ class StepMessage(Message):
     """What was made in it; null where nothing was."""
     allowed: bool
     """Whether it may be done now, because all that it stands on holds."""
+    lacks: LackMessage | None
+    """The co-signature that is required of it and not there; null where nothing is lacking."""
 
 
 class ConfirmationMessage(Message):
@@ -105,6 +114,9 @@ def procedure_message(state: ProcedureState) -> ProcedureMessage:
                 numbers=dict(one.finding.numbers),
                 document_id=one.finding.document_id or None,
                 allowed=one.allowed,
+                lacks=None
+                if one.lacks is None
+                else LackMessage(said=one.lacks.said, remedy=one.lacks.remedy),
             )
             for one in state.steps
         ],

@@ -32,6 +32,7 @@ STATE_WORDS = {
     AbsentReason.POSE_JUMPED: "POSE JUMPED",
     AbsentReason.NOT_CHECKED: "NOT CHECKED",
     AbsentReason.NOT_CONFIRMED: "NAVIGATION STOPPED",
+    AbsentReason.NOT_COSIGNED: "NOT CO-SIGNED",
 }
 STATE_DETAILS = {
     AbsentReason.MARKER_UNSEEN: "marker not seen",
@@ -46,6 +47,7 @@ STATE_DETAILS = {
     AbsentReason.POSE_JUMPED: "farther than a hand moves between two images",
     AbsentReason.NOT_CHECKED: "touch a landmark to check the registration",
     AbsentReason.NOT_CONFIRMED: "started again: look, then confirm",
+    AbsentReason.NOT_COSIGNED: "a second person signs plan and registration",
 }
 VERDICT_WORDS = {
     Verdict.ON: "ON PATH",

@@ -102,6 +102,7 @@ class CaseInUse:
             ]
         )
         newest += [document for document in (active, *registered) if document is not None]
+        newest += self._store.all(case.id, DocumentKind.SIGNATURE)
         return [document for document in newest if isinstance(self._store.standing(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
@@ -141,6 +142,8 @@ class CaseInUse:
         state = self._procedure.state()
         if state.waits_for_check:
             return AbsentReason.NOT_CHECKED
+        if state.unsigned is not None:
+            return AbsentReason.NOT_COSIGNED
         return None if state.confirmation is None else AbsentReason.NOT_CONFIRMED
 
     def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:

@@ -80,8 +80,15 @@ class Steps:
             tracked_from_s: since when the tracking process of now runs, by the images' clock.
         """
         brought = brought_by(config)
-        gate = config.registration
-        procedure = Procedure(store, brought=brought, gate=gate, run=new_run(), tracked_from_s=tracked_from_s)
+        gate, cosign = config.registration, config.supervision.cosign
+        procedure = Procedure(
+            store,
+            brought=brought,
+            gate=gate,
+            run=new_run(),
+            cosign=cosign,
+            tracked_from_s=tracked_from_s,
+        )
         in_use = CaseInUse(
             store,
             adopt,

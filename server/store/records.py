@@ -19,6 +19,7 @@ class DocumentKind(StrEnum):
     REGISTRATION = "registration"
     CHECK = "check"
     CONFIRMATION = "confirmation"
+    SIGNATURE = "signature"
     SNAPSHOT = "snapshot"
     ALARM = "alarm"
     AUDIT = "audit"

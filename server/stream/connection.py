@@ -47,7 +47,6 @@ class Line:
     is_endless: bool = False
     is_free: asyncio.Event = field(default_factory=_set_event)
 
-<<<<<<< HEAD
     @property
     def unsent_bytes(self) -> int:
         """What this process still holds of what was sent."""
@@ -56,10 +55,7 @@ class Line:
         # What TLS has sealed lies below it, where it does not count it itself.
         return held if below is None else held + below.get_write_buffer_size()
 
-    async def drained(self) -> None:
-=======
     async def drained(self, *, patience_s: float) -> None:
->>>>>>> live
         """Wait until everything was handed to the kernel: the next message is chosen only then.
 
         A server's own sending returns as soon as a message lies in its buffer, where it would grow old.
@@ -67,10 +63,6 @@ class Line:
         Raises:
             TimeoutError: the line took nothing at all for this long, or needs several times as long for all.
         """
-<<<<<<< HEAD
-        while self.unsent_bytes > 0 and not self.transport.is_closing():
-            await asyncio.sleep(DRAIN_STEP_S)
-=======
         async with asyncio.timeout(patience_s * PATIENCES):
             while (unsent := self._unsent()) > 0:
                 if self.is_free.is_set():
@@ -85,8 +77,7 @@ class Line:
                         raise
 
     def _unsent(self) -> int:
-        return 0 if self.transport.is_closing() else self.transport.get_write_buffer_size()
->>>>>>> live
+        return 0 if self.transport.is_closing() else self.unsent_bytes
 
     def cut(self) -> None:
         """End it now; what was not sent is thrown away, here and in the kernel."""

@@ -22,6 +22,7 @@ class ViewerKind(StrEnum):
     MJPEG = "mjpeg"
     LIVE = "live"
     VIEW = "view"
+    ROOM = "room"
 
 
 @dataclass(slots=True)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 
-from server.config import RegistrationConfig
+from server.config import CosignConfig, RegistrationConfig
 from server.procedure.camera import ACCURACY, MAIN_CAMERA, kept_camera
 from server.procedure.confirmed import (
     ConfirmationNeeded,
@@ -18,6 +18,7 @@ from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.plan.kept import MAIN_PLAN
 from server.procedure.registered import KeptRegistration, check_name, kept_check, kept_registration
 from server.procedure.state.checked import CHECK, check_finding
+from server.procedure.state.cosigned import lacking
 from server.procedure.state.judged import ProcedureState, judged, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import kept_tool
@@ -59,6 +60,7 @@ class Procedure:
         gate: the limits of registration and check.
         run: names this run of the server.
         tracked_from_s: since when the tracking process of now runs, by the images' clock.
+        cosign: what a second person must have signed.
         clock: the wall clock, in UTC.
     """
 
@@ -70,6 +72,7 @@ class Procedure:
         gate: RegistrationConfig,
         run: str,
         tracked_from_s: Callable[[], float] = lambda: -math.inf,
+        cosign: CosignConfig | None = None,
         clock: Callable[[], datetime] = utc_now,
     ) -> None:
         self._store = store
@@ -77,6 +80,7 @@ class Procedure:
         self._gate = gate
         self.run = run
         self._tracked_from_s = tracked_from_s
+        self.cosign = cosign or CosignConfig()
         self._clock = clock
 
     def state(self) -> ProcedureState:
@@ -98,6 +102,7 @@ class Procedure:
             findings,
             check_required=required,
             confirmation=self._confirmation(case.id, vertebra),
+            lacks=lacking(self._store, case.id, findings, self.cosign),
         )
 
     def believed_from_s(self, registration: KeptRegistration, case_id: str) -> float | None:
