@@ -202,7 +202,14 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
-        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(
+            plan_router(
+                parts.steps.plan,
+                parts.steps.opened_ct,
+                parts.store.home,
+                least_landmarks=parts.config.registration.least_points,
+            )
+        )
         app.include_router(procedure_router(parts.steps.procedure, parts.steps.confirm))
         app.include_router(registration_router(parts.steps.registration))
         app.include_router(sweep_router(parts.steps.registration.sweep))
