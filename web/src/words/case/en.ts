@@ -60,6 +60,8 @@ export const caseEn = {
     check: "Check",
     snapshot: "Snapshot",
     alarm: "Alarms",
+    confirmation: "Confirmation",
+    signature: "Co-signature",
     audit: "Log",
   },
   filesTitle: "Files",
