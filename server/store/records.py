@@ -19,6 +19,8 @@ class DocumentKind(StrEnum):
     PLAN = "plan"
     REGISTRATION = "registration"
     CHECK = "check"
+    CONFIRMATION = "confirmation"
+    SIGNATURE = "signature"
     SNAPSHOT = "snapshot"
     ALARM = "alarm"
     AUDIT = "audit"

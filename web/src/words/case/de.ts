@@ -66,6 +66,8 @@ export const caseDe: CaseWords = {
     check: "Prüfung",
     snapshot: "Momentaufnahme",
     alarm: "Alarme",
+    confirmation: "Bestätigung",
+    signature: "Gegenzeichnung",
     audit: "Protokoll",
   },
   filesTitle: "Dateien",

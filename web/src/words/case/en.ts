@@ -59,6 +59,8 @@ export const caseEn = {
     check: "Check",
     snapshot: "Snapshot",
     alarm: "Alarms",
+    confirmation: "Confirmation",
+    signature: "Co-signature",
     audit: "Log",
   },
   filesTitle: "Files",
