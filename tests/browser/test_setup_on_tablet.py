@@ -1,4 +1,4 @@
-"""The set-up walked on a tablet by touch, against the real program: case, camera, tool, until both gates hold."""
+"""The set-up walked on a tablet by touch: from no case to a camera and a tool that pass their gates."""
 
 from collections.abc import Iterator
 from pathlib import Path
