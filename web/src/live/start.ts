@@ -1,6 +1,7 @@
 // Joins the pure parts to the browser: WebSocket, timers, questions to the server, visibility.
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
+import { chosenBefore, keepChoice } from "./chosen";
 import { ViewLine, type Socket } from "./line";
 import type { Live } from "./live";
 import { isSceneNote } from "./sceneAge";
@@ -80,6 +81,11 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     { signal },
   );
   onVisibility();
+  live.choosePicture(chosenBefore());
+  live.setOnChoice((choice) => {
+    keepChoice(choice);
+    line.askSize(choice);
+  });
   line.start();
   return () => {
     stop.abort();
@@ -90,7 +96,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
 
 function viewLine(live: Live, onOpen: () => void): ViewLine {
   const line = new ViewLine({
-    open: () => new WebSocket(viewAddress()) as Socket,
+    open: () => new WebSocket(viewAddress(live.pictureChoice)) as Socket,
     later: (action, waitMs) => {
       setTimeout(action, waitMs);
     },
@@ -107,8 +113,8 @@ function viewLine(live: Live, onOpen: () => void): ViewLine {
   return line;
 }
 
-function viewAddress(): string {
-  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/view`;
+function viewAddress(size: string): string {
+  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/view?size=${size}`;
 }
 
 /** Asks the server who it is and which limits hold; limits have one home, its config. */
