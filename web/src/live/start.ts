@@ -102,7 +102,9 @@ function viewLine(live: Live, onOpen: () => void): ViewLine {
     },
     onLink: (state) => {
       live.setLink(state);
-      if (state === "open") onOpen();
+      if (state !== "open") return;
+      onOpen();
+      tellScenes();
     },
     onFrame: (frame) => {
       void live.take(frame).then((standing) => {
@@ -111,6 +113,13 @@ function viewLine(live: Live, onOpen: () => void): ViewLine {
     },
   });
   return line;
+}
+
+/** The server is there again: `watch.js` in each scene hears this, and takes its own line up at once. */
+function tellScenes(): void {
+  for (const frame of document.querySelectorAll<HTMLIFrameElement>("iframe[src^='/scene/']")) {
+    frame.contentWindow?.postMessage({ kind: "coaxial-server" }, location.origin);
+  }
 }
 
 function viewAddress(size: string): string {
