@@ -132,7 +132,7 @@ def judge(what: str, seen: Absence) -> None:
     )
     for pane in PANES:
         assert seen.said_ms[pane] <= SAID_WITHIN_MS + seen.pause_ms
-    # Numbers stay away as long as images are older than 150 ms, which on a busy machine is no matter of the line.
+    # Numbers stay away while images are older than 150 ms, which on a busy machine is no matter of the line.
     for pane in ("video", "scene"):
         assert seen.right_ms[pane] <= RIGHT_WITHIN_MS + seen.pause_ms
 
