@@ -5,6 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from server.stream.along_messages import AlongMessage, along_message
 from server.stream.judgement_messages import (
     DeviationMessage,
     JudgementMessage,
@@ -34,6 +35,8 @@ class ToolStateMessage(Message):
     pose: Annotated[ToolMessage | AbsentMessage, Field(discriminator="kind")]
     deviation: Annotated[DeviationMessage | AbsentMessage, Field(discriminator="kind")]
     judgement: Annotated[JudgementMessage | AbsentMessage, Field(discriminator="kind")]
+    along: AlongMessage | None
+    """The drill in the view along the channel; null where there is no deviation."""
 
 
 class WatchMessage(Message):
@@ -116,6 +119,7 @@ def _tool_state(snapshot: NavigationSnapshot, name: str) -> ToolStateMessage:
         pose=tool_message(snapshot.tools[name]),
         deviation=deviation_message(snapshot.deviations[name]),
         judgement=judgement_message(snapshot.judgements[name]),
+        along=along_message(snapshot, name),
     )
 
 
