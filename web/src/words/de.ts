@@ -5,12 +5,14 @@ import { caseDe } from "./case/de";
 import { checkDe } from "./check/de";
 import { enterDe } from "./enter/de";
 import { navigateDe } from "./navigate/de";
+import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
 import { planDe } from "./plan/de";
 import { reasonsDe } from "./reasons/de";
 import { registrationDe } from "./registration/de";
 import { reportDe } from "./report/de";
 import { restDe } from "./rest/de";
+import { roomDe } from "./room/de";
 import { shellDe } from "./shell/de";
 import { supervisorDe } from "./supervisor/de";
 import { theatreDe } from "./theatre/de";
@@ -146,4 +148,6 @@ export const de: Words = {
   navigate: navigateDe,
   report: reportDe,
   supervisor: supervisorDe,
+  marks: marksDe,
+  room: roomDe,
 };

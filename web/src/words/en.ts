@@ -5,12 +5,14 @@ import { caseEn } from "./case/en";
 import { checkEn } from "./check/en";
 import { enterEn } from "./enter/en";
 import { navigateEn } from "./navigate/en";
+import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
 import { planEn } from "./plan/en";
 import { reasonsEn } from "./reasons/en";
 import { registrationEn } from "./registration/en";
 import { reportEn } from "./report/en";
 import { restEn } from "./rest/en";
+import { roomEn } from "./room/en";
 import { shellEn } from "./shell/en";
 import { supervisorEn } from "./supervisor/en";
 import { theatreEn } from "./theatre/en";
@@ -148,4 +150,6 @@ export const en: Words = {
   navigate: navigateEn,
   report: reportEn,
   supervisor: supervisorEn,
+  marks: marksEn,
+  room: roomEn,
 };
