@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,7 @@ from tracker.navigation.clearance import choose_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.pose import SteadySettings, ToolModel
-from tracker.registration import Method, Registration
+from tracker.registration import AnchoredTo, Method, Registration
 
 if TYPE_CHECKING:
     from tracker.plan import Surface
@@ -30,6 +31,30 @@ if TYPE_CHECKING:
 
 # An ordinary lens: about 45 degrees across. It only helps to find the marker, no millimetre comes from it.
 NOMINAL_FOCAL_BY_WIDTH = 1.2
+
+
+class Unconfirmed(StrEnum):
+    """Why nobody stands for a registration any more."""
+
+    SERVER_STARTED = "server_started"  # it was made, checked and confirmed before this run of the server
+    TRACKING_STARTED = "tracking_started"  # fixed to a camera that nobody watched for a while
+
+
+def unconfirmed(
+    registration: Registration, believed_from_s: float | None, *, tracked_from_s: float
+) -> Unconfirmed | None:
+    """Why a person has to confirm a registration before it is navigated by; None where nobody has to.
+
+    Args:
+        registration: of plan and patient.
+        believed_from_s: when a person last touched, checked or confirmed it, by the images' clock; None
+            where that was before this run of the server.
+        tracked_from_s: since when the tracking process runs: what it watches for, it has watched since then.
+    """
+    if believed_from_s is None:
+        return Unconfirmed.SERVER_STARTED
+    is_loose = registration.anchored_to is AnchoredTo.CAMERA
+    return Unconfirmed.TRACKING_STARTED if is_loose and believed_from_s < tracked_from_s else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +70,7 @@ class CaseSetup:
             clock that images are stamped with; None where that was before this server.
         guide: what is known of that pedicle besides its channel.
         withheld: why no number may be given yet, although all is known.
+        believed_from_s: see `unconfirmed`.
     """
 
     camera: CameraModel | None = None
@@ -54,6 +80,14 @@ class CaseSetup:
     registered_from_s: float | None = None
     guide: Guide | None = None
     withheld: AbsentReason | None = None
+    believed_from_s: float | None = None
+
+    def tracked_from(self, tracked_from_s: float) -> "CaseSetup":
+        """The same for a tracking process that runs since then: it may not know what happened before."""
+        if self.registration is None or self.withheld is not None:
+            return self
+        why = unconfirmed(self.registration, self.believed_from_s, tracked_from_s=tracked_from_s)
+        return self if why is None else replace(self, withheld=AbsentReason.NOT_CONFIRMED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

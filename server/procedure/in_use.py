@@ -9,6 +9,7 @@ import structlog
 
 from server.alarms import ProcedureFacts
 from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.confirmed import confirmation_name
 from server.procedure.facts import facts_of
 from server.procedure.guiding import Guiding
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
@@ -38,7 +39,7 @@ class CaseInUse:
 
     What is out of date, withdrawn, unreadable or of another camera is not used: it is then unknown. Of the
     registrations the one of the vertebra that is to be drilled counts, and numbers against it are withheld
-    until it was checked.
+    until it was checked, and after a start until a person has confirmed it.
 
     Args:
         store: where cases are kept.
@@ -97,6 +98,7 @@ class CaseInUse:
             else [
                 self._store.latest(case.id, DocumentKind.REGISTRATION, vertebra),
                 self._store.latest(case.id, DocumentKind.CHECK, check_name(vertebra)),
+                self._store.latest(case.id, DocumentKind.CONFIRMATION, confirmation_name(vertebra)),
             ]
         )
         newest += [document for document in (active, *registered) if document is not None]
@@ -119,9 +121,7 @@ class CaseInUse:
                     registered = kept_registration(document, reference=self._brought.reference)
                 elif document.kind is DocumentKind.CHECK:
                     check = kept_check(document)
-                elif document.kind is DocumentKind.SIGNATURE:
-                    continue  # what it lets pass, the procedure's state says
-                else:
+                elif document.kind is DocumentKind.TOOL:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
@@ -132,14 +132,19 @@ class CaseInUse:
             registration=None if registered is None else registered.registration,
             registered_from_s=None if registered is None else self._from_s(registered, check),
             withheld=None if registered is None else self._withheld(),
+            believed_from_s=None
+            if registered is None
+            else self._procedure.believed_from_s(registered, documents[0].case_id),
         )
 
     def _withheld(self) -> AbsentReason | None:
-        """Why no number is given by the registration yet."""
+        """Why no number is given although the vertebra is registered."""
         state = self._procedure.state()
         if state.waits_for_check:
             return AbsentReason.NOT_CHECKED
-        return None if state.unsigned is None else AbsentReason.NOT_COSIGNED
+        if state.unsigned is not None:
+            return AbsentReason.NOT_COSIGNED
+        return None if state.confirmation is None else AbsentReason.NOT_CONFIRMED
 
     def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:
         """Since when it stands, by the images' clock: touched, or checked since; None before this run."""

@@ -1,5 +1,6 @@
 """All steps of the set-up, made for one server."""
 
+import math
 import secrets
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
+from server.procedure.confirm import ConfirmStep
 from server.procedure.ct import CtStep, OpenedCt
 from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
@@ -39,6 +41,7 @@ class Steps:
         surface: makes the surface of the bone.
         procedure: what may follow what.
         registration: finds the vertebra on the patient.
+        confirm: takes a person's word after a start.
     """
 
     camera: CameraStep
@@ -49,6 +52,7 @@ class Steps:
     surface: SurfaceStep
     procedure: Procedure
     registration: RegistrationSteps
+    confirm: ConfirmStep
 
     @classmethod
     def of(
@@ -61,6 +65,7 @@ class Steps:
         side_mm_from_marker: Mapping[str, float],
         adopt: Callable[[CaseSetup], None],
         know: Callable[[ProcedureFacts], None] = lambda _: None,
+        tracked_from_s: Callable[[], float] = lambda: -math.inf,
     ) -> "Steps":
         """The steps; from here on `adopt` is told whenever the open case knows something else.
 
@@ -72,21 +77,27 @@ class Steps:
             side_mm_from_marker: the markers that are looked for.
             adopt: has the tracking process work with what a case knows.
             know: told what the alarms shall know of the procedure.
+            tracked_from_s: since when the tracking process of now runs, by the images' clock.
         """
         brought = brought_by(config)
         gate, cosign = config.registration, config.supervision.cosign
-        procedure = Procedure(store, brought=brought, gate=gate, run=new_run(), cosign=cosign)
-        _keep_in_use(
-            CaseInUse(
-                store,
-                adopt,
-                procedure=procedure,
-                guiding=Guiding(store=store, jobs=jobs),
-                brought=brought,
-                know=know,
-            ),
+        procedure = Procedure(
             store,
+            brought=brought,
+            gate=gate,
+            run=new_run(),
+            cosign=cosign,
+            tracked_from_s=tracked_from_s,
         )
+        in_use = CaseInUse(
+            store,
+            adopt,
+            procedure=procedure,
+            guiding=Guiding(store=store, jobs=jobs),
+            brought=brought,
+            know=know,
+        )
+        _keep_in_use(in_use, store)
         opened_ct = OpenedCt(store)
         surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
@@ -109,6 +120,7 @@ class Steps:
                 brought=brought,
                 gate=gate,
             ),
+            confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
         )
 
     def close(self) -> None:

@@ -18,6 +18,7 @@ class DocumentKind(StrEnum):
     PLAN = "plan"
     REGISTRATION = "registration"
     CHECK = "check"
+    CONFIRMATION = "confirmation"
     SIGNATURE = "signature"
     SNAPSHOT = "snapshot"
     ALARM = "alarm"

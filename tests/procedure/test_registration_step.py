@@ -257,7 +257,8 @@ def test_beside_a_reference_patient_and_camera_may_move_and_the_server_start_aga
 
     turns.close()
     again = turns.enter_context(serving(tmp_path, REFERENCE))
-    assert withheld(again) is None
+    # A person says first that it is the same patient, and all stands as it did.
+    assert withheld(again) is AbsentReason.NOT_CONFIRMED
     assert registered(again) is not None
     turns.close()
     # Without its marker it is nowhere.

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from server.errors import SetupOrderError
+from server.procedure.confirmed import ConfirmationNeeded
 from server.procedure.state.records import HOLDS, Finding, Lack, StepName, StepState, StepStatus
 
 NOTHING_LACKS: Mapping[StepName, Lack] = {}
@@ -31,11 +32,13 @@ class ProcedureState:
         case_id: the open case; empty where none is open.
         steps: in their order.
         check_required: whether nothing is navigated by a registration that was never checked.
+        confirmation: what a person is asked before navigation goes on; None while nothing is to be asked.
     """
 
     case_id: str
     steps: tuple[StepStatus, ...]
     check_required: bool
+    confirmation: ConfirmationNeeded | None = None
 
     def status(self, step: StepName) -> StepStatus:
         """One of them."""
@@ -95,6 +98,7 @@ def judged(
     findings: Mapping[StepName, Finding],
     *,
     check_required: bool = True,
+    confirmation: ConfirmationNeeded | None = None,
     lacks: Mapping[StepName, Lack] = NOTHING_LACKS,
 ) -> ProcedureState:
     """The state that follows from what is found of each step but the last.
@@ -104,15 +108,21 @@ def judged(
         findings: of every step from the camera to the check.
         check_required: whether a registration must be checked before it is navigated by. One whose check
             failed is never navigated by.
+        confirmation: what a person has to confirm of the registration; asked only where its check lets pass,
+            because a check is more than a word.
         lacks: by step, the co-signature that it lacks. It keeps nobody from any step but navigation: while
             one person looks at the plan, others may register.
     """
     blocking = _blocking(StepName.NAVIGATE, findings, check_required)
     unsigned = next(iter(lacks.values()), None)
-    whole = {**findings, StepName.NAVIGATE: _navigation(findings, blocking, unsigned)}
+    if not _lets_pass(StepName.CHECK, findings[StepName.CHECK], check_required):
+        confirmation = None
+    navigation = _navigation(findings, blocking, unsigned=unsigned, confirmation=confirmation)
+    whole = {**findings, StepName.NAVIGATE: navigation}
     return ProcedureState(
         case_id=case_id,
         check_required=check_required,
+        confirmation=confirmation,
         steps=tuple(
             StepStatus(
                 step=step,
@@ -156,13 +166,24 @@ def _lets_pass(step: StepName, finding: Finding, check_required: bool) -> bool:
 
 
 def _navigation(
-    findings: Mapping[StepName, Finding], blocking: StepName | None, unsigned: Lack | None
+    findings: Mapping[StepName, Finding],
+    blocking: StepName | None,
+    *,
+    unsigned: Lack | None,
+    confirmation: ConfirmationNeeded | None,
 ) -> Finding:
     if blocking is None and unsigned is not None:
         return Finding(
             state=StepState.MISSING,
             said=f"navigation waits for a co-signature: {unsigned.said}",
             remedy=unsigned.remedy,
+        )
+    if blocking is None and confirmation is not None:
+        return Finding(
+            state=StepState.MISSING,
+            said=f"navigation waits for a person: {confirmation.said}",
+            remedy=confirmation.remedy,
+            document_id=confirmation.registration.id,
         )
     if blocking is None:
         return Finding(state=StepState.DONE, said="the tool is shown against the channel")

@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { ConfirmRestart } from "../app/ConfirmRestart";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
@@ -36,6 +37,7 @@ function Steps(): ReactNode {
         <ViewSwitch />
       </header>
       <AlarmBand />
+      <ConfirmRestart />
       <AlertBand />
       <div className="operator-body">
         <StepRail now={page} />

@@ -13,6 +13,7 @@ import { registrationDe } from "./registration/de";
 import { reportDe } from "./report/de";
 import { restDe } from "./rest/de";
 import { roomDe } from "./room/de";
+import { restartDe } from "./restart/de";
 import { shellDe } from "./shell/de";
 import { supervisorDe } from "./supervisor/de";
 import { theatreDe } from "./theatre/de";
@@ -137,6 +138,7 @@ export const de: Words = {
   shell: shellDe,
   enter: enterDe,
   rest: restDe,
+  restart: restartDe,
   operator: operatorDe,
   theatre: theatreDe,
   case: caseDe,

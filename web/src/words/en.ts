@@ -13,6 +13,7 @@ import { registrationEn } from "./registration/en";
 import { reportEn } from "./report/en";
 import { restEn } from "./rest/en";
 import { roomEn } from "./room/en";
+import { restartEn } from "./restart/en";
 import { shellEn } from "./shell/en";
 import { supervisorEn } from "./supervisor/en";
 import { theatreEn } from "./theatre/en";
@@ -139,6 +140,7 @@ export const en: Words = {
   shell: shellEn,
   enter: enterEn,
   rest: restEn,
+  restart: restartEn,
   operator: operatorEn,
   theatre: theatreEn,
   case: caseEn,

@@ -23,6 +23,7 @@ import type { RegistrationWords } from "./registration/en";
 import type { ReportWords } from "./report/en";
 import type { RestWords } from "./rest/en";
 import type { RoomWords } from "./room/en";
+import type { RestartWords } from "./restart/en";
 import type { ShellWords } from "./shell/en";
 import type { SupervisorWords } from "./supervisor/en";
 import type { TheatreWords } from "./theatre/en";
@@ -124,6 +125,7 @@ export interface Words {
   shell: ShellWords;
   enter: EnterWords;
   rest: RestWords;
+  restart: RestartWords;
   operator: OperatorWords;
   theatre: TheatreWords;
   case: CaseWords;
