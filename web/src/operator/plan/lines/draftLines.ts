@@ -1,0 +1,19 @@
+// The three lines before they are laid, as the server will lay them: vertical on the slice, a distance apart.
+import type { SliceLine } from "../state/shape";
+import type { Vec3 } from "../slices/vectors";
+
+const AHEAD_MM = 50;
+const BEHIND_MM = 60;
+
+/** Middle, left and right (of the patient) through a point of an axial slice. */
+export function draftLines(middle: Vec3, apartMm: number): SliceLine[] {
+  const [x, y, z] = middle;
+  const shifts = { middle: 0, left: apartMm, right: -apartMm };
+  return Object.entries(shifts).map(([name, shift]) => ({
+    name,
+    ends_lps_mm: [
+      [x + shift, y - AHEAD_MM, z],
+      [x + shift, y + BEHIND_MM, z],
+    ],
+  }));
+}
