@@ -7,6 +7,7 @@ import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../procedure";
 import { CtIntake } from "./ct/CtIntake";
 import { SlicesProvider } from "./slices/SlicesContext";
+import { hasDocument } from "./state/documents";
 import { PlanProvider } from "./state/PlanContext";
 import { WorkProvider } from "./state/WorkContext";
 import { Workplace } from "./Workplace";
@@ -15,10 +16,8 @@ import { Workplace } from "./Workplace";
 export function PlanPage(): ReactNode {
   const words = useWords().plan;
   const { data: procedure } = useProcedure();
-  const caseId = procedure?.case_id ?? null;
-  const ct = useAsked((signal) => answered(server.GET("/api/ct", { signal })), { key: caseId ?? "" });
-  const code = ct.refusal?.trouble.code;
-  if (code === "NO_CASE_OPEN") {
+  if (procedure === null) return <p role="status">{words.loading}</p>;
+  if (procedure.case_id === null) {
     return (
       <section className="plan-empty">
         <p>{words.noCase}</p>
@@ -28,7 +27,16 @@ export function PlanPage(): ReactNode {
       </section>
     );
   }
-  if (code === "CT_MISSING") {
+  return <PlanOfCase key={procedure.case_id} caseId={procedure.case_id} />;
+}
+
+function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
+  const words = useWords().plan;
+  const ct = useAsked(async (signal) => {
+    const isThere = await hasDocument(caseId, "ct", signal);
+    return isThere ? answered(server.GET("/api/ct", { signal })) : "none";
+  });
+  if (ct.data === "none") {
     return (
       <section className="plan-empty" data-testid="no-ct">
         <h3>{words.ct.noneTitle}</h3>
@@ -36,7 +44,7 @@ export function PlanPage(): ReactNode {
       </section>
     );
   }
-  if (ct.data === null || caseId === null) {
+  if (ct.data === null) {
     return (
       <section className="plan-empty">
         <RefusalNote refusal={ct.refusal} />
@@ -45,7 +53,7 @@ export function PlanPage(): ReactNode {
     );
   }
   return (
-    <PlanProvider key={caseId} caseId={caseId}>
+    <PlanProvider caseId={caseId}>
       <SlicesProvider key={ct.data.heading.id} ct={ct.data}>
         <WorkProvider>
           <Workplace onCtTaken={ct.again} />

@@ -55,8 +55,8 @@ export const planDe: PlanWords = {
       right:
         "Tippen Sie in die Mitte des rechten Pedikels (des Patienten), rücken Sie das Kreuz mit den Pfeilen zurecht, dann messen Sie.",
     },
-    measure: { left: "Linken Pedikel hier messen", right: "Rechten Pedikel hier messen" },
-    again: { left: "Linken hier neu messen", right: "Rechten hier neu messen" },
+    measure: { left: "Linken Pedikel messen", right: "Rechten Pedikel messen" },
+    again: { left: "Linken neu messen", right: "Rechten neu messen" },
     showDoubtful: "Zeigen, was gefunden wurde",
     layChannel: "Kanal hindurchlegen",
     numbers: "Maße des Pedikels",

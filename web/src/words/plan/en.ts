@@ -53,8 +53,8 @@ export const planEn = {
       right:
         "Tap into the middle of the patient's right pedicle, bring the cross into place with the arrows, then measure.",
     },
-    measure: { left: "Measure the left pedicle here", right: "Measure the right pedicle here" },
-    again: { left: "Measure the left one anew here", right: "Measure the right one anew here" },
+    measure: { left: "Measure left pedicle", right: "Measure right pedicle" },
+    again: { left: "Measure left one anew", right: "Measure right one anew" },
     showDoubtful: "Show what was found",
     layChannel: "Lay the channel along it",
     numbers: "Numbers of the pedicle",

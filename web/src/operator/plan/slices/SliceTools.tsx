@@ -35,7 +35,7 @@ export function SliceTools(): ReactNode {
         +
       </Button>
       <SegmentedControl
-        size="lg"
+        size="md"
         value={hand}
         aria-label={words.finger}
         data={HANDS.map((one) => ({ value: one, label: words.hand[one] }))}

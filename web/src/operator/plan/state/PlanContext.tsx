@@ -13,6 +13,7 @@ export interface By {
 }
 
 interface PlanValue {
+  caseId: string;
   plan: PlanAnswer | null;
   planRefusal: Refusal | null;
   asking: boolean;
@@ -40,7 +41,7 @@ const PlanContext = createContext<PlanValue | null>(null);
 const STEPS = "coaxial.plan.steps";
 
 export function PlanProvider({ caseId, children }: { caseId: string; children: ReactNode }): ReactNode {
-  const { plan, refusal: planRefusal, asking, take, again } = usePlan();
+  const { plan, refusal: planRefusal, asking, take, again } = usePlan(caseId);
   const doing = useDo();
   const [steps, setSteps] = useState<Step[]>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
   const [conflict, setConflict] = useState<PlanAnswer["heading"] | null>(null);
@@ -98,6 +99,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
 
   const vertebrae = vertebraeOf(plan);
   const value: PlanValue = {
+    caseId,
     plan,
     planRefusal,
     asking,

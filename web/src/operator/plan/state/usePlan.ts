@@ -1,6 +1,7 @@
 // The newest plan, asked for every few seconds, because two tablets may plan at once.
 import { useCallback, useEffect, useRef, useState } from "react";
 import { answered, Refusal, server } from "../../../rest/client";
+import { hasDocument } from "./documents";
 import type { PlanAnswer } from "./shape";
 
 const ASK_EVERY_MS = 3000;
@@ -22,16 +23,18 @@ interface Known {
   asking: boolean;
 }
 
-export function usePlan(): PlanAsked {
+export function usePlan(caseId: string): PlanAsked {
   const [known, setKnown] = useState<Known>({ plan: null, refusal: null, asking: true });
   const changes = useRef(0);
+  const isThere = useRef(false);
 
   const again = useCallback(async (): Promise<PlanAnswer | null> => {
     const before = changes.current;
-    const next = await asked();
+    const next = await asked(caseId, isThere.current);
+    isThere.current = next.plan !== null;
     if (before === changes.current) setKnown(next);
     return next.plan;
-  }, []);
+  }, [caseId]);
   const take = useCallback((plan: PlanAnswer) => {
     changes.current += 1;
     setKnown({ plan, refusal: null, asking: false });
@@ -48,8 +51,10 @@ export function usePlan(): PlanAsked {
   return { ...known, take, again };
 }
 
-async function asked(): Promise<Known> {
+async function asked(caseId: string, wasThere: boolean): Promise<Known> {
   try {
+    if (!wasThere && !(await hasDocument(caseId, "plan")))
+      return { plan: null, refusal: null, asking: false };
     return { plan: await answered(server.GET("/api/plan")), refusal: null, asking: false };
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;

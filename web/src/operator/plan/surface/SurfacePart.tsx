@@ -11,6 +11,8 @@ import { useWords } from "../../../words/WordsContext";
 import { FileButtons } from "../ct/FileButtons";
 import { UploadProgress } from "../ct/UploadProgress";
 import { useUpload } from "../ct/useUpload";
+import { hasDocument } from "../state/documents";
+import { usePlanning } from "../state/PlanContext";
 import { useMadeBy } from "../state/madeBy";
 import { SurfaceNumbers } from "./SurfaceNumbers";
 
@@ -21,7 +23,11 @@ export function SurfacePart(): ReactNode {
   const words = useWords().plan.surface;
   const madeBy = useMadeBy();
   const [unit, setUnit] = useState("");
-  const surface = useAsked((signal) => answered(server.GET("/api/surface", { signal })));
+  const { caseId } = usePlanning();
+  const surface = useAsked(async (signal) => {
+    const isThere = await hasDocument(caseId, "surface", signal);
+    return isThere ? answered(server.GET("/api/surface", { signal })) : "none";
+  });
   const asking = useDo();
   const job = useJob((ended) => {
     if (ended.state === "done") surface.again();
@@ -42,16 +48,17 @@ export function SurfacePart(): ReactNode {
       );
     });
   };
-  const isMissing = surface.refusal?.trouble.code === "SURFACE_MISSING";
+  const found = surface.data === "none" ? null : surface.data;
   const proposed = job.job?.trouble?.context["proposed_unit"];
   return (
     <>
       <h3>{words.title}</h3>
       <p>{words.hint}</p>
-      {isMissing ? <p className="soft">{words.none}</p> : <RefusalNote refusal={surface.refusal} />}
-      {surface.data !== null && <SurfaceNumbers surface={surface.data} />}
+      {surface.data === "none" && <p className="soft">{words.none}</p>}
+      <RefusalNote refusal={surface.refusal} />
+      {found !== null && <SurfaceNumbers surface={found} />}
       <Button size="xl" fullWidth disabled={isBusy} data-testid="make-surface" onClick={make}>
-        {surface.data === null ? words.make : words.makeAnew}
+        {found === null ? words.make : words.makeAnew}
       </Button>
       <RefusalNote refusal={asking.refusal} />
       <JobProgress followed={job} />
