@@ -1,5 +1,4 @@
 import { useEffect, type ReactNode } from "react";
-import { ScenePane } from "../../panes/ScenePane";
 import { useWords } from "../../words/WordsContext";
 import { ChannelPart } from "./channel/ChannelPart";
 import { CtPart } from "./ct/CtPart";
@@ -34,13 +33,7 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
     <div className="plan">
       <PlanBar />
       <div className="plan-body">
-        {part === "surface" ? (
-          <div className="plan-scene">
-            <ScenePane />
-          </div>
-        ) : (
-          <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
-        )}
+        <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
         <aside className="plan-side" aria-label={words.part[part]}>
           {parts[part]()}
         </aside>

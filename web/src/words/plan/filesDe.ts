@@ -3,7 +3,7 @@ import type { FilesWords } from "./filesEn";
 export const filesDe: FilesWords = {
   surface: {
     title: "Oberfläche des Knochens",
-    hint: "Sie wird in 3-D gezeigt, und ein Abfahren mit der Bohrerspitze macht die Registrierung genauer.",
+    hint: "Ihr Umriss auf den Schichten soll der Knochenkante folgen. Bei der Navigation wird sie in 3-D gezeigt, und ein Abfahren mit der Spitze macht die Registrierung genauer.",
     none: "Es gibt noch keine Oberfläche.",
     make: "Aus dem CT machen",
     makeAnew: "Neu aus dem CT machen",

@@ -2,7 +2,7 @@
 export const filesEn = {
   surface: {
     title: "Surface of the bone",
-    hint: "It is shown in 3-D, and a sweep of the drill's tip over it makes a registration finer.",
+    hint: "Its outline on the slices should follow the edge of the bone. It is shown in 3-D during navigation, and a sweep of the tip over it makes a registration finer.",
     none: "There is no surface yet.",
     make: "Make it out of the CT",
     makeAnew: "Make it anew out of the CT",

@@ -52,8 +52,8 @@ export const slicesDe: SlicesWords = {
       axial: "Axial",
       sagittal: "Sagittal",
       coronal: "Koronal",
-      along: "Längs des Kanals",
-      across: "Quer zum Kanal",
+      along: "Längs",
+      across: "Quer",
     },
     enlarge: {
       axial: "Axial groß zeigen",

@@ -51,8 +51,8 @@ export const slicesEn = {
       axial: "Axial",
       sagittal: "Sagittal",
       coronal: "Coronal",
-      along: "Along the channel",
-      across: "Across the channel",
+      along: "Along",
+      across: "Across",
     },
     enlarge: {
       axial: "Show axial large",

@@ -25,7 +25,7 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
         <dd>{ct.spacing_mm.map((one) => shownNumber(one, 2)).join(" × ")} mm</dd>
         <dt>{words.madeBy}</dt>
         <dd>
-          {ct.heading.made_by}, {new Date(ct.heading.made_at).toLocaleString(document.documentElement.lang)}
+          {ct.heading.made_by}, {new Date(ct.heading.made_at).toLocaleString()}
         </dd>
       </dl>
       {ct.warnings.map((warning) => (

@@ -1,12 +1,14 @@
 import type { ReactNode } from "react";
 import { useWords } from "../../../words/WordsContext";
-import { draftLines } from "../lines/draftLines";
+import { areSame, draftLines } from "../lines/draftLines";
 import { isFlat, type PlaneName } from "../slices/address";
 import type { Projection } from "../slices/projection";
 import { useSlices } from "../slices/SlicesContext";
 import { usePlanning } from "../state/PlanContext";
 import { SIDES, usedPedicle, type Vertebra } from "../state/shape";
 import { useWork } from "../state/WorkContext";
+import { SurfaceDrawing } from "../surface/SurfaceDrawing";
+import { useTriangles } from "../surface/useTriangles";
 import { ChannelDrawing } from "./ChannelDrawing";
 import { Cross } from "./Cross";
 import { Handle } from "./Handle";
@@ -19,18 +21,28 @@ export function PlanDrawing({ plane, projection }: { plane: PlaneName; projectio
   const { vertebrae, vertebra } = usePlanning();
   const { look } = useSlices();
   const { part, apartMm } = useWork();
+  const reference = vertebra?.references[0] ?? null;
+  const lines = draftLines(look.cursor, apartMm);
+  const isLaid = reference !== null && areSame(lines, reference.lines);
   return (
     <>
+      {part === "surface" && <SurfaceOutline projection={projection} />}
       {vertebrae.map((one) => (
         <VertebraDrawing key={one.name} vertebra={one} projection={projection} />
       ))}
-      {part === "lines" && plane === "axial" && vertebra !== null && (
-        <LinesDrawing projection={projection} lines={draftLines(look.cursor, apartMm)} isDraft />
+      {part === "lines" && plane === "axial" && vertebra !== null && !isLaid && (
+        <LinesDrawing projection={projection} lines={lines} isDraft />
       )}
       <Cross projection={projection} cursor={look.cursor} />
       <DraftDrawing plane={plane} projection={projection} />
     </>
   );
+}
+
+function SurfaceOutline({ projection }: { projection: Projection }): ReactNode {
+  const { caseId } = usePlanning();
+  const triangles = useTriangles(caseId, useWork().surfaces);
+  return triangles === null ? null : <SurfaceDrawing projection={projection} triangles={triangles} />;
 }
 
 function VertebraDrawing({

@@ -17,3 +17,18 @@ export function draftLines(middle: Vec3, apartMm: number): SliceLine[] {
     ],
   }));
 }
+
+const SAME_MM = 0.05;
+
+/** Whether lines that were laid lie where these would. */
+export function areSame(lines: readonly SliceLine[], laid: readonly SliceLine[]): boolean {
+  return lines.every((line) => {
+    const other = laid.find((one) => one.name === line.name);
+    return line.ends_lps_mm.every((end, i) =>
+      end.every((value, axis) => {
+        const there = other?.ends_lps_mm[i as 0 | 1][axis as 0 | 1 | 2];
+        return there !== undefined && Math.abs(there - value) < SAME_MM;
+      }),
+    );
+  });
+}

@@ -116,7 +116,8 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     vertebra: vertebrae.find((one) => one.name === chosen) ?? vertebrae[0] ?? null,
     busy: doing.busy,
     refusal: doing.refusal,
-    canUndo: step !== null && !doing.busy,
+    // On another CT an older plan would be taken over unseen.
+    canUndo: step !== null && !doing.busy && plan?.heading.current !== false,
   };
   return <PlanContext value={value}>{children}</PlanContext>;
 }

@@ -1,5 +1,5 @@
 // What is being done on the page: which part of the plan, and what is moved but not kept yet.
-import { createContext, use, useMemo, useState, type ReactNode } from "react";
+import { createContext, use, useCallback, useMemo, useState, type ReactNode } from "react";
 import type { Draft } from "../channel/draft";
 
 export const PARTS = ["ct", "pedicle", "channel", "lines", "landmarks", "surface", "file"] as const;
@@ -14,6 +14,9 @@ interface WorkValue {
   /** Distance of the outer lines from the middle one, on the way to be laid. */
   apartMm: number;
   setApartMm: (apartMm: number) => void;
+  /** How often a surface was made while this page is open. */
+  surfaces: number;
+  tellSurface: () => void;
 }
 
 const WorkContext = createContext<WorkValue | null>(null);
@@ -23,9 +26,13 @@ export function WorkProvider({ children }: { children: ReactNode }): ReactNode {
   const [part, setPart] = useState<Part>("pedicle");
   const [draft, setDraft] = useState<WorkValue["draft"]>(null);
   const [apartMm, setApartMm] = useState(USUAL_APART_MM);
+  const [surfaces, setSurfaces] = useState(0);
+  const tellSurface = useCallback(() => {
+    setSurfaces((before) => before + 1);
+  }, []);
   const value = useMemo(
-    () => ({ part, setPart, draft, setDraft, apartMm, setApartMm }),
-    [part, draft, apartMm],
+    () => ({ part, setPart, draft, setDraft, apartMm, setApartMm, surfaces, tellSurface }),
+    [part, draft, apartMm, surfaces, tellSurface],
   );
   return <WorkContext value={value}>{children}</WorkContext>;
 }

@@ -14,6 +14,7 @@ import { useUpload } from "../ct/useUpload";
 import { hasDocument } from "../state/documents";
 import { usePlanning } from "../state/PlanContext";
 import { useMadeBy } from "../state/madeBy";
+import { useWork } from "../state/WorkContext";
 import { SurfaceNumbers } from "./SurfaceNumbers";
 
 const UNITS = ["mm", "cm", "m", "inch", "um"] as const;
@@ -24,13 +25,16 @@ export function SurfacePart(): ReactNode {
   const madeBy = useMadeBy();
   const [unit, setUnit] = useState("");
   const { caseId } = usePlanning();
+  const { tellSurface } = useWork();
   const surface = useAsked(async (signal) => {
     const isThere = await hasDocument(caseId, "surface", signal);
     return isThere ? answered(server.GET("/api/surface", { signal })) : "none";
   });
   const asking = useDo();
   const job = useJob((ended) => {
-    if (ended.state === "done") surface.again();
+    if (ended.state !== "done") return;
+    surface.again();
+    tellSurface();
   });
   const upload = useUpload(() => {
     const query = new URLSearchParams({ made_by: madeBy, ...(unit === "" ? {} : { unit }) });
