@@ -11,6 +11,8 @@ import { useWords } from "../../words/WordsContext";
 export type Rehearsed = components["schemas"]["RehearsalMessage"];
 type Scene = components["schemas"]["SceneRequest"]["scene"];
 
+const ASK_EVERY_MS = 400;
+
 interface RehearsalStripProps {
   scenes: readonly Scene[];
   /** Something more that only a rehearsal can tell. */
@@ -28,7 +30,7 @@ function Scenes({ scenes, children }: RehearsalStripProps): ReactNode {
   const words = useWords().registration.rehearsal;
   const { data, again } = useAsked(
     (signal) => answered(server.GET("/api/rehearsal", { signal, params: { query: { truth: true } } })),
-    { everyMs: 1000 },
+    { everyMs: ASK_EVERY_MS },
   );
   const playing = useDo();
   if (data === null) return null;

@@ -1,7 +1,8 @@
-import { Button, NumberInput, SegmentedControl } from "@mantine/core";
+import { Button, SegmentedControl } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useWords } from "../../../words/WordsContext";
 import { RehearsalStrip } from "../RehearsalStrip";
+import { StepField } from "../StepField";
 import { viewOfTruth, type RuledView } from "./ruler";
 
 interface RulerFormProps {
@@ -42,16 +43,14 @@ export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormPro
       </RehearsalStrip>
       <div className="row">
         {fields.map(({ name, label, unit, ...bounds }) => (
-          <NumberInput
+          <StepField
             key={name}
-            size="lg"
             label={`${label} [${unit}]`}
             value={view[name]}
             {...bounds}
-            clampBehavior="strict"
-            data-testid={`ruler-${name}`}
-            onChange={(value) => {
-              if (typeof value === "number" && Number.isFinite(value)) onView({ ...view, [name]: value });
+            testId={`ruler-${name}`}
+            onValue={(value) => {
+              onView({ ...view, [name]: value });
             }}
           />
         ))}
