@@ -28,6 +28,7 @@ class ProcedureState:
 
     Attributes:
         case_id: the open case; empty where none is open.
+        case_name: as people call it; empty likewise.
         steps: in their order.
         check_required: whether nothing is navigated by a registration that was never checked.
     """
@@ -35,6 +36,7 @@ class ProcedureState:
     case_id: str
     steps: tuple[StepStatus, ...]
     check_required: bool
+    case_name: str = ""
 
     def status(self, step: StepName) -> StepStatus:
         """One of them."""

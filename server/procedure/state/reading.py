@@ -1,7 +1,7 @@
 """The state of the procedure as the open case has it now."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 
 from server.config import RegistrationConfig
@@ -82,7 +82,7 @@ class Procedure:
             StepName.REGISTER: self._registration(case.id, vertebra),
             StepName.CHECK: self._check(case.id, vertebra),
         }
-        return judged(case.id, findings, check_required=required)
+        return replace(judged(case.id, findings, check_required=required), case_name=case.name)
 
     def active_vertebra(self, case_id: str) -> str | None:
         """The vertebra whose channel is to be drilled now."""
