@@ -7,7 +7,7 @@ records, and how a mistake in it is told, is in `server.config_file`.
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 
 Ratio: TypeAlias = Annotated[float, Field(ge=0.0, le=1.0)]
 Strength: TypeAlias = Annotated[float, Field(ge=0.0, le=10.0)]
@@ -25,6 +25,15 @@ class Section(BaseModel):
     )
 
 
+class TlsConfig(Section):
+    """A certificate of one's own; without one, the server makes itself one where it needs one."""
+
+    certificate: FilePath | None = None
+    """PEM, with the certificates between it and its root."""
+    key: FilePath | None = None
+    """PEM, without a password."""
+
+
 class ServerConfig(Section):
     """Where the server listens."""
 
@@ -32,6 +41,23 @@ class ServerConfig(Section):
     """Address to listen on; 127.0.0.1 is reached from this machine only."""
     port: Annotated[int, Field(ge=0, le=65535)] = 8000
     """0 takes any free one."""
+    tls: TlsConfig = TlsConfig()
+    behind_proxy: Literal["a proxy speaks TLS for this server"] | None = None
+    """Said in these words, the server speaks no TLS itself on any address."""
+
+
+def _written_off(value: object) -> object:
+    """In YAML a bare off is false."""
+    return "off" if value is False else value
+
+
+class SecurityConfig(Section):
+    """Who has to sign in, and for how long."""
+
+    sign_in: Annotated[Literal["required", "off"], BeforeValidator(_written_off)] = "required"
+    """off: everybody who reaches the server may do everything; on loopback alone."""
+    session_h: Annotated[float, Field(gt=0.0, le=168.0)] = 12
+    """How long somebody stays signed in, where their invitation says nothing else."""
 
 
 class CameraConfig(Section):
@@ -241,6 +267,23 @@ class VideoConfig(Section):
     """The picture that goes out."""
 
     jpeg_quality: Annotated[int, Field(ge=1, le=100)] = 80
+    most_viewers: Annotated[int, Field(ge=1, le=10_000)] = 64
+    """Who may watch at once, of pictures and numbers; as many again may watch the 3-D scene."""
+
+
+class CosignConfig(Section):
+    """What a second person signs. required: nobody navigates before; offered: it may be done."""
+
+    plan: Literal["required", "offered"] = "offered"
+    registration: Literal["required", "offered"] = "offered"
+
+
+class SupervisionConfig(Section):
+    """Those who look on from afar."""
+
+    cosign: CosignConfig = CosignConfig()
+    drawings_fade_after_s: Annotated[float, Field(ge=2.0, le=600.0)] = 20
+    """Counted from the image that was drawn on: patient and camera move."""
 
 
 class PlanConfig(Section):
@@ -260,6 +303,7 @@ class Config(Section):
     """All settings. Paths in it are absolute, or relative to the working directory."""
 
     server: ServerConfig = ServerConfig()
+    security: SecurityConfig = SecurityConfig()
     camera: CameraConfig = CameraConfig()
     rehearsal: RehearsalConfig = RehearsalConfig()
     markers: dict[Name, MarkerConfig] = {}
@@ -272,5 +316,6 @@ class Config(Section):
     calibration: CalibrationConfig = CalibrationConfig()
     limits: LimitsConfig = LimitsConfig()
     alarms: AlarmsConfig = AlarmsConfig()
+    supervision: SupervisionConfig = SupervisionConfig()
     plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()

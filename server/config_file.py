@@ -220,7 +220,19 @@ def _with_absolute_paths(config: Config, *, folder: Path, origins: Mapping[Key, 
         )
         for name, tool in config.tools.items()
     }
-    updated = {"camera": camera.model_copy(update=changes), "markers": markers, "tools": tools}
+    tls = config.server.tls
+    files = {
+        part: resolved(path, ("server", "tls", part))
+        for part, path in (("certificate", tls.certificate), ("key", tls.key))
+        if path is not None
+    }
+    server = config.server.model_copy(update={"tls": tls.model_copy(update=files)})
+    updated = {
+        "server": server,
+        "camera": camera.model_copy(update=changes),
+        "markers": markers,
+        "tools": tools,
+    }
     return config.model_copy(update=updated)
 
 

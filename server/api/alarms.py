@@ -2,14 +2,16 @@
 
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Query, Response
+from fastapi import APIRouter, Query, Request, Response
 from pydantic import Field, StringConstraints
 
 from server.alarms import AlarmDesk
 from server.alarms.sound import BURSTS, burst_wav
 from server.api.errors import refusals
+from server.security import ANYBODY, acting, person_of
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.message import Message
+from server.supervision import Holds
 from tracker.navigation.alarms import AlarmPicture, Priority
 
 WAV = "audio/wav"
@@ -34,13 +36,14 @@ class SoundMessage(Message):
 class ByRequest(Message):
     """Who does it."""
 
-    by: Who
+    by: Who | None = None
+    """Where people sign in, their session says it, and this is not looked at."""
 
 
 class AcknowledgeRequest(Message):
     """Which alarms somebody has seen, and who."""
 
-    by: Who
+    by: Who | None = None
     numbers: Annotated[list[int], Field(min_length=1, max_length=100)]
     """Of the alarms that were in sight; one that was raised since is not meant."""
 
@@ -48,7 +51,7 @@ class AcknowledgeRequest(Message):
 class PauseRequest(Message):
     """For how long there shall be no sound."""
 
-    by: Who
+    by: Who | None = None
     seconds: float
     """At most 120."""
 
@@ -81,12 +84,12 @@ def sound_messages() -> list[SoundMessage]:
     ]
 
 
-def alarms_router(desk: AlarmDesk) -> APIRouter:
+def alarms_router(desk: AlarmDesk, holds: Holds) -> APIRouter:
     """Everything under `/api/alarms`."""
     router = APIRouter(prefix="/api/alarms", tags=["alarms"])
     _add_seeing(router, desk)
     _add_answering(router, desk)
-    _add_holding(router, desk)
+    _add_holding(router, desk, holds)
     return router
 
 
@@ -123,19 +126,19 @@ def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
 
 def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
     @router.post("/acknowledgement", responses=refusals(422, 503, 507))
-    def acknowledge(asked: AcknowledgeRequest) -> AlarmsMessage:
+    def acknowledge(asked: AcknowledgeRequest, request: Request) -> AlarmsMessage:
         """Say that these alarms were seen: their sound stops, and one that was over goes out of sight."""
-        return _logged(desk, desk.acknowledge(asked.numbers, by=asked.by))
+        return _logged(desk, desk.acknowledge(asked.numbers, by=acting(request.scope, asked.by)))
 
     @router.post("/pause", responses=refusals(422, 503, 507))
-    def pause(asked: PauseRequest) -> AlarmsMessage:
+    def pause(asked: PauseRequest, request: Request) -> AlarmsMessage:
         """No sound for at most two minutes; it comes back by itself, at once with a new or higher alarm."""
-        return _logged(desk, desk.pause(asked.seconds, by=asked.by))
+        return _logged(desk, desk.pause(asked.seconds, by=acting(request.scope, asked.by)))
 
     @router.post("/resumption", responses=refusals(422, 503, 507))
-    def resume(asked: ByRequest) -> AlarmsMessage:
+    def resume(asked: ByRequest, request: Request) -> AlarmsMessage:
         """End the pause now."""
-        return _logged(desk, desk.resume(by=asked.by))
+        return _logged(desk, desk.resume(by=acting(request.scope, asked.by)))
 
     @router.post("/screens", responses=refusals(422))
     def screen(asked: ScreenRequest) -> AlarmsMessage:
@@ -146,13 +149,18 @@ def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
         return _message(desk.screen_said(asked.screen, armed=asked.state == "armed"))
 
 
-def _add_holding(router: APIRouter, desk: AlarmDesk) -> None:
+def _add_holding(router: APIRouter, desk: AlarmDesk, holds: Holds) -> None:
     @router.post("/hold", responses=refusals(422, 503, 507))
-    def hold(asked: ByRequest) -> AlarmsMessage:
+    def hold(request: Request, asked: ByRequest) -> AlarmsMessage:
         """Ask those in theatre to hold. It raises an alarm, and stops or changes nothing."""
-        return _logged(desk, desk.ask_hold(by=asked.by))
+        return _logged(desk, holds.ask(person_of(request.scope), name=_typed(request, asked)))
 
-    @router.post("/release", responses=refusals(422, 503, 507))
-    def release(asked: ByRequest) -> AlarmsMessage:
-        """Ask no more."""
-        return _logged(desk, desk.release_hold(by=asked.by))
+    @router.post("/release", responses=refusals(409, 422, 503, 507))
+    def release(request: Request, asked: ByRequest) -> AlarmsMessage:
+        """Ask no more: who asked for themselves, the operator for everybody."""
+        return _logged(desk, holds.release(person_of(request.scope), name=_typed(request, asked)))
+
+
+def _typed(request: Request, asked: ByRequest) -> str:
+    """A name that was typed in counts only where nobody has to sign in."""
+    return asked.by or "" if person_of(request.scope) is ANYBODY else ""

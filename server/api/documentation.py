@@ -17,10 +17,10 @@ Schema = Mapping[str, Any]
 
 FRAMEWORKS_SHAPE = "HTTPValidationError"
 FRAMEWORKS_SCHEMAS = (FRAMEWORKS_SHAPE, "ValidationError")
-OUR_422 = {
-    "description": REFUSED_WORDS[422],
-    "content": {"application/json": {"schema": {"$ref": "#/components/schemas/TroubleMessage"}}},
-}
+OUR_SHAPE = {"application/json": {"schema": {"$ref": "#/components/schemas/TroubleMessage"}}}
+OUR_422 = {"description": REFUSED_WORDS[422], "content": OUR_SHAPE}
+# Whatever changes something is written into the audit log before it is answered.
+OUR_507 = {"description": REFUSED_WORDS[507], "content": OUR_SHAPE}
 
 STYLE = """
 :root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
@@ -41,8 +41,12 @@ class DocumentedApi(FastAPI):
         """The framework's document, in which its own shape of a refusal is replaced by ours."""
         if self.openapi_schema is None:
             document = super().openapi()
-            for operation in (one for methods in document["paths"].values() for one in methods.values()):
+            for method, operation in (
+                one for methods in document["paths"].values() for one in methods.items()
+            ):
                 answers = operation["responses"]
+                if method != "get":
+                    answers.setdefault("507", OUR_507)
                 if FRAMEWORKS_SHAPE in str(answers.get("422")):
                     answers["422"] = OUR_422
             for name in FRAMEWORKS_SCHEMAS:

@@ -11,8 +11,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import JobUnknown
+from server.security import refusals as door
 from server.store import NotStored, OutOfDateError, StoreConflict, StoreError
-from server.stream.errors import CameraUnknown
+from server.stream.errors import CameraUnknown, TooManyViewers
+from server.stream.fitting.sizes import SizeUnknown
 from server.stream.messages import TroubleMessage
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
 
@@ -20,6 +22,8 @@ _log = structlog.get_logger(__name__)
 
 STATUS_OF: dict[type[NavigationError], int] = {
     CameraUnknown: 404,
+    TooManyViewers: 503,
+    SizeUnknown: 422,
     SetupOrderError: 409,
     CaptureError: 503,
     InvalidInput: 422,
@@ -31,19 +35,23 @@ STATUS_OF: dict[type[NavigationError], int] = {
     OutOfDateError: 409,
     StoreError: 503,
     JobUnknown: 404,
+    **door.STATUS_OF,
 }
 # Where HTTP has a word of its own for what the code says.
 STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413}
 
 REFUSED_WORDS = {
+    401: "Nobody is signed in, or no longer.",
+    403: "Who is signed in may not do this, or a page that is none of this server asks for it.",
     404: "There is no such thing.",
     409: "It cannot be done as things stand.",
     413: "It is larger than is taken.",
     421: "This server does not answer to the name in `Host`.",
     422: "What was asked cannot be used.",
+    429: "Too many wrong links or sessions came from there; `Retry-After` says how long to wait.",
     500: "The server made a mistake.",
     503: "Not now.",
-    507: "The disk is full.",
+    507: "The disk is full, or what was done could not be written into the audit log.",
 }
 TOLD = {
     404: ("NOT_FOUND", "there is nothing at {path}", "Look at /api/docs for what can be asked."),

@@ -3,9 +3,10 @@
 import time
 from enum import StrEnum
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Request, Response
 
 from server.live import Instant, LiveHub, ProcessState, SourceState
+from server.security import NOBODY, person_of
 from server.stream.messages import Message, ProcessMessage, SourceMessage, process_message, source_message
 
 
@@ -61,15 +62,18 @@ def health_router(hub: LiveHub, *, stale_after_ms: float) -> APIRouter:
         "/health",
         responses={503: {"model": HealthMessage, "description": "Tracking has been given up."}},
     )
-    async def health(response: Response) -> HealthMessage:
+    async def health(request: Request, response: Response) -> HealthMessage:
         """Whether all is well: `ok`, `degraded` (it goes on trying) or `failed`.
 
         Answers 200 as long as the server works and the tracking process lives or is being restarted: a
         camera that is unplugged is not mended by restarting the container. 503 when it was given up.
+        Who is not signed in is told the one word alone.
         """
         message = health_message(hub.newest, now_s=time.monotonic(), stale_after_ms=stale_after_ms)
         response.status_code = 503 if message.status is HealthState.FAILED else 200
         response.headers["Cache-Control"] = "no-store"
+        if person_of(request.scope) == NOBODY:
+            return HealthMessage(status=message.status, process=None, source=None, image_age_ms=None)
         return message
 
     return router

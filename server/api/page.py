@@ -1,6 +1,6 @@
 """The web page's files: found where they are installed or built, sent with the right lifetime."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,23 @@ class PageFiles(StaticFiles):
 def page_folder(folders: tuple[Path, ...] = PAGE_FOLDERS) -> Path | None:
     """Where the built page is, None when it is not built."""
     return next((folder for folder in folders if (folder / "index.html").is_file()), None)
+
+
+def page_addresses(folder: Path | None) -> Callable[[str], bool]:
+    """Whether a path shows the page or a file of it; nothing in them is of a patient, so all may see them.
+
+    What is built anew while the server runs has new names under `assets`, and nothing else lies there.
+    """
+    files = () if folder is None else folder.rglob("*")
+    known = {"/"} | {f"/{file.relative_to(folder or file).as_posix()}" for file in files if file.is_file()}
+
+    def is_page(path: str) -> bool:
+        parts = path.split("/")
+        if folder is None or path in known:
+            return path in known
+        return parts[1] in VIEWS or (parts[1] == "assets" and len(parts) == 3 and parts[2] != "")
+
+    return is_page
 
 
 def mount_page(app: FastAPI, *, camera: str, folder: Path | None) -> None:

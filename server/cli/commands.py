@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from server.cli.accuracy_commands import accuracy, ruler
+from server.cli.audit_commands import audit_app
 from server.cli.board_commands import board_app
 from server.cli.calibration.commands import add_calibration
 from server.cli.marker_commands import marker_app
@@ -37,6 +38,7 @@ app.command()(pivot)
 app.command()(spin)
 app.command(name="tip-check")(tip_check)
 app.add_typer(plan_app, name="plan")
+app.add_typer(audit_app, name="audit")
 app.add_typer(register_app, name="register")
 app.command()(verify)
 
@@ -118,6 +120,12 @@ def run(
     rate: Annotated[
         Rate | None, typer.Option(help="A file at its own rate, or as fast as possible.", show_default=False)
     ] = None,
+    new_operator_link: Annotated[
+        bool,
+        typer.Option(
+            "--new-operator-link", help="Print a new link to sign in as operator.", show_default=False
+        ),
+    ] = False,
     log_json: LogJsonOption = False,
     debug: DebugOption = False,
 ) -> None:
@@ -139,7 +147,7 @@ def run(
         loop=loop,
         rate=None if rate is None else rate.value,
     )
-    run_dashboard(given, log_json=log_json, debug=debug)
+    run_dashboard(given, log_json=log_json, debug=debug, new_operator_link=new_operator_link)
 
 
 @app.command()

@@ -3,8 +3,9 @@
 import errno
 import socket
 import sys
+from collections.abc import Callable
 from contextlib import ExitStack
-from functools import partial
+from typing import TYPE_CHECKING
 
 import structlog
 import typer
@@ -15,6 +16,13 @@ from server.cli.stopping import Stopping
 from server.config import Config
 from server.errors import ConfigError
 from server.logs import LogSettings, configure_logging
+from server.security.reach import shown_name
+from server.security.tls import refuse_unsafe
+
+if TYPE_CHECKING:
+    from server.loop.rehearsed import Rehearsed
+    from server.loop.tracked import Tracked
+    from server.setup import Preparation
 
 BACKLOG = 128
 PORT_REMEDY = "Stop the program that uses this port, or choose another one with --port or COAXIAL_PORT."
@@ -22,7 +30,7 @@ HOST_REMEDY = "Give an address of this machine as server.host in the settings; 1
 log = structlog.get_logger(__name__)
 
 
-def run_dashboard(given: Given, *, log_json: bool, debug: bool) -> None:
+def run_dashboard(given: Given, *, log_json: bool, debug: bool, new_operator_link: bool = False) -> None:
     """Start everything, serve until Ctrl+C or SIGTERM, and stop everything.
 
     Raises:
@@ -32,11 +40,20 @@ def run_dashboard(given: Given, *, log_json: bool, debug: bool) -> None:
         config = config_from_options(given)
         settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
         configure_logging(settings)
-        _serve(config, settings, _listener(config), stopping)
+        refuse_unsafe(config)
+        _serve(config, settings, _listener(config), stopping, new_operator_link=new_operator_link)
 
 
-def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopping: Stopping) -> None:
+def _serve(
+    config: Config,
+    settings: LogSettings,
+    listener: socket.socket,
+    stopping: Stopping,
+    *,
+    new_operator_link: bool,
+) -> None:
     # The tracking process loads while the web server does: its supervisor is started between the imports.
+    from server.cli.door import Door  # noqa: PLC0415
     from server.cli.kept import Kept  # noqa: PLC0415
     from server.loop.tracked import Tracked  # noqa: PLC0415
     from server.setup import build_setup  # noqa: PLC0415
@@ -46,19 +63,14 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
         tracked.start()
         ending.callback(tracked.stop)
         kept = Kept.opened(ending, settings)
+        door = Door.of(config, kept.store, new_operator_link=new_operator_link)
         preparation = build_setup(config)
-        if not preparation.models:
-            log.warning(
-                "no marker is named, so nothing is tracked",
-                code="NO_MARKER",
-                remedy="Give its picture with --marker and its side with --side-mm, or in the settings.",
-            )
+        _warn_without_markers(preparation)
         from server.alarms import AlarmDesk, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
-        from server.loop.rehearsed import Rehearsed  # noqa: PLC0415
-        from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
+        from server.overlay import draw_overlay  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
         alarm_log = StoredAlarmLog(kept.store)
@@ -70,9 +82,10 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
             store=kept.store,
             jobs=kept.jobs,
             config=config,
-            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            markers=preparation.models,
             adopt=tracked.adopt,
             know=alarms.know,
+            tracked_from_s=lambda: tracked.tracks_from_s,
         )
         app = create_app(
             AppParts(
@@ -84,21 +97,39 @@ def _serve(config: Config, settings: LogSettings, listener: socket.socket, stopp
                 setup=preparation.setup,
                 surface=preparation.surface,
                 alarms=alarms,
-                rehearsed=None
-                if preparation.theatre is None
-                else Rehearsed(config.rehearsal, play=tracked.play, begun=lambda: tracked.begun),
+                people=door.people,
+                rehearsed=_rehearsed(config, preparation, tracked),
             )
         )
-        picture = Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))
+        pictures = app.state.pictures
+        picture = Picture(draw=draw_overlay, encode=pictures.encode, wanted=pictures.wants_full)
         tracked.publish(picture, look=alarms.look)
-        serve_until(app, listener, stopping, on_ready=lambda: _greet(listener))
+        serve_until(app, listener, stopping, on_ready=lambda: _greet(listener, door.words), tls=door.tls)
 
 
-def _greet(listener: socket.socket) -> None:
-    host, port = listener.getsockname()[:2]
-    shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)  # noqa: S104
+def _warn_without_markers(preparation: "Preparation") -> None:
+    if not preparation.models:
+        log.warning(
+            "no marker is named, so nothing is tracked",
+            code="NO_MARKER",
+            remedy="Give its picture with --marker and its side with --side-mm, or in the settings.",
+        )
+
+
+def _rehearsed(config: Config, preparation: "Preparation", tracked: "Tracked") -> "Rehearsed | None":
+    from server.loop.rehearsed import Rehearsed  # noqa: PLC0415
+
+    if preparation.theatre is None:
+        return None
+    return Rehearsed(config.rehearsal, play=tracked.play, begun=lambda: tracked.begun)
+
+
+def _greet(listener: socket.socket, words: Callable[[str], list[str]]) -> None:
+    """Say where the server is, and how to get in."""
     typer.echo(f"Coaxial {coaxial_version()} · research software, not a medical device")
-    typer.echo(f"Open http://{shown}:{port}/")
+    host, port = listener.getsockname()[:2]
+    for line in words(f"{shown_name(host)}:{port}"):
+        typer.echo(line)
     typer.echo("Ctrl+C stops it")
     sys.stdout.flush()
 

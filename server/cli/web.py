@@ -9,6 +9,7 @@ import uvicorn
 from starlette.types import ASGIApp
 
 from server.cli.stopping import Stopping
+from server.security.tls import Tls
 from server.stream.connection import uvicorn_config
 
 
@@ -41,10 +42,18 @@ class WebServer(uvicorn.Server):
 
 
 def serve_until(
-    app: ASGIApp, listener: socket.socket, stopping: Stopping, *, on_ready: Callable[[], None]
+    app: ASGIApp,
+    listener: socket.socket,
+    stopping: Stopping,
+    *,
+    on_ready: Callable[[], None],
+    tls: Tls | None = None,
 ) -> None:
     """Serve until asked to stop."""
     host, port = listener.getsockname()[:2]
-    server = WebServer(uvicorn_config(app, host=host, port=port), on_ready=on_ready)
+    config = uvicorn_config(app, host=host, port=port)
+    if tls is not None:
+        config.ssl_certfile, config.ssl_keyfile = str(tls.certificate), str(tls.key)
+    server = WebServer(config, on_ready=on_ready)
     stopping.call_when_asked(server.ask_to_stop)
     server.run(sockets=[listener])

@@ -28,8 +28,11 @@ ALWAYS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Resource-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(), microphone=(), geolocation=()",
 }
+# Once by TLS, by TLS for a year: nobody on the way turns it back. Not for other servers of this name.
+UNDER_TLS = {"Strict-Transport-Security": "max-age=31536000"}
 
 
 def page_policy(host: str) -> str:
@@ -61,7 +64,7 @@ class SecurityHeaders:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 headers.setdefault("Content-Security-Policy", page_policy(host))
-                for name, value in ALWAYS.items():
+                for name, value in (ALWAYS | (UNDER_TLS if scope.get("scheme") == "https" else {})).items():
                     headers.setdefault(name, value)
             await send(message)
 

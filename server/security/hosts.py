@@ -76,11 +76,11 @@ class HostGuard:
         headers = Headers(scope=scope)
         host, origin = headers.get("host", ""), headers.get("origin")
         if not self._hosts.has(host):
-            await _refuse(scope, receive, send, status=421, body=_unknown_host(host))
+            await refuse(scope, receive, send, status=421, body=_unknown_host(host))
             return
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE_METHODS
         if changes and not is_same_origin(origin=origin, host=host):
-            await _refuse(scope, receive, send, status=403, body=_strange_page(origin, host))
+            await refuse(scope, receive, send, status=403, body=_strange_page(origin, host))
             return
         await self._app(scope, receive, send)
 
@@ -119,16 +119,23 @@ def _strange_page(origin: str | None, host: str) -> dict[str, object]:
     }
 
 
-async def _refuse(
-    scope: Scope, receive: Receive, send: Send, *, status: int, body: dict[str, object]
+async def refuse(
+    scope: Scope,
+    receive: Receive,
+    send: Send,
+    *,
+    status: int,
+    body: dict[str, object],
+    headers: dict[str, str] | None = None,
 ) -> None:
+    """Answer with this refusal; a socket is refused before it is accepted, with the answer of HTTP."""
+    response = JSONResponse(body, status_code=status, headers=headers)
     if scope["type"] == "http":
-        await JSONResponse(body, status_code=status)(scope, receive, send)
+        await response(scope, receive, send)
         return
     await receive()  # the client's websocket.connect
     if "websocket.http.response" not in scope.get("extensions", {}):
         await send({"type": "websocket.close", "code": 1008, "reason": str(body["code"])})
         return
-    response = JSONResponse(body, status_code=status)
     await send({"type": "websocket.http.response.start", "status": status, "headers": response.raw_headers})
     await send({"type": "websocket.http.response.body", "body": response.body})

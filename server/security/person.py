@@ -34,9 +34,19 @@ class Person:
 
 # Where nobody has to sign in (a server on this computer alone, by its settings).
 ANYBODY = Person(id="anybody", name="this computer", role=Role.OPERATOR)
+# Who has not signed in where people have to, at what is open to all.
+NOBODY = Person(id="nobody", name="nobody", role=Role.VIEWER)
+# Who writes down what nobody asked for.
+SERVER = Person(id="server", name="Coaxial", role=Role.OPERATOR)
 
 
 def person_of(scope: MutableMapping[str, Any]) -> Person:
     """Who asks, of an ASGI scope; `ANYBODY` where nobody has to sign in."""
     person = scope.get("state", {}).get(STATE_KEY)
     return person if isinstance(person, Person) else ANYBODY
+
+
+def acting(scope: MutableMapping[str, Any], said: str | None) -> str:
+    """The name under which something is done: of who is signed in, else what was said."""
+    person = person_of(scope)
+    return (said or ANYBODY.name) if person == ANYBODY else person.name

@@ -11,6 +11,7 @@ with Home(home_folder()) as home, CaseStore(home) as store:
 
 from server.store.archive import Archive
 from server.store.case_store import CaseStore
+from server.store.changes import Change
 from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError, told
 from server.store.files import NewFile
 from server.store.home import Home, home_folder
@@ -32,6 +33,7 @@ __all__ = [
     "Archive",
     "Case",
     "CaseStore",
+    "Change",
     "Current",
     "Damage",
     "Document",

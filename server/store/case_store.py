@@ -8,6 +8,7 @@ from types import TracebackType
 from server.disk import FULL
 from server.store import cases, documents, files
 from server.store.archive import Archive, pack, unpack
+from server.store.changes import Change
 from server.store.checks import checked_name
 from server.store.documents import NewDocument
 from server.store.errors import OutOfDateError, StoreError
@@ -42,6 +43,7 @@ class CaseStore:
     def __init__(self, home: Home, *, clock: Clock = utc_now) -> None:
         self.home = home
         self._ledger = Ledger(home, clock=clock)
+        self._told: Callable[[Change], None] = lambda _: None
         try:
             sweep(self._ledger)
         except BaseException:
@@ -53,7 +55,9 @@ class CaseStore:
     def create(self, name: str) -> Case:
         """A new case; InvalidInput NAME_INVALID."""
         with self._ledger.writing() as session:
-            return cases.add_case(session, name=name, now=self._ledger.now)
+            made = cases.add_case(session, name=name, now=self._ledger.now)
+        self._told(Change(case_id=made.id, kind="case", before=None, after="here"))
+        return made
 
     def list(self) -> tuple[Case, ...]:
         """All cases, the newest first."""
@@ -67,13 +71,19 @@ class CaseStore:
 
     def open(self, case_id: str) -> Case:
         """Make this the case that is worked in; it stays so over a restart."""
+        before = self.opened()
         with self._ledger.writing() as session:
-            return cases.open_case(session, case_id)
+            opened = cases.open_case(session, case_id)
+        self._told(Change.opened(case_id, before=before))
+        return opened
 
     def close(self) -> None:
         """Have no case open."""
+        before = self.opened()
         with self._ledger.writing() as session:
             cases.close_case(session)
+        if before is not None:
+            self._told(Change(case_id=before.id, kind="open case", before=before.id, after=None))
 
     def opened(self) -> Case | None:
         """The case that is open."""
@@ -85,7 +95,9 @@ class CaseStore:
         with self._ledger.writing() as session:
             row = cases.case_row(session, case_id)
             row.name, row.changed_at = checked_name(name, of="name of the case"), self._ledger.now
-            return cases.case_of(row)
+            renamed = cases.case_of(row)
+        self._told(Change(case_id=case_id, kind="case", before="here", after="here, with another name"))
+        return renamed
 
     def delete(self, case_id: str, *, confirm: str) -> None:
         """Take a case away for ever; `confirm` is its name.
@@ -103,6 +115,7 @@ class CaseStore:
             self._mark_leaving(case_id, confirm)
         remove_case(self._ledger, case_id)
         self.home.keep_reserve()
+        self._told(Change(case_id=case_id, kind="case", before="here", after=None))
 
     def _mark_leaving(self, case_id: str, confirm: str) -> None:
         with self._ledger.writing() as session:
@@ -152,7 +165,9 @@ class CaseStore:
         with self._ledger.writing() as session:
             row, now = cases.case_row(session, case_id), self._ledger.now
             row.changed_at = now
-            return documents.add_document(session, case_id, new, now=now)
+            added = documents.add_document(session, case_id, new, now=now)
+        self._told(Change.added(added))
+        return added
 
     def document(self, case_id: str, document_id: str) -> Document:
         """One document."""
@@ -224,11 +239,15 @@ class CaseStore:
         with self._ledger.writing() as session:
             case = cases.case_row(session, document.case_id)
             row = documents.document_row(session, document.case_id, document.id)
-            if row.withdrawn_at is None:
+            is_news = row.withdrawn_at is None
+            if is_news:
                 row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason = self._ledger.now, by, reason
                 case.changed_at = row.withdrawn_at
                 session.flush()
-            return documents.find_document(session, document.case_id, document.id)
+            found = documents.find_document(session, document.case_id, document.id)
+        if is_news:
+            self._told(Change.withdrawn(found, by=by))
+        return found
 
     # ------------------------------------------------------------ files
 
@@ -275,13 +294,19 @@ class CaseStore:
         Raises:
             InvalidInput: ARCHIVE_INVALID, ARCHIVE_NEWER.
         """
-        return unpack(self._ledger, archive)
+        case = unpack(self._ledger, archive)
+        self._told(Change(case_id=case.id, kind="case", before=None, after="copied in"))
+        return case
 
     # ------------------------------------------------------------ end
 
     def call_after_writing(self, listener: Callable[[], None]) -> None:
         """Have this called after each change, by the thread that made it; it may read the store."""
         self._ledger.call_after_writing(listener)
+
+    def tell_changes(self, listener: Callable[[Change], None]) -> None:
+        """Have this one told what was changed, once it is on the disk, by the thread that changed it."""
+        self._told = listener
 
     def shut(self) -> None:
         """Close the database. The home is closed by who opened it."""

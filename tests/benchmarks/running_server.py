@@ -58,7 +58,9 @@ def running_server(
     }
     with tempfile.TemporaryDirectory() as folder:
         settings = Path(folder) / "benchmark.yaml"
-        settings.write_text(yaml.safe_dump({"rehearsal": played}), encoding="utf-8")
+        settings.write_text(
+            yaml.safe_dump({"rehearsal": played, "security": {"sign_in": "off"}}), encoding="utf-8"
+        )
         with subprocess.Popen(
             [sys.executable, "-m", "server", "run", "--config", str(settings), "--port", "0"],
             cwd=folder,

@@ -52,6 +52,7 @@ class Rehearsal:
         # A busy machine brings images late, and late ones are covered: when is for other tests to ask.
         (folder / "config.yaml").write_text(
             "limits: {pose_stale_after_ms: 4000, video_stale_after_ms: 5000, scene_stale_after_ms: 5000}\n"
+            "security: {sign_in: off}\n"
         )
         self.process = subprocess.Popen(
             [sys.executable, "-m", "server", "run", "--port", "0"],

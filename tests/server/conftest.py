@@ -1,18 +1,16 @@
 """A small theatre with known truth, instants made from it, and a real server on a free port."""
 
 import dataclasses
-import threading
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from functools import cache
 
 import numpy as np
 import pytest
-import uvicorn
 from fastapi import FastAPI
 
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
-from server.stream.connection import uvicorn_config
+from tests.served import served
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
 from tracker.navigation import Absent, AbsentReason, Guide, NavigationSnapshot, Setup, Watched, navigate
@@ -151,35 +149,8 @@ def instant_of() -> Callable[..., Instant]:
     return make_instant
 
 
-class _Announced(uvicorn.Server):
-    """A server that says when it listens."""
-
-    def __init__(self, config: uvicorn.Config) -> None:
-        super().__init__(config)
-        self.listening = threading.Event()
-
-    async def startup(self, sockets: list[object] | None = None) -> None:  # type: ignore[override]  # unused
-        await super().startup(None)
-        assert sockets is None
-        self.listening.set()
-
-
-@contextmanager
-def _served(app: FastAPI) -> Iterator[int]:
-    server = _Announced(uvicorn_config(app, host="127.0.0.1", port=0))
-    thread = threading.Thread(target=server.run, name="web server", daemon=True)
-    thread.start()
-    try:
-        assert server.listening.wait(30.0)
-        yield int(server.servers[0].sockets[0].getsockname()[1])
-    finally:
-        server.should_exit = True
-        thread.join(30.0)
-        assert not thread.is_alive(), "the server does not end"
-
-
 @pytest.fixture
 def serve() -> Iterator[Callable[[FastAPI], int]]:
     """Serve an application for real; answers the port."""
     with ExitStack() as stack:
-        yield lambda app: stack.enter_context(_served(app))
+        yield lambda app: stack.enter_context(served(app))

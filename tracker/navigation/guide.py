@@ -5,7 +5,6 @@ from enum import StrEnum
 
 from tracker.geometry import Array, Camera, Marker, Tool, Vertebra, inverse_slopes, slopes_of_product
 from tracker.navigation.certainty import Drill, Judged, Placed, Room, judge, marker_from_tool
-from tracker.navigation.certainty.placed import ToolCertainty
 from tracker.navigation.clearance import Nearest, WallField
 from tracker.navigation.clearance.outline import field_of_channel
 from tracker.plan import Channel
@@ -91,8 +90,7 @@ def placed_tool(
     `tip_slope`: (6, 3), how `camera_from_vertebra` follows an error of this tool's tip, where the landmarks
     were touched with it: a tip that is thought too far left puts the bone too far left, too.
     """
-    certainty = ToolCertainty(tip_covariance_mm2=tool.tip_covariance_mm2, axis_sd_deg=tool.axis_sd_deg)
-    camera_from_tool = camera_from_marker @ marker_from_tool(tool, certainty)
+    camera_from_tool = camera_from_marker @ marker_from_tool(tool)
     found = camera_from_vertebra.inverse @ camera_from_tool
     if tip_slope is None or not tip_slope.any():
         return found

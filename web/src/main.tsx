@@ -33,6 +33,7 @@ import "./theme/shell.css";
 import "./theme/enter.css";
 import "./theme/theatre.css";
 import "./theme/operator.css";
+import "./theme/restart.css";
 import "./theme/case.css";
 import "./theme/calibration.css";
 import "./theme/planning.css";

@@ -198,13 +198,21 @@ def test_health_fails_only_when_a_restart_would_help(
 def test_each_route_documents_what_it_answers(client: TestClient) -> None:
     document = client.get("/api/openapi.json").json()
     paths = document["paths"]
-    watched = {"/video/{camera}.mjpg", "/api/live", "/api/dashboard", "/health", "/metrics"}
+    watched = {
+        "/video/{camera}.mjpg",
+        "/api/live",
+        "/api/dashboard",
+        "/api/supervision/room",
+        "/health",
+        "/metrics",
+    }
     # Without a store there are no cases and no steps; alarms and the rehearsal need none.
-    others = {path for path in paths if path.startswith(("/api/alarms", "/api/rehearsal"))}
+    rooms = ("/api/alarms", "/api/rehearsal", "/api/session", "/api/people", "/api/audit")
+    others = {path for path in paths if path.startswith(rooms)}
     assert set(paths) == watched | others
     for operation in [each for methods in paths.values() for each in methods.values()]:
         answers = set(operation["responses"])
-        assert {"421", "500"} <= answers
+        assert {"401", "403", "421", "429", "500"} <= answers
         assert answers & {"200", "201", "204"}
     assert "LiveMessage" in document["components"]["schemas"]
     refused = [
@@ -212,11 +220,12 @@ def test_each_route_documents_what_it_answers(client: TestClient) -> None:
         for path, methods in paths.items()
         for operation in methods.values()
         for status, answer in operation["responses"].items()
-        if status not in {"200", "201", "204", "421", "500"} and path != "/health"
+        if status not in {"200", "201", "204", "401", "403", "421", "429", "500"} and path != "/health"
     ]
     assert {(path, status) for path, status, _ in refused if path in watched} == {
         ("/video/{camera}.mjpg", "404"),
         ("/video/{camera}.mjpg", "422"),
+        ("/video/{camera}.mjpg", "503"),
         ("/api/live", "503"),
     }
     for _, _, answer in refused:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import urllib.request
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -18,13 +19,21 @@ from server.store import CaseStore, Home
 REPOSITORY = Path(__file__).parents[3]
 
 
-def create_case(address: str) -> str:
-    """Ask the running server for a case; gives its id."""
-    asked = urllib.request.Request(  # noqa: S310  our own address
-        address + "api/cases", data=b'{"name": "one"}', headers={"Content-Type": "application/json"}
-    )
+def ask(address: str, path: str, sent: object, **headers: str) -> tuple[Any, str]:
+    """Ask the running server as a page of it does; its answer, and the cookie that it gives."""
+    said = {"Content-Type": "application/json", "Origin": address.rstrip("/"), **headers}
+    asked = urllib.request.Request(address + path, data=json.dumps(sent).encode(), headers=said)  # noqa: S310
     with urllib.request.urlopen(asked, timeout=60) as answer:  # noqa: S310  our own address
-        return str(json.load(answer)["id"])
+        return json.load(answer), str(answer.headers["Set-Cookie"])
+
+
+def create_case(address: str, link: str) -> str:
+    """Sign in by the link, and ask for a case; gives its id."""
+    entered, cookie = ask(address, "api/session", {"invitation": link.partition("#")[2]})
+    assert (entered["name"], entered["role"], entered["token"]) == ("Operator", "operator", None)
+    assert {"HttpOnly", "SameSite=Strict", "Path=/"} <= set(cookie.split("; "))
+    made, _ = ask(address, "api/cases", {"name": "one"}, Cookie=cookie.split(";")[0])
+    return str(made["id"])
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
@@ -46,14 +55,18 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
         start_new_session=True,
     ) as server:
         assert server.stdout is not None
-        first, address, last = (server.stdout.readline().strip() for _ in range(3))
+        first, address, link, last = (server.stdout.readline().strip() for _ in range(4))
         assert "research software, not a medical device" in first
         found = re.fullmatch(r"Open (http://127\.0\.0\.1:\d+/)", address)
         assert found is not None
         assert last == "Ctrl+C stops it"
         with urllib.request.urlopen(found[1] + "health", timeout=60) as answer:  # noqa: S310  our own address
             assert answer.status == 200
-        case = create_case(found[1])
+        entry = re.fullmatch(
+            rf"Sign in as operator \(once\): ({found[1]}enter#[0-9a-f]{{12}}\.[\w-]{{43}})", link
+        )
+        assert entry is not None
+        case = create_case(found[1], entry[1])
         second = subprocess.run(
             [sys.executable, "-m", "server", "run", "--source", "v.avi", "--port", "0"],
             cwd=tmp_path,
@@ -69,6 +82,7 @@ def test_it_prints_one_address_serves_it_and_stops_without_a_word(
     assert "Traceback" not in err
     assert "leaked" not in err
     assert '"level": "error"' not in err
+    assert entry[1].partition("#")[2] not in err, "what opens the door is in no log"
     assert second.returncode == 2
     assert f"another Coaxial is running with the folder {tmp_path / 'home'}" in second.stderr
     assert "Traceback" not in second.stderr

@@ -1,6 +1,6 @@
 """Uncertainty carried through: from marker, reference, registration and tool to the chance of a breach.
 
-tool = tool_in_vertebra(camera_from_marker=..., tool=..., camera_from_anchor=..., anchor_from_vertebra=...)
+tool = camera_from_vertebra.inverse @ (camera_from_marker @ marker_from_tool(model))
 judged = judge(tool, channel, field, room, ...)
 """
 
@@ -9,10 +9,7 @@ from tracker.navigation.certainty.chance import Chance, chance_of_breach, past_p
 from tracker.navigation.certainty.judged import Drill, Judged, judge
 from tracker.navigation.certainty.placed import (
     Placed,
-    ToolCertainty,
     marker_from_tool,
-    placed,
-    tool_in_vertebra,
 )
 from tracker.navigation.certainty.spread import Spread, crossing_sds_mm, radius_95, spread_of
 
@@ -24,15 +21,12 @@ __all__ = [
     "Placed",
     "Room",
     "Spread",
-    "ToolCertainty",
     "certain_for",
     "chance_of_breach",
     "crossing_sds_mm",
     "judge",
     "marker_from_tool",
     "past_planned_ratio",
-    "placed",
     "radius_95",
     "spread_of",
-    "tool_in_vertebra",
 ]

@@ -120,6 +120,7 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
   return {
     sequence: 7,
     sent_at_s: 100.02,
+    shown_scale_ratio: 1,
     source: { name: "rehearsal", state: "running", trouble: null, images: 8, skipped_images: 0, rate_hz: 30 },
     process: { state: "running", restarts: 0, trouble: null },
     snapshot: snapshot(),

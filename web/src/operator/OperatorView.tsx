@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
 import { useWords } from "../words/WordsContext";
@@ -32,6 +33,7 @@ function Steps(): ReactNode {
       </a>
       <OperatorTop />
       <AlarmBand />
+      <ConfirmRestart />
       <AlertBand />
       <div className="operator-body">
         <StepRail now={page} />

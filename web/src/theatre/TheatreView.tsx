@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
 import { BullseyePane } from "../panes/BullseyePane";
@@ -19,6 +20,7 @@ export function TheatreView(): ReactNode {
       </a>
       <TheatreTop />
       <AlarmBand />
+      <ConfirmRestart />
       <AlertBand />
       <main className="theatre-main">
         <VideoPane />

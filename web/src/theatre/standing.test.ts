@@ -7,12 +7,13 @@ import type { Standing } from "./useStanding";
 type State = Standing["steps"][number]["state"];
 
 function standing(check: State, checkAgeMin: number | null = 3): Standing {
-  const step = { said: "", remedy: "", document_id: null, allowed: true };
+  const step = { said: "", remedy: "", document_id: null, allowed: true, lacks: null };
   return {
     case_id: "c1",
     case_name: "Phantom 4",
     next_step: "navigate",
     may_navigate: true,
+    confirmation: null,
     steps: [
       { ...step, step: "register", state: "done", numbers: { age_min: 12.7 } },
       { ...step, step: "check", state: check, numbers: { age_min: checkAgeMin } },

@@ -11,6 +11,7 @@ import { reasonsDe } from "./reasons/de";
 import { registrationDe } from "./registration/de";
 import { reportDe } from "./report/de";
 import { restDe } from "./rest/de";
+import { restartDe } from "./restart/de";
 import { shellDe } from "./shell/de";
 import { supervisorDe } from "./supervisor/de";
 import { theatreDe } from "./theatre/de";
@@ -135,6 +136,7 @@ export const de: Words = {
   shell: shellDe,
   enter: enterDe,
   rest: restDe,
+  restart: restartDe,
   operator: operatorDe,
   theatre: theatreDe,
   case: caseDe,

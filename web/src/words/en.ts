@@ -11,6 +11,7 @@ import { reasonsEn } from "./reasons/en";
 import { registrationEn } from "./registration/en";
 import { reportEn } from "./report/en";
 import { restEn } from "./rest/en";
+import { restartEn } from "./restart/en";
 import { shellEn } from "./shell/en";
 import { supervisorEn } from "./supervisor/en";
 import { theatreEn } from "./theatre/en";
@@ -137,6 +138,7 @@ export const en: Words = {
   shell: shellEn,
   enter: enterEn,
   rest: restEn,
+  restart: restartEn,
   operator: operatorEn,
   theatre: theatreEn,
   case: caseEn,

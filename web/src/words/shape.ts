@@ -21,6 +21,7 @@ import type { PlanWords } from "./plan/en";
 import type { RegistrationWords } from "./registration/en";
 import type { ReportWords } from "./report/en";
 import type { RestWords } from "./rest/en";
+import type { RestartWords } from "./restart/en";
 import type { ShellWords } from "./shell/en";
 import type { SupervisorWords } from "./supervisor/en";
 import type { TheatreWords } from "./theatre/en";
@@ -122,6 +123,7 @@ export interface Words {
   shell: ShellWords;
   enter: EnterWords;
   rest: RestWords;
+  restart: RestartWords;
   operator: OperatorWords;
   theatre: TheatreWords;
   case: CaseWords;

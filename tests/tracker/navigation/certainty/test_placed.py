@@ -1,5 +1,7 @@
 """Covariances along the chain from patient to drill, against the same chain drawn at random."""
 
+from typing import TypeVar
+
 import numpy as np
 import pytest
 
@@ -16,20 +18,20 @@ from tracker.geometry import (
 )
 from tracker.navigation.certainty import (
     Placed,
-    ToolCertainty,
     certain_for,
     crossing_sds_mm,
     marker_from_tool,
-    placed,
     radius_95,
     spread_of,
-    tool_in_vertebra,
 )
 from tracker.navigation.certainty.certain import Room
+from tracker.navigation.guide import placed_tool
 from tracker.plan import Channel
 from tracker.plan.screw import Tolerance
 from tracker.pose import ToolModel
 
+To = TypeVar("To")
+From = TypeVar("From")
 TOOL = ToolModel.from_tip_and_axis(
     name="drill",
     marker="drill",
@@ -37,8 +39,9 @@ TOOL = ToolModel.from_tip_and_axis(
     axis_in_marker=(0.02, -1.0, 0.0),
     radius_mm=2.0,
     length_mm=100.0,
+    tip_covariance_mm2=np.diag([0.04, 0.09, 0.02]),
+    axis_sd_deg=0.3,
 )
-CERTAINTY = ToolCertainty(tip_covariance_mm2=np.diag([0.04, 0.09, 0.02]), axis_sd_deg=0.3)
 CAMERA_FROM_MARKER: Rigid[Camera, Marker] = Rigid.from_vector([0.3, 2.6, -0.4], [20.0, -30.0, 450.0])
 CAMERA_FROM_REFERENCE: Rigid[Camera, Marker] = Rigid.from_vector([2.8, 0.2, 0.3], [-60.0, 40.0, 520.0])
 REFERENCE_FROM_VERTEBRA: Rigid[Marker, Vertebra] = Rigid.from_vector([0.2, 1.4, -0.3], [30.0, 12.0, -70.0])
@@ -49,6 +52,10 @@ def _covariance(mm: tuple[float, float, float], deg: tuple[float, float, float])
     mix = np.eye(6) + 0.3 * np.random.default_rng(5).standard_normal((6, 6))
     root = np.diag([*mm, *np.radians(deg)]) @ mix
     return np.asarray(root @ root.T)
+
+
+def placed(pose: Rigid[To, From], covariance: Array) -> Placed[To, From]:
+    return Placed(pose=pose, covariance=covariance)
 
 
 MARKER_COVARIANCE = _covariance((0.05, 0.05, 0.4), (0.25, 0.25, 0.05))
@@ -70,17 +77,13 @@ def _moved(pose: Rigid, covariance: Array, draws: int) -> list[Rigid]:  # type: 
 @pytest.mark.parametrize("with_reference", [True, False])
 def test_the_chain_s_covariance_is_that_of_the_chain_drawn_at_random(*, with_reference: bool) -> None:
     draws = 3000
-    tool = marker_from_tool(TOOL, CERTAINTY)
-    anchor = (
-        placed(CAMERA_FROM_REFERENCE, REFERENCE_COVARIANCE)
-        if with_reference
-        else Placed.surely(CAMERA_FROM_REFERENCE)
-    )
-    told = tool_in_vertebra(
-        camera_from_marker=placed(CAMERA_FROM_MARKER, MARKER_COVARIANCE),
-        tool=tool,
-        camera_from_anchor=anchor,
-        anchor_from_vertebra=placed(REFERENCE_FROM_VERTEBRA, REGISTRATION_COVARIANCE),
+    tool = marker_from_tool(TOOL)
+    reference_covariance = REFERENCE_COVARIANCE if with_reference else np.zeros((6, 6))
+    anchor = placed(CAMERA_FROM_REFERENCE, reference_covariance)
+    told = placed_tool(
+        anchor @ placed(REFERENCE_FROM_VERTEBRA, REGISTRATION_COVARIANCE),
+        placed(CAMERA_FROM_MARKER, MARKER_COVARIANCE),
+        TOOL,
     )
     steps = np.array(
         [
@@ -124,7 +127,7 @@ POINT = np.array([7.0, -4.0, 11.0])
 
 def test_a_point_of_an_uncertain_pose_is_as_uncertain_as_geometry_says() -> None:
     point: Rigid[Marker, Tool] = Rigid(rotation=np.eye(3), translation_mm=POINT)
-    there = placed(CAMERA_FROM_MARKER, MARKER_COVARIANCE) @ Placed.surely(point)
+    there = placed(CAMERA_FROM_MARKER, MARKER_COVARIANCE) @ placed(point, np.zeros((6, 6)))
     expected = point_covariance_mm2(CAMERA_FROM_MARKER, MARKER_COVARIANCE, POINT)
     np.testing.assert_allclose(there.covariance[:3, :3], expected, atol=1e-12)
 

@@ -1,0 +1,79 @@
+"""Signing in and out, and who one is."""
+
+from fastapi import APIRouter, Request, Response
+
+from server.api.errors import refusals
+from server.api.session_messages import EnteredMessage, EnterRequest, SessionMessage
+from server.security.audit import note
+from server.security.cookies import cookie_header
+from server.security.guard import SECURE_KEY, SESSION_KEY
+from server.security.people import PeopleDesk, Session
+from server.security.person import ANYBODY
+from server.security.refusals import SignInOff
+
+
+def session_of(request: Request) -> Session | None:
+    """The session that asks; None where nobody has to sign in."""
+    found = request.scope.get("state", {}).get(SESSION_KEY)
+    return found if isinstance(found, Session) else None
+
+
+def session_router(people: PeopleDesk | None) -> APIRouter:
+    """Everything under `/api/session`."""
+    router = APIRouter(prefix="/api/session", tags=["people"])
+
+    @router.get("")
+    async def who(request: Request) -> SessionMessage:
+        """Who is signed in here: name, role, and until when."""
+        session = session_of(request)
+        if session is None:
+            return SessionMessage(
+                name=ANYBODY.name, role=ANYBODY.role, expires_at=None, sign_in_required=False
+            )
+        return SessionMessage(
+            name=session.person.name,
+            role=session.person.role,
+            expires_at=session.expires_at,
+            sign_in_required=True,
+        )
+
+    @router.post("", responses=refusals(409, 422, 503))
+    def enter(asked: EnterRequest, request: Request, response: Response) -> EnteredMessage:
+        """Sign in with an invitation: the part of its link after the #.
+
+        A browser gets a cookie. An invitation for a machine sets none; its answer has the session's token.
+        """
+        if people is None or not people.required:
+            raise SignInOff.told()
+        address = request.client.host if request.client else ""
+        session, token = people.enter(asked.invitation, address=address)
+        left = session_of(request)
+        if left is not None and not session.for_machine:
+            people.end(left.id)
+        secure = bool(request.scope["state"][SECURE_KEY])
+        note({"what": "session", "name": session.person.name, "from": None, "to": session.person.role.value})
+        if not session.for_machine:
+            lasts_s = round((session.expires_at - session.started_at).total_seconds())
+            cookie = cookie_header(request.scope, token.text, secure=secure, lasts_s=lasts_s)
+            response.headers.append("Set-Cookie", cookie)
+        return EnteredMessage(
+            name=session.person.name,
+            role=session.person.role,
+            expires_at=session.expires_at,
+            sign_in_required=True,
+            token=token.text if session.for_machine else None,
+        )
+
+    @router.delete("", status_code=204, responses=refusals(409, 503))
+    def leave(request: Request) -> Response:
+        """Sign out: the session ends, and with it every picture and socket that it has open."""
+        session = session_of(request)
+        if people is None or session is None:
+            raise SignInOff.told()
+        people.end(session.id)
+        note({"what": "session", "name": session.person.name, "from": session.person.role.value, "to": None})
+        secure = bool(request.scope["state"][SECURE_KEY])
+        cookie = cookie_header(request.scope, "", secure=secure, lasts_s=0)
+        return Response(status_code=204, headers={"Set-Cookie": cookie})
+
+    return router

@@ -1,0 +1,186 @@
+"""What can go wrong at the door.
+
+NavigationError
+├── SessionRefused      nobody is signed in, or no longer               HTTP 401
+├── RoleRefused         somebody is, and may not do this                HTTP 403
+├── PageRefused         it is another page that asks for it             HTTP 403
+├── AddressUnknown      there is nothing at this address                HTTP 404
+├── MethodUnknown       it cannot be done at this address               HTTP 405
+├── InvitationRefused   an invitation that lets nobody in               HTTP 403
+├── TooManyTries        somebody guesses                                HTTP 429
+├── PersonUnknown       there is no such session or invitation          HTTP 404
+└── SignInOff           nobody has to sign in, so nobody can be invited HTTP 409
+"""
+
+import math
+
+from server.security.person import Person, Role
+from tracker.errors import NavigationError
+
+SIGN_IN = "Sign in with the link that the server printed at its start, or ask the operator for an invitation."
+ASK_AGAIN = "Ask the operator for a new invitation; an operator starts the server with --new-operator-link."
+
+
+class SessionRefused(NavigationError):
+    """Nobody is signed in."""
+
+    @classmethod
+    def needed(cls) -> "SessionRefused":
+        """Nothing was shown at the door."""
+        return cls("SESSION_NEEDED", "nobody is signed in here", SIGN_IN)
+
+    @classmethod
+    def expired(cls) -> "SessionRefused":
+        """What was shown at the door does not open it, or no longer."""
+        return cls("SESSION_EXPIRED", "this session is over, was ended, or is none of this server", SIGN_IN)
+
+
+class RoleRefused(NavigationError):
+    """The role of who is signed in does not include this."""
+
+    @classmethod
+    def of(cls, person: Person, roles: frozenset[Role]) -> "RoleRefused":
+        """Who may do it is told."""
+        may = " or ".join(sorted(role.value for role in roles))
+        return cls(
+            "ROLE_REFUSED",
+            f"this is for the {may}, and {person.name} is signed in as {person.role.value}",
+            "Ask somebody who is signed in with that role to do it, or to invite you with it.",
+            {"role": person.role.value, "allowed": sorted(role.value for role in roles)},
+        )
+
+
+class PageRefused(NavigationError):
+    """A page that is none of ours uses what the browser brings along by itself."""
+
+    @classmethod
+    def told(cls) -> "PageRefused":
+        """In the words in which another origin is refused."""
+        return cls(
+            "ORIGIN_REFUSED",
+            "the browser does not say that a page of this server asks for this",
+            "Open the dashboard of this server itself; a program sends its token as "
+            "'Authorization: Bearer' in place of a cookie.",
+        )
+
+
+class AddressUnknown(NavigationError):
+    """There is nothing at this address."""
+
+    @classmethod
+    def at(cls, path: str) -> "AddressUnknown":
+        """Which one."""
+        return cls(
+            "NOT_FOUND",
+            f"there is nothing at {path[:200]}",
+            "Look at /api/docs for what can be asked.",
+            {"path": path[:200]},
+        )
+
+
+class MethodUnknown(NavigationError):
+    """There is something at this address, and this cannot be done with it."""
+
+    @classmethod
+    def at(cls, method: str, path: str) -> "MethodUnknown":
+        """Which one."""
+        return cls(
+            "METHOD_NOT_ALLOWED",
+            f"{method} is not possible at {path[:200]}",
+            "Look at /api/docs for what can be asked.",
+            {"path": path[:200]},
+        )
+
+
+class InvitationRefused(NavigationError):
+    """An invitation that lets nobody in."""
+
+    @classmethod
+    def unknown(cls) -> "InvitationRefused":
+        """It was never made, or is forgotten since it ended."""
+        return cls("INVITATION_UNKNOWN", "this link is none of this server's invitations", ASK_AGAIN)
+
+    @classmethod
+    def used(cls) -> "InvitationRefused":
+        """It was for one sign-in."""
+        return cls("INVITATION_USED", "this link was for one sign-in, and has been used", ASK_AGAIN)
+
+    @classmethod
+    def expired(cls) -> "InvitationRefused":
+        """Its time is over."""
+        return cls("INVITATION_EXPIRED", "the time of this link is over", ASK_AGAIN)
+
+    @classmethod
+    def revoked(cls) -> "InvitationRefused":
+        """Somebody took it back."""
+        return cls("INVITATION_REVOKED", "this link was taken back", ASK_AGAIN)
+
+
+class TooManyTries(NavigationError):
+    """Somebody guesses, or something is set up wrongly."""
+
+    @classmethod
+    def wait(cls, seconds: float) -> "TooManyTries":
+        """For so long."""
+        whole = max(1, math.ceil(seconds))
+        return cls(
+            "TOO_MANY_TRIES",
+            f"too many links or sessions were tried that do not exist; the next try counts in {whole} s",
+            f"Wait {whole} s, then open the link once more.",
+            {"wait_s": whole},
+        )
+
+
+class PersonUnknown(NavigationError):
+    """There is no such session or invitation."""
+
+    @classmethod
+    def of(cls, kind: str, number: str) -> "PersonUnknown":
+        """Which one."""
+        return cls(
+            f"{kind.upper()}_UNKNOWN",
+            f"there is no {kind} {number[:40]}",
+            "Look at the list of people once more.",
+            {"id": number[:40]},
+        )
+
+
+class SignInOff(NavigationError):
+    """Nobody has to sign in on this server."""
+
+    @classmethod
+    def told(cls) -> "SignInOff":
+        """By its settings."""
+        return cls(
+            "SIGN_IN_OFF",
+            "nobody has to sign in on this server, so nobody can",
+            "Set security.sign_in to required in the settings, and start the server again.",
+        )
+
+
+STATUS_OF: dict[type[NavigationError], int] = {
+    SessionRefused: 401,
+    RoleRefused: 403,
+    PageRefused: 403,
+    AddressUnknown: 404,
+    MethodUnknown: 405,
+    InvitationRefused: 403,
+    TooManyTries: 429,
+    PersonUnknown: 404,
+    SignInOff: 409,
+}
+
+
+def status_of(refusal: NavigationError) -> int:
+    """The HTTP status of a refusal at the door; 507 for one that the disk makes."""
+    return next((STATUS_OF[kind] for kind in type(refusal).__mro__ if kind in STATUS_OF), 507)
+
+
+def body_of(refusal: NavigationError) -> dict[str, object]:
+    """A refusal in the one shape that refusals have."""
+    return {
+        "code": refusal.code,
+        "message": refusal.message,
+        "remedy": refusal.remedy,
+        "context": refusal.context,
+    }

@@ -1,0 +1,137 @@
+"""Whether this server speaks TLS, and with which certificate: never in clear on a line that others share."""
+
+import hashlib
+import ssl
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NoReturn
+
+from server.config import Config
+from server.errors import ConfigError
+from server.security.reach import is_loopback
+
+CERTIFICATE_REMEDY = (
+    "Give certificate and key as PEM files under server.tls, the key without a password; or leave both out, "
+    "and the server makes its own."
+)
+PROXY_WORDS = "a proxy speaks TLS for this server"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tls:
+    """A certificate that can be served.
+
+    Attributes:
+        certificate: the PEM file with it.
+        key: the PEM file with its key.
+        fingerprint: SHA-256 of it, in pairs with colons, as browsers show it.
+        self_made: by this server; a browser asks whether to believe it.
+    """
+
+    certificate: Path
+    key: Path
+    fingerprint: str
+    self_made: bool
+
+
+def refuse_unsafe(config: Config) -> None:
+    """To be asked before anything is started.
+
+    Raises:
+        ConfigError: SIGN_IN_NEEDED, TLS_HALF.
+    """
+    host, tls = config.server.host, config.server.tls
+    if config.security.sign_in == "off" and not is_loopback(_bracketed(host)):
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            f"security.sign_in is off, but server.host is {host}, which others reach: then everybody in the "
+            "network could move the plan",
+            "Set security.sign_in to required, or server.host to 127.0.0.1.",
+            {"host": host},
+        )
+    if (tls.certificate is None) != (tls.key is None):
+        given, missing = ("certificate", "key") if tls.key is None else ("key", "certificate")
+        raise ConfigError(
+            "TLS_HALF",
+            f"server.tls.{given} is given, but server.tls.{missing} is not",
+            CERTIFICATE_REMEDY,
+            {"missing": missing},
+        )
+
+
+def chosen_tls(config: Config, folder: Path) -> Tls | None:
+    """The certificate to serve with; None where no TLS is spoken: on loopback, and behind a proxy that does.
+
+    Args:
+        config: says the address, and perhaps a certificate.
+        folder: where a self-made one is kept.
+
+    Raises:
+        ConfigError: CERTIFICATE_UNUSABLE.
+        OSError: the self-made one cannot be kept.
+    """
+    server = config.server
+    if server.tls.certificate is not None and server.tls.key is not None:
+        return _own(server.tls.certificate, server.tls.key)
+    if is_loopback(_bracketed(server.host)) or server.behind_proxy == PROXY_WORDS:
+        return None
+    # Loaded where it is needed: most servers listen on loopback.
+    from server.security.tls.self_made import kept_or_made  # noqa: PLC0415
+
+    made = kept_or_made(folder, host=server.host)
+    return Tls(
+        certificate=made.certificate,
+        key=made.key,
+        fingerprint=fingerprint_of(made.certificate.read_text(encoding="ascii")),
+        self_made=True,
+    )
+
+
+def fingerprint_of(pem: str) -> str:
+    """SHA-256 of the first certificate in a PEM text, as browsers show it."""
+    first = pem[pem.index("-----BEGIN CERTIFICATE-----") :].split("-----END CERTIFICATE-----", maxsplit=1)[0]
+    der = ssl.PEM_cert_to_DER_cert(f"{first}-----END CERTIFICATE-----\n")
+    return ":".join(f"{byte:02X}" for byte in hashlib.sha256(der).digest())
+
+
+def _own(certificate: Path, key: Path) -> Tls:
+    """A certificate that somebody gives, if it can be served."""
+    for file, what in ((certificate, "certificate"), (key, "key")):
+        try:
+            text = file.read_text(encoding="utf-8")
+        except OSError as error:
+            _unusable(f"the TLS {what} {file} cannot be read: {(error.strerror or str(error)).lower()}", file)
+        except UnicodeDecodeError:
+            _unusable(f"the TLS {what} {file} is no PEM file", file)
+        if "-----BEGIN" not in text:
+            _unusable(f"the TLS {what} {file} is no PEM file", file)
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    try:
+        # Without this, a key with a password would be asked for on the terminal.
+        context.load_cert_chain(certificate, key, password=_no_password)
+        fingerprint = fingerprint_of(certificate.read_text(encoding="utf-8"))
+    except _PasswordAsked:
+        _unusable(f"the TLS key {key} is locked with a password", key)
+    except ssl.SSLError as error:
+        mismatch = "MISMATCH" in (error.reason or "")
+        said = f"does not belong to the key {key}" if mismatch else "cannot be used with its key"
+        _unusable(f"the TLS certificate {certificate} {said} ({error.reason or error})", certificate)
+    except ValueError:
+        _unusable(f"there is no certificate in {certificate}", certificate)
+    return Tls(certificate=certificate, key=key, fingerprint=fingerprint, self_made=False)
+
+
+class _PasswordAsked(Exception):
+    """OpenSSL asks for a password."""
+
+
+def _no_password() -> NoReturn:
+    raise _PasswordAsked
+
+
+def _unusable(message: str, file: Path) -> NoReturn:
+    raise ConfigError("CERTIFICATE_UNUSABLE", message, CERTIFICATE_REMEDY, {"file": str(file)})
+
+
+def _bracketed(host: str) -> str:
+    return f"[{host}]" if ":" in host and not host.startswith("[") else host

@@ -1,0 +1,77 @@
+"""The whole API held against its own description: no sick answer, and none that is not written there."""
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+import schemathesis
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
+from schemathesis.checks import not_a_server_error
+from schemathesis.core.result import Ok
+from schemathesis.specs.openapi.checks import (
+    content_type_conformance,
+    response_schema_conformance,
+    status_code_conformance,
+)
+
+from tests.procedure.conftest import serving
+from tests.served import served
+
+# A refusal of what the description lets through is no fault: what a case allows is in no schema.
+CHECKS = [
+    not_a_server_error,
+    status_code_conformance,
+    content_type_conformance,
+    response_schema_conformance,
+]
+TRIES = 12
+# It never ends.
+ENDLESS = "/video/{camera}.mjpg"
+FILES = ("application/zip", "model/stl", "model/obj", "model/ply")
+
+for kind in FILES:
+    schemathesis.openapi.media_type(kind, st.binary(max_size=200))
+
+
+@pytest.fixture(scope="module")
+def schema(tmp_path_factory: pytest.TempPathFactory) -> Iterator[schemathesis.BaseSchema]:
+    """Of a server with an open case and a live image."""
+    with serving(tmp_path_factory.mktemp("lived_in")) as server:
+        case = server.ask("POST", "/api/cases", 201, json={"name": "somebody"})
+        server.ask("POST", f"/api/cases/{case['id']}/open", 200)
+        server.show(at_s=1.0, image=np.zeros((720, 1280, 3), dtype=np.uint8))
+        described = server.ask("GET", "/api/openapi.json", 200)
+        with served(server.door.app, begun=True) as port:  # type: ignore[arg-type]  # a FastAPI app
+            schema = schemathesis.openapi.from_dict(described)
+            schema.config.update(base_url=f"http://127.0.0.1:{port}")
+            yield schema
+
+
+def test_every_address_answers_as_it_is_described(schema: schemathesis.BaseSchema) -> None:
+    asked: Counter[str] = Counter()
+    accepted: Counter[str] = Counter()
+
+    def hold_to_its_word(case: schemathesis.Case[Any]) -> None:
+        answer = case.call()
+        asked[case.operation.label] += 1
+        accepted[case.operation.label] += answer.status_code < 300
+        case.validate_response(answer, checks=CHECKS)
+
+    same_each_time = settings(
+        max_examples=TRIES,
+        derandomize=True,
+        deadline=None,
+        database=None,
+        suppress_health_check=list(HealthCheck),
+        phases=[Phase.explicit, Phase.generate],
+    )
+    for found in schema.get_all_operations():
+        assert isinstance(found, Ok), found
+        operation = found.ok()
+        if operation.path != ENDLESS:
+            same_each_time(given(operation.as_strategy())(hold_to_its_word))()
+    assert len(asked) > 100, "too few addresses were asked: is the description whole?"
+    assert sum(count > 0 for count in accepted.values()) > 25, "nearly everything was refused"
