@@ -195,7 +195,7 @@ def kept_parts(ending: ExitStack, parts: AppParts) -> AppParts:
         store=store,
         jobs=jobs,
         config=parts.config,
-        side_mm_from_marker={"drill": SIDE_MM},
+        markers=[],
         adopt=lambda _: None,
     )
     return replace(parts, store=store, jobs=jobs, steps=steps)
