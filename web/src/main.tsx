@@ -39,6 +39,7 @@ import "./theme/calibration.css";
 import "./theme/planning.css";
 import "./theme/registration.css";
 import "./theme/supervisor.css";
+import "./theme/line.css";
 
 import { MantineProvider } from "@mantine/core";
 import { StrictMode } from "react";
