@@ -61,7 +61,9 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     document = server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
     assert not server.ask("GET", "/api/registration/running", 200)["points"]
     assert document["content"]["numbers"]["points"] == 4
-    (step,) = (one for one in server.ask("GET", "/api/procedure", 200)["steps"] if one["step"] == "register")
+    procedure = server.ask("GET", "/api/procedure", 200)
+    assert procedure["case_name"] == server.ask("GET", "/api/cases", 200)["cases"][0]["name"]
+    (step,) = (one for one in procedure["steps"] if one["step"] == "register")
     assert 0.0 <= step["numbers"]["age_min"] < 10.0
     registration = registered(server)
     assert registration is not None

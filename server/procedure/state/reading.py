@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 
 from server.config import CosignConfig, RegistrationConfig
@@ -97,13 +97,14 @@ class Procedure:
             StepName.REGISTER: self._registration(case.id, vertebra),
             StepName.CHECK: self._check(case.id, vertebra),
         }
-        return judged(
+        state = judged(
             case.id,
             findings,
             check_required=required,
             confirmation=self._confirmation(case.id, vertebra),
             lacks=lacking(self._store, case.id, findings, self.cosign),
         )
+        return replace(state, case_name=case.name)
 
     def believed_from_s(self, registration: KeptRegistration, case_id: str) -> float | None:
         """When a person last touched, checked or confirmed what is registered; None before this run."""
