@@ -18,8 +18,7 @@ const VIEWS: Record<ViewName, () => ReactNode> = {
 export function App(): ReactNode {
   const { session } = useSession();
   const [path] = useLocation();
-  if (session.state === "asking") return null;
-  if (session.state === "out" || path === "/enter") return <EnterPage />;
+  if (session.state !== "in" || path === "/enter") return <EnterPage />;
   const View = VIEWS[viewAt(path, session.who.role)];
   return (
     <LiveProvider>

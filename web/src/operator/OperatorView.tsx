@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
@@ -34,6 +35,7 @@ function Steps(): ReactNode {
         <h1>{words.product}</h1>
         <p className="notice">{words.notice}</p>
         <ViewSwitch />
+        <SignedIn />
       </header>
       <AlarmBand />
       <AlertBand />
