@@ -57,7 +57,7 @@ def page_addresses(folder: Path | None) -> Callable[[str], bool]:
 
     def is_page(path: str) -> bool:
         parts = path.split("/")
-        if folder is None or path in known:
+        if folder is None or path in known or {".", ".."} & set(parts):
             return path in known
         return parts[1] in VIEWS or (parts[1] == "assets" and len(parts) == 3 and parts[2] != "")
 

@@ -125,10 +125,8 @@ class ViewerProtocol(H11Protocol):
         self._line = Line(transport)
         self._head_due = self.loop.call_later(self.request_within_s, self._end_without_request)
         self.app_state = {**self.app_state, STATE_KEY: self._line}
-        transport.set_write_buffer_limits(high=0)
-        below = below_tls(transport)
-        if below is not None:
-            below.set_write_buffer_limits(high=0)
+        # Not 0: where TLS lies between, an empty buffer would count as a full one.
+        transport.set_write_buffer_limits(high=1, low=0)
         raw = cast("socket.socket | None", transport.get_extra_info("socket"))
         if raw is not None and hasattr(socket, "TCP_NOTSENT_LOWAT"):
             raw.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, UNSENT_BYTES)

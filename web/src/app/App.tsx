@@ -19,8 +19,7 @@ const VIEWS: Record<ViewName, () => ReactNode> = {
 export function App(): ReactNode {
   const { session } = useSession();
   const [path] = useLocation();
-  if (session.state === "asking") return null;
-  if (session.state === "out" || path === "/enter") return <EnterPage />;
+  if (session.state !== "in" || path === "/enter") return <EnterPage />;
   const view = viewAt(path, session.who.role);
   const View = VIEWS[view];
   return (

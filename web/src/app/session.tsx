@@ -1,32 +1,85 @@
 // Who is signed in here. The cookie itself is out of reach for scripts; the server says whose it is.
-import { createContext, use, useState, type ReactNode } from "react";
+import {
+  createContext,
+  use,
+  useCallback,
+  useEffect,
+  useEffectEvent,
+  useRef,
+  useState,
+  type ReactNode,
+} from "react";
+import { answered, onSessionGone, Refusal, server } from "../rest/client";
+import { sessionAfter, type Session } from "./sessionAfter";
 
-export type Role = "operator" | "supervisor" | "viewer" | "screen";
-
-export interface Who {
-  name: string;
-  role: Role;
-}
-
-export type Session =
-  | { state: "asking" }
-  | { state: "in"; who: Who; required: boolean }
-  /** Nobody is signed in; `expired` where somebody was. */
-  | { state: "out"; expired: boolean };
+export type { Role, Session, Who } from "./sessionAfter";
 
 interface SessionValue {
   session: Session;
   /** Ask the server again who this is. */
   again: () => void;
+  /** Sign out; every picture and socket of this session ends. */
+  leave: () => Promise<void>;
 }
+
+/** Sockets that the server closes say no reason to a page: it asks, so that no view outlives its session. */
+const ASK_EVERY_MS = 3000;
 
 const SessionContext = createContext<SessionValue | null>(null);
 
+/** Who this is, or the code of why nobody is. */
+async function ask(): Promise<Session | string> {
+  try {
+    const { name, role, sign_in_required } = await answered(server.GET("/api/session"));
+    return { state: "in", who: { name, role }, required: sign_in_required };
+  } catch (error) {
+    if (error instanceof Refusal) return error.trouble.code;
+    throw error;
+  }
+}
+
 export function SessionProvider({ children }: { children: ReactNode }): ReactNode {
-  // The server's sessions come with `/api/session`; until then everybody is the operator.
-  const [session] = useState<Session>({ state: "in", who: { name: "", role: "operator" }, required: false });
-  const again = (): void => undefined;
-  return <SessionContext value={{ session, again }}>{children}</SessionContext>;
+  const [session, setSession] = useState<Session>({ state: "asking", silent: false });
+  const asking = useRef(false);
+
+  const again = useCallback(() => {
+    if (asking.current) return;
+    asking.current = true;
+    void ask()
+      .then((answer) => {
+        setSession((before) => sessionAfter(before, answer));
+      })
+      .finally(() => {
+        asking.current = false;
+      });
+  }, []);
+
+  const leave = useCallback(async () => {
+    await answered(server.DELETE("/api/session"));
+    setSession({ state: "out", expired: false });
+  }, []);
+
+  const onTick = useEffectEvent(() => {
+    // Who is out comes back by a link, or by having signed in beside; each question would count as a try.
+    if (session.state !== "out") again();
+  });
+  const onGone = useEffectEvent(() => {
+    if (session.state === "in") again();
+  });
+  useEffect(() => {
+    const stop = new AbortController();
+    again();
+    const timer = setInterval(onTick, ASK_EVERY_MS);
+    const endGone = onSessionGone(onGone);
+    addEventListener("focus", again, { signal: stop.signal });
+    return () => {
+      stop.abort();
+      endGone();
+      clearInterval(timer);
+    };
+  }, [again]);
+
+  return <SessionContext value={{ session, again, leave }}>{children}</SessionContext>;
 }
 
 export function useSession(): SessionValue {

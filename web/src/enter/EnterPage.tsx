@@ -1,14 +1,101 @@
-import type { ReactNode } from "react";
+import { Button, Loader, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { Link } from "wouter";
+import { useSession, type Session } from "../app/session";
+import { PATHS, viewsOf } from "../app/views";
+import type { Refusal } from "../rest/client";
+import type { EnterWords } from "../words/enter/en";
 import { useWords } from "../words/WordsContext";
+import { tokenIn } from "./token";
+import { useEntry } from "./useEntry";
 
-/** The door: for those who are not signed in. */
+interface Told {
+  kind: string;
+  title: string;
+  sentence: string;
+}
+
+/** The door: for those who are not signed in, and those who come with a link. */
 export function EnterPage(): ReactNode {
-  const words = useWords();
+  const all = useWords();
+  const words = all.enter;
+  const { session } = useSession();
+  const { busy, refusal, enter } = useEntry();
+  const [typed, setTyped] = useState("");
+  const token = tokenIn(typed);
+  const told = toldOf(session, refusal, words);
+  const waiting = busy || (session.state === "asking" && !session.silent);
   return (
     <main className="enter">
-      <h1>{words.product}</h1>
-      <p>{words.notice}</p>
-      <p>{words.enter.needed}</p>
+      <header>
+        <img src="/coaxial.svg" alt="" width={72} height={72} />
+        <h1>{all.product}</h1>
+        <p className="notice">{all.notice}</p>
+      </header>
+      {waiting ? (
+        <p role="status" className="enter-waiting">
+          <Loader size="md" aria-hidden="true" /> {busy ? words.entering : words.asking}
+        </p>
+      ) : (
+        <section role={refusal === null ? "status" : "alert"} data-testid="enter" data-kind={told.kind}>
+          <h2>{told.title}</h2>
+          <p>{told.sentence}</p>
+        </section>
+      )}
+      {session.state === "in" && !busy && (
+        <Link className="enter-on" href={PATHS[viewsOf(session.who.role)[0] ?? "theatre"]}>
+          {words.goOn}
+        </Link>
+      )}
+      {session.state !== "asking" && !busy && (
+        <form
+          onSubmit={(event) => {
+            event.preventDefault();
+            if (token !== null) enter(token);
+          }}
+        >
+          <TextInput
+            size="lg"
+            type="password"
+            autoComplete="off"
+            label={words.paste}
+            description={words.pasteHint}
+            error={typed.trim() !== "" && token === null ? words.noLink : undefined}
+            value={typed}
+            onChange={(event) => {
+              setTyped(event.currentTarget.value);
+            }}
+          />
+          <Button type="submit" size="lg" disabled={token === null}>
+            {words.signIn}
+          </Button>
+        </form>
+      )}
     </main>
   );
+}
+
+/** What happened and what to do, in the page's own words where it has some. */
+function toldOf(session: Session, refusal: Refusal | null, words: EnterWords): Told {
+  if (refusal !== null) {
+    const { code, message, remedy, context } = refusal.trouble;
+    const said = words.refused[code as keyof EnterWords["refused"]] as Said | undefined;
+    const wait = typeof context["wait_s"] === "number" ? ` (${String(context["wait_s"])} s)` : "";
+    if (said !== undefined) return { kind: code, title: said.title, sentence: said.sentence + wait };
+    return { kind: code, title: message, sentence: remedy };
+  }
+  if (session.state === "asking") return { kind: "silent", ...words.silent };
+  if (session.state === "in") {
+    return {
+      kind: "in",
+      title: `${words.signedInAs} ${session.who.name}`,
+      sentence: words.role[session.who.role],
+    };
+  }
+  return session.expired ? { kind: "expired", ...words.expired } : { kind: "needed", ...words.needed };
+}
+
+interface Said {
+  title: string;
+  sentence: string;
 }

@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
@@ -18,6 +19,7 @@ export function OperatorTop(): ReactNode {
       </p>
       <LiveStatus withTracking />
       <ViewSwitch />
+      <SignedIn />
     </header>
   );
 }

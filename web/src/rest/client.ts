@@ -9,6 +9,23 @@ const baseUrl = typeof location === "undefined" ? "" : location.origin;
 
 export const server = createClient<paths>({ baseUrl, cache: "no-store" });
 
+const gone = new EventTarget();
+const GONE = "session-gone";
+
+server.use({
+  onResponse({ response }) {
+    if (response.status === 401) gone.dispatchEvent(new Event(GONE));
+  },
+});
+
+/** Called when the server says that nobody is signed in here, or no longer; the answer ends that. */
+export function onSessionGone(listener: () => void): () => void {
+  gone.addEventListener(GONE, listener);
+  return () => {
+    gone.removeEventListener(GONE, listener);
+  };
+}
+
 /** The server said no, or did not answer (`NO_ANSWER`). */
 export class Refusal extends Error {
   constructor(readonly trouble: Trouble) {

@@ -1,6 +1,60 @@
 import type { EnterWords } from "./en";
 
 export const enterDe: EnterWords = {
-  needed:
-    "Melden Sie sich mit dem Link an, den der Server beim Start ausgegeben hat, oder mit einer Einladung.",
+  needed: {
+    title: "Anmelden",
+    sentence:
+      "Öffnen Sie den Link Ihrer Einladung oder scannen Sie den Code. Der erste Link für die Bedienung steht in dem Fenster, in dem der Server gestartet wurde.",
+  },
+  expired: {
+    title: "Ihre Sitzung ist beendet",
+    sentence:
+      "Die Zeit ist abgelaufen, oder die Bedienung hat sie beendet. Es wird nichts Aktuelles mehr gezeigt. Bitten Sie die Bedienung um eine neue Einladung.",
+  },
+  silent: {
+    title: "Der Server antwortet nicht",
+    sentence:
+      "Es wird von selbst weiter versucht. Prüfen Sie, ob dieses Gerät im richtigen Netz ist und ob Coaxial läuft.",
+  },
+  refused: {
+    INVITATION_UNKNOWN: {
+      title: "Dieser Link gehört nicht zu diesem Server",
+      sentence:
+        "Prüfen Sie, ob er vollständig kopiert wurde und für diesen Server gilt. Sonst bitten Sie die Bedienung um einen neuen.",
+    },
+    INVITATION_USED: {
+      title: "Dieser Link wurde schon benutzt",
+      sentence:
+        "Er galt für eine Anmeldung. Waren Sie das nicht, sagen Sie es sofort der Bedienung; bitten Sie dann um einen neuen Link.",
+    },
+    INVITATION_EXPIRED: {
+      title: "Dieser Link ist abgelaufen",
+      sentence: "Bitten Sie die Bedienung um einen neuen.",
+    },
+    INVITATION_REVOKED: {
+      title: "Dieser Link wurde zurückgezogen",
+      sentence: "Bitten Sie die Bedienung um einen neuen.",
+    },
+    TOO_MANY_TRIES: {
+      title: "Zu viele falsche Links",
+      sentence: "Warten Sie kurz und öffnen Sie den Link dann noch einmal.",
+    },
+    NO_ANSWER: {
+      title: "Der Server antwortet nicht",
+      sentence: "Prüfen Sie, ob dieses Gerät im richtigen Netz ist, und öffnen Sie den Link noch einmal.",
+    },
+  },
+  entering: "Anmeldung läuft …",
+  asking: "Einen Moment …",
+  paste: "Oder den Link hier einfügen",
+  pasteHint: "Den ganzen Link oder den Teil nach dem #.",
+  noLink: "Das ist kein vollständiger Link einer Einladung.",
+  signIn: "Anmelden",
+  signedInAs: "Angemeldet als",
+  goOn: "Weiter",
+  role: { operator: "Bedienung", supervisor: "Aufsicht", viewer: "Zuschauer", screen: "OP-Bildschirm" },
+  leaveTitle: "Abmelden?",
+  leaveSentence: "Danach zeigt dieses Gerät nichts mehr. Zum Wiederkommen brauchen Sie eine neue Einladung.",
+  leave: "Abmelden",
+  stay: "Bleiben",
 };

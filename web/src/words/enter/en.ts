@@ -1,5 +1,60 @@
 export const enterEn = {
-  needed: "Sign in with the link that the server printed at its start, or with an invitation.",
+  needed: {
+    title: "Sign in",
+    sentence:
+      "Open the link of your invitation, or scan its code. The operator's first link stands in the window in which the server was started.",
+  },
+  expired: {
+    title: "Your session is over",
+    sentence:
+      "Its time has run out, or the operator has ended it. Nothing live is shown any more. Ask the operator for a new invitation.",
+  },
+  silent: {
+    title: "The server does not answer",
+    sentence:
+      "It is tried again by itself. Check that this device is in the right network, and that Coaxial is running.",
+  },
+  refused: {
+    INVITATION_UNKNOWN: {
+      title: "This link does not open this server",
+      sentence:
+        "Check that it was copied whole, and is for this server. Otherwise ask the operator for a new one.",
+    },
+    INVITATION_USED: {
+      title: "This link has been used",
+      sentence:
+        "It was for one sign-in. If that was not you, tell the operator at once; then ask for a new link.",
+    },
+    INVITATION_EXPIRED: {
+      title: "The time of this link is over",
+      sentence: "Ask the operator for a new one.",
+    },
+    INVITATION_REVOKED: {
+      title: "This link was taken back",
+      sentence: "Ask the operator for a new one.",
+    },
+    TOO_MANY_TRIES: {
+      title: "Too many wrong links were tried",
+      sentence: "Wait a little, then open the link once more.",
+    },
+    NO_ANSWER: {
+      title: "The server does not answer",
+      sentence: "Check that this device is in the right network, then open the link once more.",
+    },
+  },
+  entering: "Signing in …",
+  asking: "One moment …",
+  paste: "Or paste the link here",
+  pasteHint: "The whole link, or the part after its #.",
+  noLink: "This is no whole link of an invitation.",
+  signIn: "Sign in",
+  signedInAs: "Signed in as",
+  goOn: "Go on",
+  role: { operator: "Operator", supervisor: "Supervisor", viewer: "Viewer", screen: "Theatre screen" },
+  leaveTitle: "Sign out?",
+  leaveSentence: "This device shows nothing more after that. To come back you need a new invitation.",
+  leave: "Sign out",
+  stay: "Stay",
 };
 
 export type EnterWords = typeof enterEn;

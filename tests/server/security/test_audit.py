@@ -1,0 +1,185 @@
+"""The audit log: every way to change it is found, and a crash or a full disk leaves it whole."""
+
+import errno
+import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from server.cli.commands import app
+from server.security.audit import AuditLog, Entry, note, noting
+from server.security.audit import log as audit_log
+from server.security.person import ANYBODY
+from server.store import Change, StoreError
+from tests.server.security.doors import Clock
+
+LINES = 6
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return tmp_path / "security"
+
+
+@pytest.fixture
+def log(folder: Path) -> AuditLog:
+    written = AuditLog(folder, clock=Clock().now)
+    for number in range(LINES):
+        written.append(Entry(who=ANYBODY, what=f"POST /api/thing/{number}", status=200))
+    return written
+
+
+def changed(lines: list[bytes]) -> list[bytes]:
+    return [line.replace(b"thing/2", b"thing/9") for line in lines]
+
+
+def shorter(lines: list[bytes]) -> list[bytes]:
+    return [*lines[:2], *lines[3:]]
+
+
+def swapped(lines: list[bytes]) -> list[bytes]:
+    return [*lines[:1], lines[2], lines[1], *lines[3:]]
+
+
+@pytest.mark.parametrize(
+    ("hurt", "line"),
+    [
+        pytest.param(changed, 3, id="a line is changed"),
+        pytest.param(shorter, 3, id="a line is missing"),
+        pytest.param(swapped, 2, id="two lines are swapped"),
+        pytest.param(lambda lines: lines[1:], 1, id="the beginning is missing"),
+        pytest.param(lambda lines: lines[:-2], 5, id="the end is missing"),
+        pytest.param(lambda _: [], 1, id="all is missing"),
+        pytest.param(
+            lambda lines: [*lines[:-1], lines[-1].replace(b"200", b"201")], 6, id="the last is changed"
+        ),
+        pytest.param(lambda lines: [*lines, lines[-1]], 7, id="one is there twice"),
+        pytest.param(lambda lines: [*lines[:2], b"nonsense", *lines[3:]], 3, id="one is no line any more"),
+        pytest.param(lambda lines: [*lines[:2], b"", *lines[2:]], 3, id="an empty line is put in"),
+    ],
+)
+def test_every_change_is_found_with_the_number_of_its_line(
+    log: AuditLog,
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    hurt: Callable[[list[bytes]], list[bytes]],
+    line: int,
+) -> None:
+    monkeypatch.setenv("COAXIAL_HOME", str(folder.parent))
+    whole = CliRunner().invoke(app, ["audit", "verify"])
+    assert whole.exit_code == 0
+    assert f"{LINES} lines, whole" in whole.output
+    lines = hurt(log.file.read_bytes().splitlines())
+    log.file.write_bytes(b"".join(one + b"\n" for one in lines))
+    found = CliRunner().invoke(app, ["audit", "verify"])
+    assert found.exit_code == 1
+    assert found.output.startswith(f"Line {line}: ")
+    fault = log.verify().fault
+    assert fault is not None
+    assert fault.line == line
+
+
+def test_a_start_does_not_cover_what_somebody_took_away(log: AuditLog, folder: Path) -> None:
+    log.file.write_bytes(b"".join(one + b"\n" for one in log.file.read_bytes().splitlines()[:-2]))
+    for _ in range(2):
+        again = AuditLog(folder, clock=Clock().now)
+        again.append(Entry(who=ANYBODY, what="after"))
+        fault = again.verify().fault
+        assert fault is not None
+        assert fault.line == 5
+    assert again.file.read_bytes().count(b"AUDIT_BROKEN") == 1
+
+
+def test_an_exported_log_is_verified_by_itself_and_against_its_last_sum(
+    log: AuditLog, tmp_path: Path
+) -> None:
+    exported = tmp_path / "taken-along.jsonl"
+    exported.write_bytes(log.whole())
+    asked = ["audit", "verify", str(exported), "--sum", log.head.sum]
+    assert CliRunner().invoke(app, asked).exit_code == 0
+    exported.write_bytes(b"".join(one + b"\n" for one in log.whole().splitlines()[:-1]))
+    assert CliRunner().invoke(app, asked[:3]).exit_code == 0
+    assert CliRunner().invoke(app, asked).exit_code == 1
+    assert CliRunner().invoke(app, ["audit", "verify", str(tmp_path / "none")]).exit_code == 2
+
+
+@pytest.mark.parametrize("cut", [1, 10, 60])
+def test_a_line_that_a_crash_cut_is_taken_away_and_told(log: AuditLog, folder: Path, cut: int) -> None:
+    whole = log.file.read_bytes()
+    # The line after the last one was begun, and its head never kept.
+    log.file.write_bytes(whole + whole.splitlines()[-1][:cut])
+    again = AuditLog(folder, clock=Clock().now)
+    assert again.verify().fault is None
+    told = json.loads(again.newest(1)[0])
+    assert told["changes"] == [
+        {"what": "audit log", "said": "the last line was cut by a crash", "bytes": cut}
+    ]
+
+
+def test_a_line_whose_end_was_not_kept_beside_it_is_taken_as_it_is(log: AuditLog, folder: Path) -> None:
+    head = (folder / "audit-head.json").read_bytes()
+    log.append(Entry(who=ANYBODY, what="before the crash"))
+    (folder / "audit-head.json").write_bytes(head)
+    again = AuditLog(folder, clock=Clock().now)
+    again.append(Entry(who=ANYBODY, what="after"))
+    assert again.verify().fault is None
+    assert again.head.count == LINES + 2
+
+
+def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
+    log: AuditLog, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    full = True
+    write = os.write
+
+    def writing(descriptor: int, content: bytes) -> int:
+        if full:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(descriptor, content)
+
+    monkeypatch.setattr(audit_log.os, "write", writing)
+    with pytest.raises(StoreError) as told:
+        log.append(Entry(who=ANYBODY, what="first"))
+    assert told.value.code == "STORE_FULL"
+    assert not log.is_well
+    assert not (folder / "audit-reserve").exists()
+    with pytest.raises(StoreError):
+        log.catch_up()
+    assert log.verify().fault is None
+    full = False
+    log.append(Entry(who=ANYBODY, what="second"))
+    assert log.is_well
+    assert [json.loads(line)["what"] for line in log.newest(2)] == ["first", "second"]
+    assert log.verify().fault is None
+    assert (folder / "audit-reserve").exists()
+
+
+def test_refusals_are_written_so_often_and_no_more(log: AuditLog) -> None:
+    for _ in range(200):
+        log.refused(Entry(who=ANYBODY, what="POST /api/session", status=403))
+    assert log.head.count == LINES + 60
+    assert b"more was refused" in log.newest(1)[0]
+
+
+def test_what_is_changed_is_noted_in_its_request_and_else_has_a_line_of_its_own(log: AuditLog) -> None:
+    change = Change(case_id="a", kind="plan", name="L3", before=3, after=4, by="Ito")
+    with noting() as changes:
+        log.changed(change)
+    assert changes == [{"what": "plan", "case_id": "a", "name": "L3", "by": "Ito", "from": 3, "to": 4}]
+    assert log.head.count == LINES
+    log.changed(change)
+    assert json.loads(log.newest(1)[0])["changes"] == changes
+    assert not note({"nobody": "listens"})
+    # Who the patient is, and alarms, which have a log of their own.
+    log.changed(Change(case_id="a", kind="patient", name="Doe", before=None, after=1))
+    log.changed(Change(case_id="a", kind="alarm", name="log", before=1, after=2))
+    assert log.head.count == LINES + 2
+    assert b"Doe" not in log.whole()
+
+
+def test_a_page_back_in_the_log_ends_before_the_number_asked_for(log: AuditLog) -> None:
+    assert [json.loads(line)["number"] for line in log.newest(2, before=4)] == [2, 3]
+    assert log.newest(5, before=1) == []

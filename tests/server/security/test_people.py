@@ -1,0 +1,179 @@
+"""Invitations and sessions: who gets in, for how long, and who does not any more."""
+
+import json
+from datetime import timedelta
+from pathlib import Path
+
+import pytest
+
+from server.security import PeopleDesk, Role
+from server.security.people import Token
+from server.security.people.desk import Wanted
+from server.security.refusals import InvitationRefused, PersonUnknown, SessionRefused, TooManyTries
+from server.store import StoreError
+from tests.server.security.doors import Clock, people_of
+
+HERE = "192.0.2.7"
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
+
+
+@pytest.fixture
+def desk(tmp_path: Path, clock: Clock) -> PeopleDesk:
+    return people_of(tmp_path, clock)
+
+
+def invited(desk: PeopleDesk, *, role: Role = Role.VIEWER, single_use: bool = True) -> str:
+    wanted = Wanted(name="Dr. Ito", role=role, lasts=timedelta(hours=1), single_use=single_use)
+    return desk.invite(wanted, by="test")[1].text
+
+
+def test_an_invitation_lets_in_once_with_its_name_and_role(desk: PeopleDesk) -> None:
+    link = invited(desk, role=Role.SUPERVISOR)
+    session, token = desk.enter(link, address=HERE)
+    assert desk.who(token.text, address=HERE) == session
+    assert (session.person.name, session.person.role) == ("Dr. Ito", Role.SUPERVISOR)
+    with pytest.raises(InvitationRefused) as refused:
+        desk.enter(link, address=HERE)
+    assert refused.value.code == "INVITATION_USED"
+
+
+def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
+    desk: PeopleDesk, clock: Clock
+) -> None:
+    link = invited(desk, single_use=False)
+    first, second = desk.enter(link, address=HERE)[0], desk.enter(link, address=HERE)[0]
+    assert first.id != second.id
+    assert first.person == second.person
+    clock.passes(hours=1)
+    with pytest.raises(InvitationRefused) as refused:
+        desk.enter(link, address=HERE)
+    assert refused.value.code == "INVITATION_EXPIRED"
+
+
+def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(desk: PeopleDesk) -> None:
+    link = invited(desk, single_use=False)
+    session, _ = desk.enter(link, address=HERE)
+    desk.revoke(session.invitation_id)
+    assert desk.holds(session.id)
+    with pytest.raises(InvitationRefused) as refused:
+        desk.enter(link, address=HERE)
+    assert refused.value.code == "INVITATION_REVOKED"
+
+
+def test_a_session_ends_by_the_clock_and_when_somebody_ends_it(desk: PeopleDesk, clock: Clock) -> None:
+    session, token = desk.enter(invited(desk), address=HERE)
+    other, other_token = desk.enter(invited(desk), address=HERE)
+    desk.end(other.id)
+    assert not desk.holds(other.id)
+    clock.passes(hours=11, minutes=59)
+    assert desk.holds(session.id)
+    clock.passes(minutes=1)
+    for shown in (token, other_token):
+        with pytest.raises(SessionRefused) as refused:
+            desk.who(shown.text, address=HERE)
+        assert refused.value.code == "SESSION_EXPIRED"
+    with pytest.raises(PersonUnknown):
+        desk.end(session.id)
+
+
+def test_sessions_and_invitations_outlast_a_restart_and_the_disk_opens_nothing(
+    desk: PeopleDesk, tmp_path: Path, clock: Clock
+) -> None:
+    link = invited(desk, single_use=False)
+    session, token = desk.enter(link, address=HERE)
+    again = people_of(tmp_path, clock)
+    assert again.who(token.text, address=HERE) == session
+    assert again.enter(link, address=HERE)[0].person == session.person
+    kept = tmp_path / "people.json"
+    assert kept.stat().st_mode & 0o077 == 0
+    for secret in (link, token.text):
+        assert Token.read(secret) is not None
+        assert secret.partition(".")[2] not in kept.read_text()
+
+
+def test_a_right_name_with_a_wrong_secret_opens_nothing(desk: PeopleDesk) -> None:
+    session, token = desk.enter(invited(desk), address=HERE)
+    wrong = f"{session.id}.{'A' * 43}"
+    assert wrong != token.text
+    with pytest.raises(SessionRefused):
+        desk.who(wrong, address=HERE)
+
+
+def test_guesses_are_limited_by_address_and_wait_a_minute(desk: PeopleDesk, clock: Clock) -> None:
+    link = invited(desk)
+    for number in range(10):
+        with pytest.raises(InvitationRefused):
+            desk.enter(f"{number:012x}.{'A' * 43}", address=HERE)
+        clock.passes(seconds=1)
+    with pytest.raises(TooManyTries) as told:
+        desk.enter(link, address=HERE)
+    assert told.value.context == {"wait_s": 50}
+    with pytest.raises(TooManyTries):
+        desk.who("nonsense", address=HERE)
+    # Somebody elsewhere is not kept waiting by that, and neither is who is in already.
+    session, token = desk.enter(link, address="192.0.2.8")
+    assert desk.who(token.text, address=HERE) == session
+    clock.passes(seconds=50)
+    with pytest.raises(InvitationRefused):
+        desk.enter("x", address=HERE)
+
+
+def test_guesses_from_everywhere_are_limited_together(desk: PeopleDesk) -> None:
+    for number in range(100):
+        with pytest.raises(SessionRefused):
+            desk.who("x", address=f"192.0.2.{number}")
+    with pytest.raises(TooManyTries):
+        desk.who("x", address="198.51.100.1")
+
+
+def test_neighbours_in_one_network_of_the_new_kind_count_as_one(desk: PeopleDesk) -> None:
+    for number in range(10):
+        with pytest.raises(SessionRefused):
+            desk.who("x", address=f"2001:db8::{number}")
+    with pytest.raises(TooManyTries):
+        desk.who("x", address="2001:db8::ffff")
+    with pytest.raises(SessionRefused):
+        desk.who("x", address="2001:db8:0:1::1")
+
+
+def test_the_operators_link_comes_until_an_operator_is_in_and_the_old_one_ends(
+    desk: PeopleDesk, clock: Clock
+) -> None:
+    first = desk.operator_token(wanted=False)
+    second = desk.operator_token(wanted=False)
+    assert first is not None
+    assert second is not None
+    with pytest.raises(InvitationRefused) as refused:
+        desk.enter(first.text, address=HERE)
+    assert refused.value.code == "INVITATION_REVOKED"
+    session, _ = desk.enter(second.text, address=HERE)
+    assert session.person.role is Role.OPERATOR
+    assert desk.operator_token(wanted=False) is None
+    assert desk.operator_token(wanted=True) is not None
+    clock.passes(hours=13)
+    assert desk.operator_token(wanted=False) is not None
+
+
+def test_what_ended_long_ago_is_forgotten(desk: PeopleDesk, tmp_path: Path, clock: Clock) -> None:
+    desk.enter(invited(desk), address=HERE)
+    clock.passes(days=4)
+    invited(desk)
+    kept = json.loads((tmp_path / "people.json").read_text())
+    assert (len(kept["sessions"]), len(kept["invitations"])) == (0, 1)
+
+
+def test_a_damaged_file_is_told(desk: PeopleDesk, tmp_path: Path, clock: Clock) -> None:
+    invited(desk)
+    (tmp_path / "people.json").write_text('{"form": 1, "invitations": [{}]}')
+    with pytest.raises(StoreError) as told:
+        people_of(tmp_path, clock)
+    assert told.value.code == "PEOPLE_DAMAGED"
+
+
+def test_a_token_is_not_shown_where_it_is_printed() -> None:
+    token = Token.new()
+    assert token.secret not in f"{token} {token!r}"

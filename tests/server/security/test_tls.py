@@ -1,0 +1,220 @@
+"""TLS: where it is spoken, with which certificate, and that video goes through it as it does without."""
+
+import contextlib
+import hashlib
+import json
+import os
+import re
+import signal
+import socket
+import ssl
+import subprocess
+import sys
+import urllib.request
+from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+from websockets.sync.client import connect
+
+from server.config import Config
+from server.errors import ConfigError
+from server.security.tls import chosen_tls, refuse_unsafe, self_made
+from server.security.tls.self_made import kept_or_made
+
+REPOSITORY = Path(__file__).parents[3]
+
+
+def config_of(**server: object) -> Config:
+    return Config.model_validate({"server": server})
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "::1", "localhost", "127.3.2.1"])
+def test_on_loopback_no_tls_is_spoken(tmp_path: Path, host: str) -> None:
+    assert chosen_tls(config_of(host=host), tmp_path) is None
+
+
+def test_on_any_other_address_it_is_with_a_certificate_of_our_own_making(tmp_path: Path) -> None:
+    tls = chosen_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens
+    assert tls is not None
+    assert tls.self_made
+    assert re.fullmatch(r"([0-9A-F]{2}:){31}[0-9A-F]{2}", tls.fingerprint)
+    assert tls.key.stat().st_mode & 0o077 == 0
+    again = chosen_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens
+    assert again == tls, "browsers were told to believe this one"
+
+
+def test_a_proxy_speaks_it_only_where_the_settings_say_so_in_words(tmp_path: Path) -> None:
+    said = config_of(host="0.0.0.0", behind_proxy="a proxy speaks TLS for this server")  # noqa: S104
+    assert chosen_tls(said, tmp_path) is None
+    with pytest.raises(ValueError, match="behind_proxy"):
+        config_of(behind_proxy="yes")
+
+
+def test_without_sign_in_no_other_address_is_served() -> None:
+    off = Config.model_validate({"server": {"host": "192.0.2.1"}, "security": {"sign_in": "off"}})
+    with pytest.raises(ConfigError) as told:
+        refuse_unsafe(off)
+    assert told.value.code == "SIGN_IN_NEEDED"
+    refuse_unsafe(Config.model_validate({"security": {"sign_in": False}}))
+    refuse_unsafe(config_of(host="192.0.2.1"))
+
+
+def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def pem(host: str = "192.0.2.1", **later: float) -> bytes:
+        now = datetime.now(tz=UTC) + timedelta(**later)
+        return kept_or_made(tmp_path, host=host, clock=lambda: now).certificate.read_bytes()
+
+    first = pem()
+    assert pem() == first
+    assert pem(days=300) == first
+    second = pem(days=370)
+    assert second != first
+    third = pem("ward-3.example", days=370)
+    assert third != second
+    assert pem("ward-3.example", days=370) == third
+    (tmp_path / "key.pem").chmod(0o644)
+    assert pem("ward-3.example", days=370) != third, "others may have read the key"
+    monkeypatch.setattr(self_made, "own_address", lambda: "198.51.100.3")
+    assert b"BEGIN CERTIFICATE" in pem()
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> dict[str, Path]:
+    """Certificates that somebody brings, good and bad."""
+    one, other = (kept_or_made(tmp_path / name, host="localhost") for name in ("one", "other"))
+    locked, text = tmp_path / "locked.pem", tmp_path / "text.pem"
+    text.write_text("no certificate at all")
+    from cryptography.hazmat.primitives import serialization as forms  # noqa: PLC0415
+
+    key = forms.load_pem_private_key(one.key.read_bytes(), password=None)
+    sealed = forms.BestAvailableEncryption(b"secret")
+    locked.write_bytes(key.private_bytes(forms.Encoding.PEM, forms.PrivateFormat.PKCS8, sealed))
+    return {
+        "certificate": one.certificate,
+        "key": one.key,
+        "other": other.key,
+        "locked": locked,
+        "text": text,
+        "missing": tmp_path / "none.pem",
+    }
+
+
+@pytest.mark.parametrize(
+    ("certificate", "key", "said"),
+    [
+        pytest.param("missing", "key", "cannot be read: no such file", id="no file"),
+        pytest.param("text", "key", "is no PEM file", id="no certificate"),
+        pytest.param("certificate", "text", "is no PEM file", id="no key"),
+        pytest.param("certificate", "other", "does not belong to the key", id="another key"),
+        pytest.param("certificate", "locked", "is locked with a password", id="a locked key"),
+        pytest.param("key", "key", "cannot be used with its key", id="a key for a certificate"),
+    ],
+)
+def test_a_certificate_that_cannot_be_served_is_told(
+    own: dict[str, Path], tmp_path: Path, certificate: str, key: str, said: str
+) -> None:
+    files = {"certificate": own[certificate], "key": own[key]}
+    with pytest.raises(ConfigError) as told:
+        chosen_tls(config_of(tls=files), tmp_path)
+    assert told.value.code == "CERTIFICATE_UNUSABLE"
+    assert said in told.value.message
+
+
+def test_a_good_one_is_served_on_loopback_too_and_half_of_one_is_refused(
+    own: dict[str, Path], tmp_path: Path
+) -> None:
+    tls = chosen_tls(config_of(tls={"certificate": own["certificate"], "key": own["key"]}), tmp_path)
+    assert tls is not None
+    assert not tls.self_made
+    with pytest.raises(ConfigError) as told:
+        refuse_unsafe(config_of(tls={"key": own["key"]}))
+    assert told.value.code == "TLS_HALF"
+
+
+@pytest.fixture
+def under_tls(own: dict[str, Path], tmp_path: Path) -> Iterator[tuple[list[str], Path]]:
+    """`coaxial run` with a certificate; what it printed, and the certificate."""
+    settings = {
+        "server": {"tls": {"certificate": str(own["certificate"]), "key": str(own["key"])}},
+        "rehearsal": {"width": 1920, "height": 1080, "rate_hz": 10},
+        "video": {"jpeg_quality": 100},
+    }
+    (tmp_path / "config.yaml").write_text(json.dumps(settings))
+    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY), "COAXIAL_HOME": str(tmp_path / "home")}
+    with subprocess.Popen(
+        [sys.executable, "-m", "server", "run", "--port", "0"],
+        cwd=tmp_path,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    ) as server:
+        try:
+            assert server.stdout is not None
+            yield [server.stdout.readline().strip() for _ in range(5)], own["certificate"]
+        finally:
+            server.send_signal(signal.SIGTERM)
+            server.wait(60)
+
+
+def test_video_goes_through_tls_and_a_stalled_viewer_is_let_go(under_tls: tuple[list[str], Path]) -> None:
+    (_, address, link, fingerprint, _), certificate = under_tls
+    found = re.fullmatch(r"Open https://127\.0\.0\.1:(\d+)/", address)
+    assert found is not None
+    port, context = int(found[1]), ssl.create_default_context(cafile=str(certificate))
+    der = ssl.PEM_cert_to_DER_cert(certificate.read_text())
+    assert fingerprint.replace(":", "").endswith(hashlib.sha256(der).hexdigest().upper())
+    with _line(port, context) as line:
+        answer = _asked(line, port, link.partition("#")[2])
+    assert "strict-transport-security: max-age=31536000" in answer.lower()
+    cookie = re.search(rf"(__Host-coaxial-{port}=[^;]+); .*; Secure\r", answer)
+    assert cookie is not None
+    headers = {"Cookie": cookie[1], "Origin": f"https://localhost:{port}"}
+    address = f"wss://localhost:{port}/ws/view"
+    with (
+        connect(address, ssl=context, additional_headers=headers, proxy=None, max_size=None) as view,
+        _line(port, context) as stalled,
+    ):
+        stalled.sendall(
+            f"GET /video/main.mjpg HTTP/1.1\r\nHost: localhost:{port}\r\nCookie: {cookie[1]}\r\n\r\n".encode()
+        )
+        sizes = []
+        while sum(size > 100_000 for size in sizes) < 3:
+            view.send('{"next": true}')
+            sizes.append(len(view.recv(timeout=60)))
+        # It takes nothing; what lay in the system's buffers is read after it was cut, and then nothing comes.
+        while 'coaxial_viewer_let_go_total{kind="mjpeg"} 1.0' not in _metrics(port, context, cookie[1]):
+            view.send('{"next": true}')
+            view.recv(timeout=60)
+        with contextlib.suppress(ConnectionError, ssl.SSLError):
+            while stalled.recv(1 << 20):
+                pass
+
+
+def _metrics(port: int, context: ssl.SSLContext, cookie: str) -> str:
+    asked = urllib.request.Request(f"https://localhost:{port}/metrics", headers={"Cookie": cookie})
+    with urllib.request.urlopen(asked, context=context, timeout=60) as answer:  # noqa: S310  our own address
+        told: bytes = answer.read()
+        return told.decode()
+
+
+def _asked(line: ssl.SSLSocket, port: int, invitation: str) -> str:
+    body = json.dumps({"invitation": invitation})
+    line.sendall(
+        f"POST /api/session HTTP/1.1\r\nHost: localhost:{port}\r\nContent-Type: application/json\r\n"
+        f"Connection: close\r\nContent-Length: {len(body)}\r\n\r\n{body}".encode()
+    )
+    return b"".join(iter(lambda: line.recv(65536), b"")).decode()
+
+
+@contextlib.contextmanager
+def _line(port: int, context: ssl.SSLContext) -> Iterator[ssl.SSLSocket]:
+    with (
+        socket.create_connection(("127.0.0.1", port), timeout=30) as raw,
+        context.wrap_socket(raw, server_hostname="localhost") as line,
+    ):
+        yield line

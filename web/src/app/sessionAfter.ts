@@ -1,0 +1,37 @@
+// Who is believed to be signed in, after each answer of the server.
+
+export type Role = "operator" | "supervisor" | "viewer" | "screen";
+
+export interface Who {
+  name: string;
+  role: Role;
+}
+
+export type Session =
+  /** `silent` once the server has not answered. */
+  | { state: "asking"; silent: boolean }
+  | { state: "in"; who: Who; required: boolean }
+  /** Nobody is signed in; `expired` where somebody was. */
+  | { state: "out"; expired: boolean };
+
+/** What to believe after an answer (or the code of a refusal), from what was believed before it. */
+export function sessionAfter(before: Session, answer: Session | string): Session {
+  if (typeof answer !== "string") return same(before, answer) ? before : answer;
+  if (answer === "SESSION_NEEDED" || answer === "SESSION_EXPIRED") {
+    const was = before.state === "in" || (before.state === "out" && before.expired);
+    const expired = was || answer === "SESSION_EXPIRED";
+    return before.state === "out" && before.expired === expired ? before : { state: "out", expired };
+  }
+  // A server that is gone ends no session: the panes say that it is gone.
+  return before.state === "asking" ? { state: "asking", silent: true } : before;
+}
+
+function same(one: Session, other: Session): boolean {
+  return (
+    one.state === "in" &&
+    other.state === "in" &&
+    one.who.name === other.who.name &&
+    one.who.role === other.who.role &&
+    one.required === other.required
+  );
+}

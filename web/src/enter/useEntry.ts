@@ -1,0 +1,56 @@
+// Signing in by a link: once for each link, however often the page is drawn.
+import { useEffect, useEffectEvent, useRef, useState } from "react";
+import { useLocation } from "wouter";
+import { useSession } from "../app/session";
+import { PATHS, viewsOf } from "../app/views";
+import { answered, Refusal, server } from "../rest/client";
+import { takeToken } from "./token";
+
+export interface Entry {
+  busy: boolean;
+  refusal: Refusal | null;
+  enter: (token: string) => void;
+}
+
+/** Takes a link out of the address at once; `enter` takes one that was typed. */
+export function useEntry(): Entry {
+  const { again } = useSession();
+  const [, go] = useLocation();
+  const [busy, setBusy] = useState(false);
+  const [refusal, setRefusal] = useState<Refusal | null>(null);
+  const trying = useRef(false);
+
+  const enter = (token: string): void => {
+    if (trying.current) return;
+    trying.current = true;
+    setBusy(true);
+    setRefusal(null);
+    answered(server.POST("/api/session", { body: { invitation: token } }))
+      .then(({ role }) => {
+        again();
+        go(PATHS[viewsOf(role)[0] ?? "theatre"], { replace: true });
+      })
+      .catch((error: unknown) => {
+        if (!(error instanceof Refusal)) throw error;
+        setRefusal(error);
+      })
+      .finally(() => {
+        trying.current = false;
+        setBusy(false);
+      });
+  };
+
+  const onLink = useEffectEvent(() => {
+    const token = takeToken();
+    if (token !== null) enter(token);
+  });
+  useEffect(() => {
+    const stop = new AbortController();
+    onLink();
+    addEventListener("hashchange", onLink, { signal: stop.signal });
+    return () => {
+      stop.abort();
+    };
+  }, []);
+  return { busy, refusal, enter };
+}
