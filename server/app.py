@@ -16,9 +16,11 @@ from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import DocumentedApi, documentation_router
 from server.api.errors import install_errors, refusals
+from server.api.gates import gates_router
 from server.api.health import health_router
 from server.api.jobs import jobs_router
 from server.api.live import live_router
+from server.api.markers import markers_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.needles import needles_router
 from server.api.page import mount_page, page_addresses, page_folder
@@ -128,6 +130,7 @@ def create_app(parts: AppParts) -> FastAPI:
     _add_people(app, parts)
     _add_supervision(app, parts, viewers)
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
+    app.include_router(gates_router(config))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
     app.include_router(rehearsal_router(parts.rehearsed, hub, config.camera))
@@ -196,9 +199,17 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(jobs_router(parts.jobs))
     if parts.steps is not None and parts.store is not None:
         app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
-        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
+        app.include_router(
+            plan_router(
+                parts.steps.plan,
+                parts.steps.opened_ct,
+                parts.store.home,
+                least_landmarks=parts.config.registration.least_points,
+            )
+        )
         app.include_router(procedure_router(parts.steps.procedure, parts.steps.confirm))
         app.include_router(registration_router(parts.steps.registration))
         app.include_router(sweep_router(parts.steps.registration.sweep))

@@ -63,6 +63,7 @@ class CaseSetup:
 
     Attributes:
         camera: calibrated in this case.
+        models: markers whose picture was sent into this case.
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
         registration: of that channel's vertebra.
@@ -74,6 +75,7 @@ class CaseSetup:
     """
 
     camera: CameraModel | None = None
+    models: tuple[MarkerModel, ...] = ()
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
     registration: Registration | None = None
@@ -171,11 +173,16 @@ class Preparation:
         """The same with what a case knows in the place of what the settings say.
 
         A channel of the case is not registered by whatever registered the one before: numbers against it wait
-        for a registration of their own. A tool whose marker is not looked for is left out.
+        for a registration of their own. A marker of the settings stays what it is; a tool whose marker is not
+        looked for is left out.
         """
-        markers = {model.name for model in self.models}
+        settled = {model.name for model in self.models}
+        models = (*self.models, *(model for model in case.models if model.name not in settled))
+        markers = {model.name for model in models}
         known = {name: tool for name, tool in case.tools.items() if tool.marker in markers}
-        changed = replace(self, camera=case.camera or self.camera, tools={**self.tools, **known})
+        changed = replace(
+            self, camera=case.camera or self.camera, models=models, tools={**self.tools, **known}
+        )
         if case.channel is None:
             return changed
         return replace(

@@ -71,6 +71,8 @@ class ProcedureMessage(Message):
 
     case_id: str | None
     """The open case; null where none is open."""
+    case_name: str | None
+    """As people call it, so that a screen in theatre can say whose plan it shows."""
     steps: list[StepMessage]
     """In the order in which they follow each other."""
     next_step: StepName
@@ -105,6 +107,7 @@ def procedure_message(state: ProcedureState) -> ProcedureMessage:
     """The state, as it is told."""
     return ProcedureMessage(
         case_id=state.case_id or None,
+        case_name=state.case_name or None,
         steps=[
             StepMessage(
                 step=one.step,

@@ -82,7 +82,7 @@ def _serve(
             store=kept.store,
             jobs=kept.jobs,
             config=config,
-            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            markers=preparation.models,
             adopt=tracked.adopt,
             know=alarms.know,
             tracked_from_s=lambda: tracked.tracks_from_s,

@@ -12,6 +12,7 @@ from server.procedure.camera import MAIN_CAMERA, kept_camera
 from server.procedure.confirmed import confirmation_name
 from server.procedure.facts import facts_of
 from server.procedure.guiding import Guiding
+from server.procedure.markers import MarkerStep
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.registered import (
     KeptCheck,
@@ -48,6 +49,7 @@ class CaseInUse:
         guiding: what the drill is held against.
         brought: by the settings: a calibration of another camera's source, or what is fixed to another
             reference, is not used.
+        markers: reads the markers that the case keeps.
         know: told what the alarms shall know of the procedure, whenever the case has changed.
     """
 
@@ -59,6 +61,7 @@ class CaseInUse:
         procedure: Procedure,
         guiding: Guiding,
         brought: Brought,
+        markers: MarkerStep,
         know: Callable[[ProcedureFacts], None],
     ) -> None:
         self._store = store
@@ -67,6 +70,7 @@ class CaseInUse:
         self._brought = brought
         self._lock = threading.Lock()
         self._guiding = guiding
+        self._markers = markers
         self._know = know
         self._in_use: tuple[tuple[str, ...], Guide | None] = ((), None)
         guiding.tell = self.refresh
@@ -88,7 +92,7 @@ class CaseInUse:
         case = self._store.opened()
         if case is None:
             return []
-        kinds = (DocumentKind.CAMERA, DocumentKind.TOOL)
+        kinds = (DocumentKind.CAMERA, DocumentKind.MARKER, DocumentKind.TOOL)
         newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
         active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
         vertebra = self._procedure.active_vertebra(case.id)
@@ -115,6 +119,9 @@ class CaseInUse:
             try:
                 if document.kind is DocumentKind.CAMERA:
                     cameras[document.name] = kept_camera(document, source=self._brought.source)
+                elif document.kind is DocumentKind.MARKER:
+                    # Read all together: no two of them may look the same.
+                    continue
                 elif document.kind is DocumentKind.PLAN:
                     channel = kept_channel(document).channel
                 elif document.kind is DocumentKind.REGISTRATION:
@@ -127,6 +134,7 @@ class CaseInUse:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
         return CaseSetup(
             camera=cameras.get(MAIN_CAMERA),
+            models=self._markers.of_case,
             tools=tools,
             channel=channel,
             registration=None if registered is None else registered.registration,

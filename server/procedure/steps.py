@@ -2,7 +2,7 @@
 
 import math
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from server.alarms import ProcedureFacts
@@ -15,6 +15,7 @@ from server.procedure.confirm import ConfirmStep
 from server.procedure.ct import CtStep, OpenedCt
 from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
+from server.procedure.markers import MarkerStep
 from server.procedure.plan import PlanStep
 from server.procedure.registration import RegistrationSteps
 from server.procedure.state import Brought, Procedure
@@ -22,6 +23,7 @@ from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
 from server.store import CaseStore
+from tracker.marker import MarkerModel
 from tracker.pose.tool import ToolGate
 
 # As the rehearsal's theatre calls them; to load the theatre for a name takes time.
@@ -34,6 +36,7 @@ class Steps:
 
     Attributes:
         camera: calibrates the camera.
+        markers: takes pictures of markers in.
         tool: calibrates tools.
         ct: takes a CT in.
         opened_ct: the CT that the others look at and plan on.
@@ -45,6 +48,7 @@ class Steps:
     """
 
     camera: CameraStep
+    markers: MarkerStep
     tool: ToolStep
     ct: CtStep
     opened_ct: OpenedCt
@@ -62,7 +66,7 @@ class Steps:
         store: CaseStore,
         jobs: Jobs,
         config: Config,
-        side_mm_from_marker: Mapping[str, float],
+        markers: Sequence[MarkerModel],
         adopt: Callable[[CaseSetup], None],
         know: Callable[[ProcedureFacts], None] = lambda _: None,
         tracked_from_s: Callable[[], float] = lambda: -math.inf,
@@ -74,12 +78,13 @@ class Steps:
             store: where results are kept.
             jobs: where long work is done.
             config: the gates, and the tools as the settings have them.
-            side_mm_from_marker: the markers that are looked for.
+            markers: that are looked for whatever the case has.
             adopt: has the tracking process work with what a case knows.
             know: told what the alarms shall know of the procedure.
             tracked_from_s: since when the tracking process of now runs, by the images' clock.
         """
         brought = brought_by(config)
+        marker_step = MarkerStep(store=store, brought=markers)
         gate, cosign = config.registration, config.supervision.cosign
         procedure = Procedure(
             store,
@@ -95,6 +100,7 @@ class Steps:
             procedure=procedure,
             guiding=Guiding(store=store, jobs=jobs),
             brought=brought,
+            markers=marker_step,
             know=know,
         )
         _keep_in_use(in_use, store)
@@ -105,7 +111,8 @@ class Steps:
             camera=CameraStep(
                 hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source
             ),
-            tool=_tool_step(hub, store, config, side_mm_from_marker),
+            markers=marker_step,
+            tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
             plan=plan,
@@ -130,14 +137,12 @@ class Steps:
         self.registration.close()
 
 
-def _tool_step(
-    hub: LiveHub, store: CaseStore, config: Config, side_mm_from_marker: Mapping[str, float]
-) -> ToolStep:
+def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:
     return ToolStep(
         hub=hub,
         store=store,
         gate=ToolGate(**config.tool_calibration.model_dump()),
-        side_mm_from_marker=side_mm_from_marker,
+        markers=markers,
         tools=config.tools,
     )
 

@@ -12,6 +12,7 @@ class DocumentKind(StrEnum):
 
     PATIENT = "patient"
     CAMERA = "camera"
+    MARKER = "marker"
     TOOL = "tool"
     CT = "ct"
     SURFACE = "surface"

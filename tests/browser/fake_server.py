@@ -15,6 +15,10 @@ import socket
 import sys
 import threading
 import time
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
@@ -24,8 +28,12 @@ import uvicorn
 from server.alarms import AlarmDesk
 from server.app import AppParts, create_app
 from server.config import Config
+from server.jobs import Jobs
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.logs import LogSettings
 from server.overlay import draw_overlay, encode_jpeg
+from server.procedure.steps import Steps
+from server.store import CaseStore, Home
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
 from tracker.navigation import NavigationSnapshot, Setup, navigate
@@ -165,14 +173,32 @@ def main() -> None:
     alarms = AlarmDesk(Config())
     feeder = Feeder(hub, alarms)
     door = socket.create_server(("127.0.0.1", port), reuse_port=False)
-    app = create_app(AppParts(hub=hub, config=Config(), setup=setup(), alarms=alarms))
-    server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
-    threading.Thread(target=server.run, args=([door],), name="web server", daemon=True).start()
-    feeder.start()
-    sys.stdout.write(f"{door.getsockname()[1]}\n")
-    sys.stdout.flush()
-    for line in sys.stdin:
-        feeder.mode = line.strip()
+    with ExitStack() as ending:
+        app = create_app(kept_parts(ending, AppParts(hub=hub, config=Config(), setup=setup(), alarms=alarms)))
+        server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
+        threading.Thread(target=server.run, args=([door],), name="web server", daemon=True).start()
+        feeder.start()
+        sys.stdout.write(f"{door.getsockname()[1]}\n")
+        sys.stdout.flush()
+        for line in sys.stdin:
+            feeder.mode = line.strip()
+
+
+def kept_parts(ending: ExitStack, parts: AppParts) -> AppParts:
+    """The same with an empty folder for cases, which goes at the end."""
+    home = ending.enter_context(Home(Path(ending.enter_context(TemporaryDirectory()))))
+    store = ending.enter_context(CaseStore(home))
+    jobs = Jobs(log=LogSettings(as_json=False))
+    ending.callback(jobs.close)
+    steps = Steps.of(
+        hub=parts.hub,
+        store=store,
+        jobs=jobs,
+        config=parts.config,
+        markers=[],
+        adopt=lambda _: None,
+    )
+    return replace(parts, store=store, jobs=jobs, steps=steps)
 
 
 if __name__ == "__main__":

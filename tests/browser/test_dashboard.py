@@ -193,9 +193,9 @@ def test_fits_the_screen_with_the_video_first(
     is_live(page, "numbers")
     picture(page, f"dashboard-{width}x{height}")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    boxes = [page.get_by_test_id(name).bounding_box() for name in ("video", "numbers", "scene")]
+    boxes = [page.get_by_test_id(name).bounding_box() for name in ("video", "reading-entry", "scene")]
     video, numbers, scene = (box for box in boxes if box is not None)
-    assert video["y"] <= numbers["y"] + 60
+    assert video["y"] <= numbers["y"]
     assert video["y"] < scene["y"]
     assert video["width"] * video["height"] > scene["width"] * scene["height"]
     if width == 1920:

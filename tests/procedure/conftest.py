@@ -113,7 +113,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             store=store,
             jobs=jobs,
             config=config,
-            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            markers=preparation.models,
             adopt=adopted.append,
             tracked_from_s=lambda: tracked_from_s[-1],
         )

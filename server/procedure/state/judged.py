@@ -30,6 +30,7 @@ class ProcedureState:
 
     Attributes:
         case_id: the open case; empty where none is open.
+        case_name: as people call it; empty likewise.
         steps: in their order.
         check_required: whether nothing is navigated by a registration that was never checked.
         confirmation: what a person is asked before navigation goes on; None while nothing is to be asked.
@@ -39,6 +40,7 @@ class ProcedureState:
     steps: tuple[StepStatus, ...]
     check_required: bool
     confirmation: ConfirmationNeeded | None = None
+    case_name: str = ""
 
     def status(self, step: StepName) -> StepStatus:
         """One of them."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 
 from server.config import CosignConfig, RegistrationConfig
@@ -17,7 +17,7 @@ from server.procedure.confirmed import (
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.plan.kept import MAIN_PLAN
 from server.procedure.registered import KeptRegistration, check_name, kept_check, kept_registration
-from server.procedure.state.checked import CHECK, check_finding
+from server.procedure.state.checked import CHECK, check_finding, minutes_since
 from server.procedure.state.cosigned import lacking
 from server.procedure.state.judged import ProcedureState, judged, no_case
 from server.procedure.state.records import Finding, StepName, StepState
@@ -97,13 +97,14 @@ class Procedure:
             StepName.REGISTER: self._registration(case.id, vertebra),
             StepName.CHECK: self._check(case.id, vertebra),
         }
-        return judged(
+        state = judged(
             case.id,
             findings,
             check_required=required,
             confirmation=self._confirmation(case.id, vertebra),
             lacks=lacking(self._store, case.id, findings, self.cosign),
         )
+        return replace(state, case_name=case.name)
 
     def believed_from_s(self, registration: KeptRegistration, case_id: str) -> float | None:
         """When a person last touched, checked or confirmed what is registered; None before this run."""
@@ -239,7 +240,12 @@ class Procedure:
             kept = kept_registration(found, reference=self._brought.reference)
         except NavigationError as error:
             return _unusable(found, error)
-        numbers = {"method": kept.method.value, "anchored_to": kept.anchored_to.value, **kept.numbers}
+        numbers = {
+            "method": kept.method.value,
+            "anchored_to": kept.anchored_to.value,
+            "age_min": minutes_since(found.made_at, self._clock()),
+            **kept.numbers,
+        }
         return _done(found, f"{vertebra} is registered by {kept.method.value}", numbers)
 
     def _check(self, case_id: str, vertebra: str | None) -> Finding:

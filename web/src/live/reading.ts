@@ -2,6 +2,7 @@
 // same rule: the first tool whose numbers are known; without one, the first reason.
 import type {
   AbsentReason,
+  AlongMessage,
   DeviationMessage,
   JudgementMessage,
   MarkerMessage,
@@ -15,6 +16,7 @@ export interface Reading {
   tool: string;
   deviation: DeviationMessage;
   judgement: JudgementMessage | null;
+  along: AlongMessage | null;
   tipSdMm: number | null;
   lagMs: number;
 }
@@ -34,6 +36,7 @@ export function readingOf(snapshot: SnapshotMessage): Reading | Unread {
         tool: tool.name,
         deviation: tool.deviation,
         judgement: tool.judgement.kind === "judgement" ? tool.judgement : null,
+        along: tool.along,
         tipSdMm: tipSdMm(tool),
         lagMs: tool.pose.kind === "tool" ? tool.pose.lag_ms : 0,
       };

@@ -2,10 +2,10 @@ import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
-import { ViewSwitch } from "../app/ViewSwitch";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
 import { useWords } from "../words/WordsContext";
+import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
 import { ProcedureProvider, useProcedure } from "./procedure";
 import { StepHead } from "./StepHead";
@@ -31,17 +31,13 @@ function Steps(): ReactNode {
       <a className="skip" href="#step">
         {words.operator.skip}
       </a>
-      <header className="operator-top">
-        <h1>{words.product}</h1>
-        <p className="notice">{words.notice}</p>
-        <ViewSwitch />
-      </header>
+      <OperatorTop />
       <AlarmBand />
       <ConfirmRestart />
       <AlertBand />
       <div className="operator-body">
         <StepRail now={page} />
-        <main id="step" className="step">
+        <main id="step" className="step" tabIndex={-1}>
           {page !== null && (
             <>
               <StepHead page={page} />

@@ -3,16 +3,9 @@ import { Link } from "wouter";
 import { useWords } from "../words/WordsContext";
 import { PAGES, type OperatorPage } from "./pages";
 import { useProcedure, type Step } from "./procedure";
+import { MARK_OF_STATE } from "./stepMarks";
 
 type Mark = Step["state"] | "none";
-const SYMBOL: Record<Mark, string> = {
-  done: "✓",
-  due: "↻",
-  missing: "○",
-  out_of_date: "!",
-  failed: "✕",
-  none: "",
-};
 
 /** The steps, how each stands, and the way to each. */
 export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
@@ -24,18 +17,23 @@ export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
         {PAGES.map((page) => {
           const step = data?.steps.find((one) => one.step === page.step) ?? null;
           const mark: Mark = step?.state ?? "none";
+          const isNext = data?.case_id != null && data.next_step === page.step;
           return (
-            <li key={page.name} data-state={mark} data-next={data?.next_step === page.step || undefined}>
+            <li key={page.name} data-state={mark} data-next={isNext || undefined}>
               <Link
                 href={`/operator/${page.name}`}
                 aria-current={page === now ? "step" : undefined}
                 data-testid={`step-${page.name}`}
               >
                 <span className="rail-mark" aria-hidden="true">
-                  {SYMBOL[mark]}
+                  {mark === "none" ? "" : MARK_OF_STATE[mark]}
                 </span>
                 <span className="rail-name">{words.page[page.name]}</span>
-                <span className="rail-state">{step === null ? "" : words.state[step.state]}</span>
+                <span className="rail-state">
+                  {step === null ? "" : words.state[step.state]}
+                  {step !== null && !step.allowed && ` · ${words.locked}`}
+                  {isNext && ` · ${words.now}`}
+                </span>
               </Link>
             </li>
           );

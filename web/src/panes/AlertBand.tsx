@@ -1,4 +1,3 @@
-import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { useWords } from "../words/WordsContext";
@@ -12,17 +11,14 @@ export function AlertBand(): ReactNode {
   return (
     <div className="alerts" role="region" aria-label={words.alerts.title} aria-live="polite">
       {troubles.map(({ code, message, remedy }) => (
-        <Alert
-          key={code}
-          color="yellow"
-          variant="outline"
-          role="status"
-          icon={<span aria-hidden="true">▲▲</span>}
-          title={message}
-          data-testid="alert"
-        >
-          <strong>{words.alerts.remedy}</strong> {remedy} <code>{code}</code>
-        </Alert>
+        <p className="alert" key={code} data-testid="alert">
+          <span aria-hidden="true">▲▲</span>
+          {/* The server speaks English. */}
+          <strong lang="en">{message}.</strong>
+          <span>
+            {words.alerts.remedy} <span lang="en">{remedy}</span> <code>{code}</code>
+          </span>
+        </p>
       ))}
     </div>
   );

@@ -2,27 +2,36 @@ import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { useWords } from "../words/WordsContext";
+import { heardOf } from "./heard";
+import { Pane } from "./Pane";
+import { searchTimeMs } from "./searchTime";
 
-/** Times and counts for those who want them; closed for those who drill. */
+const NONE = "—";
+
+/** Times and counts; what a server said that is gone is not told any more. */
 export function DetailsPane(): ReactNode {
   const words = useWords();
   const { view, dashboard } = useLive();
-  const { newest } = view;
+  const { source, snapshot } = heardOf(view);
   const d = words.details;
-  const facts: [string, string][] = [
-    [d.images, String(newest?.source.images ?? "—")],
-    [d.skipped, String(newest?.snapshot?.skipped_images ?? newest?.source.skipped_images ?? "—")],
-    [d.restarts, String(newest?.process.restarts ?? "—")],
-    [d.size, newest?.snapshot ? `${newest.snapshot.width_px} × ${newest.snapshot.height_px} px` : "—"],
-    [d.version, dashboard?.version ?? "—"],
+  const h = words.header;
+  const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
+  const facts: [string, string, string?][] = [
+    [h.source, source?.name ?? NONE, "source"],
+    [h.rate, source ? `${shownNumber(source.rate_hz, 0)} /s` : NONE],
+    [h.searchTime, searchMs === null ? NONE : `${shownNumber(searchMs)} ms`, "search-time"],
+    [d.images, String(source?.images ?? NONE)],
+    [d.skipped, String(snapshot?.skipped_images ?? source?.skipped_images ?? NONE)],
+    [d.restarts, source === null ? NONE : String(view.newest?.process.restarts ?? NONE)],
+    [d.size, snapshot ? `${snapshot.width_px} × ${snapshot.height_px} px` : NONE],
+    [d.version, dashboard?.version ?? NONE],
   ];
-  const stages = Object.entries(newest?.snapshot?.stage_ms ?? {});
+  const stages = Object.entries(snapshot?.stage_ms ?? {});
   return (
-    <details className="details">
-      <summary>{d.title}</summary>
-      <dl>
-        {facts.map(([name, value]) => (
-          <div key={name}>
+    <Pane id="details" title={d.title}>
+      <dl className="details">
+        {facts.map(([name, value, testid]) => (
+          <div key={name} data-testid={testid}>
             <dt>{name}</dt>
             <dd>{value}</dd>
           </div>
@@ -37,12 +46,12 @@ export function DetailsPane(): ReactNode {
         ))}
       </dl>
       {dashboard?.cameras.map(({ name, video_path }) => (
-        <p key={name}>
+        <p key={name} className="details-video">
           <a href={video_path}>
             {d.plainVideo}: {name}
           </a>
         </p>
       ))}
-    </details>
+    </Pane>
   );
 }

@@ -14,7 +14,6 @@ export function MarkersPane(): ReactNode {
   // Scores belong to an image as the numbers do: they go when the image is old.
   const stale = !view.numbers.live && view.numbers.cause !== "unread";
   const markers = view.newest?.snapshot?.markers ?? [];
-  const moves = view.newest?.snapshot?.watched.moves_seen_by ?? null;
   return (
     <Pane id="markers" title={words.markers.title}>
       {markers.length === 0 ? (
@@ -35,12 +34,6 @@ export function MarkersPane(): ReactNode {
             ))}
           </Table.Tbody>
         </Table>
-      )}
-      {moves !== null && !stale && (
-        <p className="moves" data-moves={moves} data-testid="moves">
-          {moves !== "reference" && <span aria-hidden="true">▲ </span>}
-          {words.moves[moves]}
-        </p>
       )}
     </Pane>
   );

@@ -5,12 +5,20 @@ import { MarksLayer } from "../marks/MarksLayer";
 import { useWords } from "../words/WordsContext";
 import { Cover } from "./Cover";
 import { clearPicture, drawPicture } from "./drawPicture";
+import { Moves } from "./Moves";
 import { Pane } from "./Pane";
 import { setData, setText } from "./setText";
 import { troublesOf } from "./troubles";
 
+interface VideoPaneProps {
+  /** Beside the title. */
+  tools?: ReactNode;
+  /** Over the picture, under what covers it. */
+  over?: ReactNode;
+}
+
 /** The live video: a canvas that is painted directly, and cleared and covered when it is not live. */
-export function VideoPane(): ReactNode {
+export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const words = useWords();
   const { live, view } = useLive();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -49,7 +57,13 @@ export function VideoPane(): ReactNode {
     <Pane
       id="video"
       title={words.video.title}
-      aside={<p className="stamp" data-testid="video-stamp" ref={stamp} />}
+      aside={
+        <>
+          <Moves />
+          {tools}
+          <p className="stamp" data-testid="video-stamp" ref={stamp} />
+        </>
+      }
     >
       <div className="video-stage" data-testid="video" data-live="false" ref={stage}>
         <canvas
@@ -62,6 +76,7 @@ export function VideoPane(): ReactNode {
         />
         <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
         <MarksLayer />
+        {over}
         <p className="when-late" data-testid="video-late">
           <span aria-hidden="true">▲▲</span> {words.video.late}
         </p>

@@ -28,17 +28,19 @@ export function aheadText(judgement: JudgementMessage, words: Words): string {
   return `${words.wall.through}: ${through.join(", ")}${grade}`;
 }
 
-/** Which wall is meant, and what it was measured against. */
-export function wallHint(judgement: JudgementMessage, words: Words): string {
-  const { now, soon, against } = judgement.clearance;
-  if (now.kind === "not-entered") return words.wall.notEntered;
-  return `${words.wall.side[now.wall]} · ${words.wall.against[against]} · ${words.wall.soon} ${closestText(soon)}`;
+/** Which wall is meant. */
+export function wallSide(judgement: JudgementMessage, words: Words): string {
+  const { now } = judgement.clearance;
+  return now.kind === "not-entered" ? words.wall.notEntered : words.wall.side[now.wall];
+}
+
+/** What the wall was measured against, and what is left of it a little further on. */
+export function wallAhead(judgement: JudgementMessage, words: Words): string {
+  const { soon, against } = judgement.clearance;
+  const left = soon.kind === "nearest" ? ` · ${words.wall.soon} ${shownFigure(soon.clearance_mm)} mm` : "";
+  return `${words.wall.against[against]}${left}`;
 }
 
 export function clearanceMm(closest: ClosestMessage): number | null {
   return closest.kind === "nearest" ? closest.clearance_mm : null;
-}
-
-function closestText(closest: ClosestMessage): string {
-  return `${shownFigure(clearanceMm(closest))} mm`;
 }

@@ -10,8 +10,13 @@ export function RefusalNote({ refusal }: { refusal: Refusal | null }): ReactNode
   const { message, remedy, code } = refusal.trouble;
   const silent = message === "";
   return (
-    <Alert className="refusal" role="alert" title={silent ? words.rest.noAnswer : sentence(message)}>
-      {silent ? words.rest.noAnswerRemedy : remedy} <code>{code}</code>
+    <Alert
+      className="refusal"
+      role="alert"
+      title={silent ? words.rest.noAnswer : <span lang="en">{sentence(message)}</span>}
+    >
+      {/* The server speaks English, and is read out in English. */}
+      {silent ? words.rest.noAnswerRemedy : <span lang="en">{remedy}</span>} <code>{code}</code>
     </Alert>
   );
 }

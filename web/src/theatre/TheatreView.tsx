@@ -3,37 +3,31 @@ import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
-import { DetailsPane } from "../panes/DetailsPane";
-import { Header } from "../panes/Header";
-import { MarkersPane } from "../panes/MarkersPane";
+import { BullseyePane } from "../panes/BullseyePane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
 import { useWords } from "../words/WordsContext";
+import { TheatreTop } from "./TheatreTop";
 
-/** The theatre's view: video first, numbers and 3-D beside it. */
+/** The theatre's view: all that the hand with the drill goes by, on one screen, read from 3 m. */
 export function TheatreView(): ReactNode {
   const words = useWords();
   return (
-    <div className="page">
+    <div className="theatre">
       <a className="skip" href="#numbers">
         {words.skip}
       </a>
-      <Header />
+      <TheatreTop />
       <AlarmBand />
       <ConfirmRestart />
       <AlertBand />
-      <main className="panes">
-        <div className="column">
-          <VideoPane />
-          <MarkersPane />
-        </div>
-        <div className="column">
-          <NumbersPane />
-          <ScenePane />
-        </div>
+      <main className="theatre-main">
+        <VideoPane />
+        <NumbersPane />
+        <BullseyePane />
+        <ScenePane />
       </main>
-      <DetailsPane />
       <Announcer />
     </div>
   );

@@ -1,4 +1,4 @@
-import { createTheme } from "@mantine/core";
+import { createTheme, Loader } from "@mantine/core";
 
 /** Only what the machine has: no font and no address from outside is ever fetched. */
 export const theme = createTheme({
@@ -7,4 +7,8 @@ export const theme = createTheme({
   primaryColor: "cyan",
   defaultRadius: "md",
   respectReducedMotion: true,
+  components: {
+    // A turning ring says in words that something is awaited; a bare span may have no name.
+    Loader: Loader.extend({ defaultProps: { role: "img" } }),
+  },
 });

@@ -4,6 +4,7 @@ import { cameraDe } from "./camera/de";
 import { caseDe } from "./case/de";
 import { checkDe } from "./check/de";
 import { enterDe } from "./enter/de";
+import { lineDe } from "./line/de";
 import { navigateDe } from "./navigate/de";
 import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
@@ -136,6 +137,7 @@ export const de: Words = {
   alarms: alarmsDe,
   ...reasonsDe,
   shell: shellDe,
+  line: lineDe,
   enter: enterDe,
   rest: restDe,
   restart: restartDe,

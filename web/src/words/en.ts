@@ -4,6 +4,7 @@ import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
 import { checkEn } from "./check/en";
 import { enterEn } from "./enter/en";
+import { lineEn } from "./line/en";
 import { navigateEn } from "./navigate/en";
 import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
@@ -138,6 +139,7 @@ export const en: Words = {
   alarms: alarmsEn,
   ...reasonsEn,
   shell: shellEn,
+  line: lineEn,
   enter: enterEn,
   rest: restEn,
   restart: restartEn,

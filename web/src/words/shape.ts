@@ -15,6 +15,7 @@ import type { CameraWords } from "./camera/en";
 import type { CaseWords } from "./case/en";
 import type { CheckWords } from "./check/en";
 import type { EnterWords } from "./enter/en";
+import type { LineWords } from "./line/en";
 import type { MarksWords } from "./marks/en";
 import type { NavigateWords } from "./navigate/en";
 import type { OperatorWords } from "./operator/en";
@@ -123,6 +124,7 @@ export interface Words {
   absent: Record<AbsentReason, Saying>;
   unseen: Record<UnseenReason, string>;
   shell: ShellWords;
+  line: LineWords;
   enter: EnterWords;
   rest: RestWords;
   restart: RestartWords;

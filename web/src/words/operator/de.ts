@@ -3,6 +3,9 @@ import type { OperatorWords } from "./en";
 export const operatorDe: OperatorWords = {
   steps: "Schritte des Eingriffs",
   skip: "Zum Schritt springen",
+  next: "Nächster Schritt",
+  now: "als Nächstes",
+  locked: "noch nicht",
   page: {
     case: "Fall",
     camera: "Kamera",

@@ -1,6 +1,9 @@
 export const operatorEn = {
   steps: "Steps of the procedure",
   skip: "Skip to the step",
+  next: "Next step",
+  now: "next",
+  locked: "not yet",
   page: {
     case: "Case",
     camera: "Camera",

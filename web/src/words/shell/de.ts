@@ -3,4 +3,9 @@ import type { ShellWords } from "./en";
 export const shellDe: ShellWords = {
   views: "Ansichten",
   view: { theatre: "Operationssaal", operator: "Bedienung", supervisor: "Aufsicht" },
+  status: "Zustand des Systems",
+  tracking: "Verfolgung",
+  live: "Zahlen aktuell",
+  none: "keine Zahlen",
+  loading: "Wird geladen",
 };

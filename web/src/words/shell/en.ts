@@ -1,6 +1,11 @@
 export const shellEn = {
   views: "Views",
   view: { theatre: "Theatre", operator: "Operator", supervisor: "Supervisor" },
+  status: "State of the system",
+  tracking: "Tracking",
+  live: "numbers live",
+  none: "no numbers",
+  loading: "Loading",
 };
 
 export type ShellWords = typeof shellEn;

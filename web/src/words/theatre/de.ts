@@ -1,3 +1,39 @@
 import type { TheatreWords } from "./en";
 
-export const theatreDe: TheatreWords = { title: "Operationssaal" };
+export const theatreDe: TheatreWords = {
+  title: "Operationssaal",
+  limit: "Grenze",
+  over: "über der Grenze von",
+  nearBelow: "nahe unter",
+  near: "NAHE",
+  through: "DURCH",
+  of: "von",
+  along: "Entlang des Kanals",
+  alongAlt:
+    "Der Bohrer, von hinten entlang des Kanals gesehen: der Kanal als Kreis, der Bohrer als Ring an seiner Spitze, eine Linie vom Eintritt bis dahin, wo er enden würde",
+  alongNone: "Kein Bohrer zu zeigen",
+  split: { entry: "Eintritt", angle: "Richtung", wall: "Wand" },
+  side: { lateral: "lateral", medial: "medial", cranial: "zum Kopf", caudal: "zu den Füßen" },
+  facts: "Was navigiert wird",
+  case: "Fall",
+  noCase: "kein Fall offen",
+  channel: "Kanal",
+  noChannel: "keiner gewählt",
+  registration: "Registrierung",
+  by: {
+    needles: "mit Nadeln",
+    points: "an Landmarken",
+    surface: "an der Oberfläche",
+    rehearsal: "der Probe",
+  },
+  notRegistered: "nicht registriert",
+  check: "Prüfung",
+  notChecked: "nicht geprüft",
+  checkFailed: "nicht bestanden",
+  checkDue: "wieder fällig",
+  justNow: "gerade eben",
+  minutesAgo: "min her",
+  hoursAgo: "h her",
+  unknown: "nicht bekannt",
+  more: "Mehr",
+};

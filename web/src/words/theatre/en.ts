@@ -1,3 +1,39 @@
-export const theatreEn = { title: "Theatre" };
+export const theatreEn = {
+  title: "Theatre",
+  limit: "limit",
+  over: "over the limit of",
+  nearBelow: "near below",
+  near: "NEAR",
+  through: "THROUGH",
+  of: "of",
+  along: "Along the channel",
+  alongAlt:
+    "The drill seen along the channel from behind the patient: the channel as a circle, the drill as a ring at its tip, a line from where it came in to where it would end",
+  alongNone: "No drill to show",
+  split: { entry: "Entry", angle: "Direction", wall: "Wall" },
+  side: { lateral: "lateral", medial: "medial", cranial: "to the head", caudal: "to the feet" },
+  facts: "What is navigated",
+  case: "Case",
+  noCase: "no case open",
+  channel: "Channel",
+  noChannel: "none chosen",
+  registration: "Registration",
+  by: {
+    needles: "by needles",
+    points: "by landmarks",
+    surface: "on the surface",
+    rehearsal: "of the rehearsal",
+  },
+  notRegistered: "not registered",
+  check: "Check",
+  notChecked: "not checked",
+  checkFailed: "failed",
+  checkDue: "due again",
+  justNow: "just now",
+  minutesAgo: "min ago",
+  hoursAgo: "h ago",
+  unknown: "not known",
+  more: "More",
+};
 
 export type TheatreWords = typeof theatreEn;

@@ -1,0 +1,143 @@
+"""Everybody can use every page: axe-core finds no serious fault, and no page complains."""
+
+import json
+import re
+from collections.abc import Callable, Iterator
+from typing import Any
+from urllib.request import urlopen
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, Watched
+
+pytestmark = pytest.mark.browser
+
+WEB = CHECKOUT / "web"
+AXE = WEB / "node_modules" / "axe-core" / "axe.min.js"
+STEPS = re.findall(r'\{ name: "(\w+)",', (WEB / "src" / "operator" / "pages.ts").read_text(encoding="utf-8"))
+THEATRE, LYING, UPRIGHT = (1920, 1080), (1280, 800), (800, 1280)
+# The scene's frame holds viser's own page, which is not ours to mend.
+RUN = """options => axe
+    .run(document, { iframes: false, resultTypes: ["violations"], ...options })
+    .then(found => found.violations.map(({ id, impact, nodes }) =>
+        ({ id, impact, nodes: nodes.map(node => node.html) })))"""
+
+
+@pytest.fixture(scope="module")
+def shared_theatre() -> Iterator[Theatre]:
+    """One server for all pages: none of these tests hurts it."""
+    with Theatre() as started:
+        yield started
+
+
+def patient(port: int) -> dict[str, Any]:
+    """What the server says of itself, patient: a busy machine brings images late, and late numbers go."""
+    with urlopen(f"http://127.0.0.1:{port}/api/dashboard") as answer:
+        said = json.load(answer)
+    return {**said, "limits": {**said["limits"], "pose_stale_after_ms": 600_000}}
+
+
+@pytest.fixture
+def opened(browser: Browser, shared_theatre: Theatre) -> Iterator[Callable[..., Page]]:
+    """Opens a page with axe-core in it; a complaint of the page fails the test."""
+    pages: list[Watched] = []
+
+    def open_page(path: str, size: tuple[int, int] = LYING) -> Page:
+        width, height = size
+        context = browser.new_context(viewport={"width": width, "height": height}, locale="en-GB")
+        context.set_default_timeout(PATIENCE_MS)
+        context.add_init_script(path=AXE)
+        context.route("**/api/dashboard", lambda route: route.fulfill(json=said))
+        watched = Watched(context.new_page(), shared_theatre.port)
+        pages.append(watched)
+        return watched.open(path.removeprefix("/"))
+
+    shared_theatre.tell("live")
+    said = patient(shared_theatre.port)
+    yield open_page
+    for watched in pages:
+        watched.page.context.close()
+        assert watched.complaints == []
+        assert watched.strangers == []
+
+
+def faults(page: Page, **options: Any) -> list[dict[str, Any]]:  # noqa: ANN401  axe's own options
+    """What axe-core calls serious or critical."""
+    found: list[dict[str, Any]] = page.evaluate(RUN, options)
+    return [fault for fault in found if fault["impact"] in ("serious", "critical")]
+
+
+@pytest.mark.parametrize("size", [THEATRE, LYING, UPRIGHT], ids=["theatre", "lying", "upright"])
+def test_the_theatre_s_view(opened: Callable[..., Page], size: tuple[int, int]) -> None:
+    page = opened("/theatre", size)
+    expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true", timeout=PATIENCE_MS)
+    assert faults(page) == []
+
+
+def test_the_theatre_s_view_while_nothing_is_well(
+    opened: Callable[..., Page], shared_theatre: Theatre
+) -> None:
+    page = opened("/theatre?lang=de", THEATRE)
+    shared_theatre.tell("lost")
+    expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
+    expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
+    assert faults(page) == []
+    # The server's English among German words says that it is English.
+    expect(page.get_by_test_id("alert").locator("[lang=en]").first).to_contain_text("camera")
+
+
+def test_numbers_stand_out_more_than_words_have_to(
+    opened: Callable[..., Page], shared_theatre: Theatre
+) -> None:
+    page = opened("/theatre", THEATRE)
+    shared_theatre.tell("deep")
+    expect(page.locator("[data-reading=depth]")).to_have_attribute(
+        "data-standing", "through", timeout=PATIENCE_MS
+    )
+    enhanced = {"runOnly": {"type": "rule", "values": ["color-contrast-enhanced"]}}
+    found = page.evaluate(
+        "options => axe.run('.readings', options).then(found => found.violations.map(one => one.nodes))",
+        enhanced,
+    )
+    assert found == []
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_every_page_of_the_operator(opened: Callable[..., Page], step: str) -> None:
+    page = opened(f"/operator/{step}")
+    expect(page.locator(".step h2").first).to_be_visible(timeout=PATIENCE_MS)
+    assert faults(page) == []
+    assert small_targets(page) == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= LYING[0]
+
+
+@pytest.mark.parametrize("path", ["/operator", "/supervisor", "/enter"])
+def test_every_other_view(opened: Callable[..., Page], path: str) -> None:
+    page = opened(path, UPRIGHT if path == "/operator" else LYING)
+    page.wait_for_function("document.body.innerText.length > 20")
+    assert faults(page) == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]  # type: ignore[index]  # it has one
+
+
+def small_targets(page: Page) -> list[str]:
+    """What a glove would miss: buttons and links of the shell under 48 px."""
+    found: list[str] = page.evaluate(
+        """() => [...document.querySelectorAll(".operator-top a, .alarms button, .rail a, .step-head a")]
+            .filter(one => one.getBoundingClientRect().height < 48 || one.getBoundingClientRect().width < 48)
+            .map(one => one.outerHTML)"""
+    )
+    return found
+
+
+def test_the_keyboard_goes_past_the_shell_and_is_seen(opened: Callable[..., Page]) -> None:
+    page = opened("/operator/camera")
+    expect(page.locator(".step h2").first).to_be_visible(timeout=PATIENCE_MS)
+    page.keyboard.press("Tab")
+    skip = page.locator(".skip")
+    expect(skip).to_be_focused()
+    expect(skip).to_be_in_viewport()
+    page.keyboard.press("Enter")
+    expect(page.locator("#step")).to_be_focused()
+    page.keyboard.press("Shift+Tab")
+    assert page.evaluate("getComputedStyle(document.activeElement).outlineStyle") == "solid"

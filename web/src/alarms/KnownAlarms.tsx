@@ -1,0 +1,84 @@
+import { useRef, useState, type ReactNode } from "react";
+import { usePainter } from "../live/LiveContext";
+import type { AlarmMessage, AlarmsMessage } from "../live/messages";
+import { setText } from "../panes/setText";
+import { useWords } from "../words/WordsContext";
+import { AlarmLine, AlarmSentence, MARKS } from "./AlarmSentence";
+import { acknowledge, pause, resume } from "./desk";
+
+const PAUSE_S = 120;
+
+/** The alarms that the server has now, and what a person here can do about them. */
+export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
+  const words = useWords().alarms;
+  const [top, ...others] = alarms.alarms;
+  const [failed, setFailed] = useState(false);
+  const tell = (worked: boolean): void => {
+    setFailed(!worked);
+  };
+  if (!top) return <p className="alarms-none">{words.none}</p>;
+  const numbers = alarms.alarms.filter((one) => one.state !== "acknowledged").map((one) => one.number);
+  return (
+    <>
+      <p className="heard-only" role="alert">
+        {words.priority[top.priority]}: {words.conditions[top.condition].state}
+      </p>
+      <Top alarm={top} />
+      {others.length > 0 && (
+        <ul className="alarms-others" data-testid="alarms-others">
+          {others.map((alarm) => (
+            <li key={alarm.number} data-priority={alarm.priority}>
+              <AlarmLine alarm={alarm} />
+            </li>
+          ))}
+        </ul>
+      )}
+      <div className="alarms-buttons">
+        {numbers.length > 0 && (
+          <button
+            type="button"
+            data-testid="acknowledge"
+            onClick={() => void acknowledge(numbers).then(tell)}
+          >
+            {words.acknowledge}
+          </button>
+        )}
+        {alarms.pause_left_s > 0 ? (
+          <button type="button" data-testid="resume" onClick={() => void resume().then(tell)}>
+            {words.paused} <PauseLeft /> · {words.resume}
+          </button>
+        ) : (
+          alarms.sound !== "silent" && (
+            <button type="button" data-testid="pause" onClick={() => void pause(PAUSE_S).then(tell)}>
+              {words.pause}
+            </button>
+          )
+        )}
+        {failed && <strong role="status">{words.failed}</strong>}
+      </div>
+    </>
+  );
+}
+
+function Top({ alarm }: { alarm: AlarmMessage }): ReactNode {
+  const words = useWords().alarms;
+  return (
+    <div className="alarms-top" data-testid="alarm-top" data-condition={alarm.condition}>
+      <p className="alarms-state">
+        <span aria-hidden="true">{MARKS[alarm.priority]}</span>{" "}
+        <small>{words.priority[alarm.priority]}</small> {words.conditions[alarm.condition].state}
+      </p>
+      <p className="alarms-sentence">
+        <AlarmSentence alarm={alarm} /> <strong>{words.conditions[alarm.condition].remedy}</strong>
+      </p>
+    </div>
+  );
+}
+
+function PauseLeft(): ReactNode {
+  const left = useRef<HTMLSpanElement>(null);
+  usePainter(({ newest }) => {
+    setText(left.current, `${Math.ceil(newest?.alarms.pause_left_s ?? 0)} s`);
+  });
+  return <span data-testid="pause-left" ref={left} />;
+}

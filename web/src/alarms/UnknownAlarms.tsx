@@ -1,0 +1,30 @@
+import type { ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
+import { useWords } from "../words/WordsContext";
+import type { AlarmSound } from "./useAlarmSound";
+
+/** Nothing is claimed of alarms while the server is not heard; the screen's own alarm can be paused. */
+export function UnknownAlarms({ sound }: { sound: AlarmSound }): ReactNode {
+  const words = useWords().alarms;
+  const { nowMs } = useLive().view;
+  const leftMs = sound.ownPauseUntilMs - nowMs;
+  return (
+    <>
+      <p className="alarms-state" role="alert">
+        <span aria-hidden="true">▲▲</span> {words.unknown}
+      </p>
+      <div className="alarms-buttons">
+        {sound.armed && (
+          <button
+            type="button"
+            onClick={() => {
+              sound.pauseOwn(nowMs);
+            }}
+          >
+            {leftMs > 0 ? `${words.paused} ${Math.ceil(leftMs / 1000)} s` : words.pause}
+          </button>
+        )}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,20 @@
+import type { ReactNode } from "react";
+import { Link } from "wouter";
+import { useWords } from "../words/WordsContext";
+import { PAGES, type OperatorPage } from "./pages";
+import { useProcedure } from "./procedure";
+
+/** The way to what is to be done now, where that is another page than this one. */
+export function NextStep({ page }: { page: OperatorPage }): ReactNode {
+  const words = useWords().operator;
+  const { data } = useProcedure();
+  if (data === null) return null;
+  const name = data.case_id === null ? "case" : data.next_step;
+  const next = PAGES.find((one) => one.step === name || one.name === name);
+  if (next === undefined || next === page) return null;
+  return (
+    <Link className="next-step" href={`/operator/${next.name}`} data-testid="next-step">
+      {words.next}: <strong>{words.page[next.name]}</strong> <span aria-hidden="true">→</span>
+    </Link>
+  );
+}

@@ -1,0 +1,23 @@
+import type { ReactNode } from "react";
+import { ViewSwitch } from "../app/ViewSwitch";
+import { Brand } from "../panes/Brand";
+import { LiveStatus } from "../panes/LiveStatus";
+import { useWords } from "../words/WordsContext";
+import { useProcedure } from "./procedure";
+
+/** Whose case is open, whether tracking, camera and server are there, and the way to the other views. */
+export function OperatorTop(): ReactNode {
+  const words = useWords();
+  const { data } = useProcedure();
+  return (
+    <header className="operator-top">
+      <Brand />
+      <p className="operator-case" data-testid="open-case">
+        <span>{words.theatre.case}</span>{" "}
+        <strong>{data === null ? words.theatre.unknown : (data.case_name ?? words.theatre.noCase)}</strong>
+      </p>
+      <LiveStatus withTracking />
+      <ViewSwitch />
+    </header>
+  );
+}

@@ -1,0 +1,37 @@
+import type { ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
+import { useWords } from "../words/WordsContext";
+import { Fact } from "./Fact";
+import { heardOf } from "./heard";
+
+/** Whether there are numbers, a camera and a server: in words, on every view. */
+export function LiveStatus({ withTracking = false }: { withTracking?: boolean }): ReactNode {
+  const words = useWords();
+  const { view } = useLive();
+  const { linkState, source } = heardOf(view);
+  const cameraState = source?.state ?? "unknown";
+  return (
+    <dl className="facts facts-status" aria-label={words.shell.status}>
+      {withTracking && (
+        <Fact
+          name={words.shell.tracking}
+          value={view.numbers.live ? words.shell.live : words.shell.none}
+          mood={view.numbers.live ? "good" : "bad"}
+          testid="tracking-state"
+        />
+      )}
+      <Fact
+        name={words.header.camera}
+        value={words.cameraState[cameraState]}
+        mood={cameraState === "running" ? "good" : cameraState === "opening" ? "waiting" : "bad"}
+        testid="camera-state"
+      />
+      <Fact
+        name={words.header.server}
+        value={words.linkState[linkState]}
+        mood={linkState === "open" ? "good" : linkState === "connecting" ? "waiting" : "bad"}
+        testid="link-state"
+      />
+    </dl>
+  );
+}

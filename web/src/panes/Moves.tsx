@@ -1,0 +1,18 @@
+import type { ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
+import { useWords } from "../words/WordsContext";
+
+/** By what a move of patient or camera is noticed; nothing while that is not known. */
+export function Moves(): ReactNode {
+  const words = useWords();
+  const { view } = useLive();
+  const stale = !view.numbers.live && view.numbers.cause !== "unread";
+  const moves = view.newest?.snapshot?.watched.moves_seen_by ?? null;
+  if (moves === null || stale) return null;
+  return (
+    <p className="moves" data-moves={moves} data-testid="moves">
+      {moves !== "reference" && <span aria-hidden="true">▲ </span>}
+      {words.moves[moves]}
+    </p>
+  );
+}

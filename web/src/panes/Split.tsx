@@ -1,0 +1,34 @@
+import type { ReactNode, Ref } from "react";
+import type { Reading } from "../live/reading";
+import type { Words } from "../words/en";
+import { useWords } from "../words/WordsContext";
+import { setText } from "./setText";
+import { splitOf, type SplitPart } from "./splitText";
+
+const PARTS: readonly SplitPart[] = ["entry", "angle", "wall"];
+
+/** Which way the drill is off, in words: at its entry, in its direction, and towards which wall. */
+export function Split({ ref }: { ref: Ref<HTMLDListElement> }): ReactNode {
+  const words = useWords();
+  return (
+    <dl className="split" ref={ref} data-testid="split">
+      {PARTS.map((name) => (
+        <div key={name} data-split={name}>
+          <dt>{words.theatre.split[name]}</dt>
+          <dd data-line="0" />
+          <dd data-line="1" />
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+export function paintSplit(list: HTMLElement | null, reading: Reading | null, words: Words): void {
+  for (const name of PARTS) {
+    const lines = reading === null ? [] : splitOf(reading, name, words);
+    for (const index of [0, 1]) {
+      const line = list?.querySelector(`[data-split=${name}] [data-line="${index}"]`) ?? null;
+      setText(line, lines[index] ?? "");
+    }
+  }
+}

@@ -1,0 +1,21 @@
+// What may still be said of the server: nothing that it told before it went.
+import type { LinkState } from "../live/line";
+import type { View } from "../live/live";
+import type { LiveMessage } from "../live/messages";
+
+export interface HeardOf {
+  linkState: LinkState;
+  source: LiveMessage["source"] | null;
+  snapshot: LiveMessage["snapshot"];
+}
+
+export function heardOf({ link, video, newest }: View): HeardOf {
+  const gone = link === "open" && !video.live && video.cause === "server-gone";
+  const linkState = gone ? "lost" : link;
+  const isHeard = linkState === "open";
+  return {
+    linkState,
+    source: isHeard ? (newest?.source ?? null) : null,
+    snapshot: isHeard ? (newest?.snapshot ?? null) : null,
+  };
+}

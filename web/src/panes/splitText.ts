@@ -1,0 +1,39 @@
+// The parts of offset and angle in the patient's directions, in words. Pure.
+import type { Reading } from "../live/reading";
+import { shownNumber } from "../live/rounding";
+import type { Words } from "../words/en";
+import { clearanceMm, wallAhead } from "./verdictText";
+
+export type SplitPart = "entry" | "angle" | "wall";
+
+export function splitOf({ deviation, judgement }: Reading, part: SplitPart, words: Words): string[] {
+  const { side } = words.theatre;
+  switch (part) {
+    case "entry":
+      return [
+        signed(deviation.entry_lateral_mm, " mm", side.lateral, side.medial),
+        signed(deviation.entry_cranial_mm, " mm", side.cranial, side.caudal),
+      ];
+    case "angle":
+      return [
+        signed(deviation.transverse_deg, "°", side.medial, side.lateral),
+        signed(deviation.sagittal_deg, "°", side.cranial, side.caudal),
+      ];
+    case "wall": {
+      const now = judgement?.clearance.now;
+      if (!now || now.kind === "not-entered") return [words.wall.notEntered];
+      return [
+        `${shownNumber(clearanceMm(now))} mm ${words.wall.side[now.wall]}`,
+        wallAhead(judgement, words),
+      ];
+    }
+  }
+}
+
+/** The size of a part with its direction in words; no direction where it rounds to nothing. */
+function signed(value: number | null, unit: string, positive: string, negative: string): string {
+  if (value === null) return "";
+  const size = shownNumber(Math.abs(value));
+  if (Number(size) === 0) return `${size}${unit}`;
+  return `${size}${unit} ${value > 0 ? positive : negative}`;
+}

@@ -1,0 +1,29 @@
+import { useRef, type ReactNode } from "react";
+import { ViewSwitch } from "../app/ViewSwitch";
+import { DetailsPane } from "../panes/DetailsPane";
+import { MarkersPane } from "../panes/MarkersPane";
+import { useWords } from "../words/WordsContext";
+
+/** Scores, times and counts for those who want them; closed for those who drill. */
+export function MoreDetails(): ReactNode {
+  const words = useWords().theatre;
+  const details = useRef<HTMLDetailsElement>(null);
+  return (
+    <details
+      className="more"
+      ref={details}
+      onKeyDown={(event) => {
+        if (event.key !== "Escape" || !details.current?.open) return;
+        details.current.open = false;
+        details.current.querySelector("summary")?.focus();
+      }}
+    >
+      <summary data-testid="more">{words.more}</summary>
+      <div className="more-sheet" tabIndex={0} role="region" aria-label={words.more}>
+        <ViewSwitch />
+        <MarkersPane />
+        <DetailsPane />
+      </div>
+    </details>
+  );
+}

@@ -1,0 +1,37 @@
+import type { ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
+import { Fact } from "../panes/Fact";
+import { heardOf } from "../panes/heard";
+import { useWords } from "../words/WordsContext";
+import { checkText, registrationText } from "./standing";
+import { useStanding } from "./useStanding";
+
+/** Which case, level and side are navigated, how it was registered, and how old that and its check are. */
+export function Navigated(): ReactNode {
+  const words = useWords();
+  const { view } = useLive();
+  const { linkState, snapshot } = heardOf(view);
+  const isHeard = linkState === "open";
+  const procedure = useStanding();
+  const known = isHeard ? procedure : null;
+  const t = words.theatre;
+  const registration = registrationText(snapshot, known, t);
+  const check = checkText(snapshot, known, t);
+  const unknown = isHeard ? t.unknown : "—";
+  return (
+    <dl className="facts facts-navigated" aria-label={t.facts}>
+      <Fact
+        name={t.case}
+        value={known === null ? unknown : (known.case_name ?? t.noCase)}
+        testid="case-name"
+      />
+      <Fact
+        name={t.channel}
+        value={snapshot === null ? unknown : (snapshot.channel_name ?? t.noChannel)}
+        testid="channel-name"
+      />
+      <Fact name={t.registration} {...(registration ?? { value: unknown })} testid="registered-by" />
+      {check !== null && <Fact name={t.check} {...check} testid="checked" />}
+    </dl>
+  );
+}

@@ -1,0 +1,60 @@
+// Registration and check in words: how, and how long ago. Pure.
+import type { SnapshotMessage } from "../live/messages";
+import type { Mood } from "../panes/Fact";
+import type { TheatreWords } from "../words/theatre/en";
+import type { Standing } from "./useStanding";
+
+export interface Said {
+  value: string;
+  mood: Mood;
+}
+
+const MINUTES_OF_HOUR = 60;
+const HOURS_FROM = 100;
+
+/** How plan and patient were registered, as the newest image says, and when, as the case says. */
+export function registrationText(
+  snapshot: SnapshotMessage | null,
+  standing: Standing | null,
+  words: TheatreWords,
+): Said | null {
+  if (snapshot === null) return null;
+  if (snapshot.registered_by === null) return { value: words.notRegistered, mood: "bad" };
+  const age = ageText(numberOf(standing, "register", "age_min"), words);
+  const by = words.by[snapshot.registered_by];
+  return { value: age === "" ? by : `${by}, ${age}`, mood: "good" };
+}
+
+/** Whether the tip was held on a landmark since; null where there is nothing to be checked. */
+export function checkText(
+  snapshot: SnapshotMessage | null,
+  standing: Standing | null,
+  words: TheatreWords,
+): Said | null {
+  const step = standing?.steps.find((one) => one.step === "check") ?? null;
+  if (snapshot === null || step === null || standing?.case_id == null) return null;
+  const age = ageText(numberOf(standing, "check", "age_min"), words);
+  switch (step.state) {
+    case "done":
+      return { value: age, mood: "good" };
+    case "due":
+      return { value: `${age}, ${words.checkDue}`, mood: "bad" };
+    case "failed":
+      return { value: words.checkFailed, mood: "bad" };
+    case "missing":
+    case "out_of_date":
+      return { value: words.notChecked, mood: "bad" };
+  }
+}
+
+export function ageText(minutes: number | null, words: TheatreWords): string {
+  if (minutes === null || !(minutes >= 0)) return "";
+  if (minutes < 1) return words.justNow;
+  if (minutes < HOURS_FROM) return `${Math.floor(minutes)} ${words.minutesAgo}`;
+  return `${Math.floor(minutes / MINUTES_OF_HOUR)} ${words.hoursAgo}`;
+}
+
+function numberOf(standing: Standing | null, step: "register" | "check", name: string): number | null {
+  const value = standing?.steps.find((one) => one.step === step)?.numbers[name];
+  return typeof value === "number" ? value : null;
+}
