@@ -113,7 +113,7 @@ def main() -> None:
             store=store,
             jobs=jobs,
             config=CONFIG,
-            side_mm_from_marker={"drill": 25.0},
+            markers=(),
             adopt=lambda _: None,
         )
         fill(store, steps.procedure.run)

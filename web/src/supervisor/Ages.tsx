@@ -7,7 +7,7 @@ import { useWords } from "../words/WordsContext";
 
 const PARTS = ["picture", "numbers", "scene", "line"] as const;
 type Part = (typeof PARTS)[number];
-type Ages = Record<Part, { live: boolean; text: string }>;
+type Ages = Record<Part, { live: boolean; mark: string; text: string }>;
 
 /** The true age of everything that is shown here, measured on this page. */
 export function AgesStrip(): ReactNode {
@@ -18,7 +18,7 @@ export function AgesStrip(): ReactNode {
     for (const part of PARTS) {
       const fact = strip.current?.querySelector<HTMLElement>(`[data-part=${part}]`) ?? null;
       setData(fact, "live", String(ages[part].live));
-      setText(fact?.querySelector("dd") ?? null, `${ages[part].live ? "●" : "▲"} ${ages[part].text}`);
+      setText(fact?.querySelector("dd") ?? null, `${ages[part].mark} ${ages[part].text}`);
     }
   });
   return (
@@ -34,18 +34,27 @@ export function AgesStrip(): ReactNode {
 }
 
 function agesOf({ video, numbers, scene, link }: View, words: Record<string, string>): Ages {
-  const gone = words["gone"] ?? "";
-  const old = (ageMs: number | null): string => (ageMs === null ? gone : `${gone}, ${shownDuration(ageMs)}`);
+  const say = (key: string): string => words[key] ?? "";
+  const young = (ageMs: number): Ages[Part] => ({
+    live: true,
+    mark: "●",
+    text: `${shownNumber(ageMs, 0)} ms`,
+  });
+  const gone = (ageMs: number | null): Ages[Part] => ({
+    live: false,
+    mark: "▲",
+    text: ageMs === null ? say("gone") : `${say("gone")}, ${shownDuration(ageMs)}`,
+  });
+  const stands = link === "open";
   return {
-    picture: { live: video.live, text: video.live ? `${shownNumber(video.ageMs, 0)} ms` : old(video.ageMs) },
-    numbers: {
-      live: numbers.live,
-      text: numbers.live ? `${shownNumber(numbers.ageMs, 0)} ms` : old(numbers.ageMs),
-    },
+    picture: video.live ? young(video.ageMs) : gone(video.ageMs),
+    numbers: numbers.live ? young(numbers.ageMs) : gone(numbers.ageMs),
     scene:
       scene.state === "live"
-        ? { live: true, text: `${shownNumber(scene.ageMs, 0)} ms` }
-        : { live: false, text: scene.state === "stale" ? old(scene.ageMs) : (words["notShown"] ?? "") },
-    line: { live: link === "open", text: (link === "open" ? words["good"] : words["lost"]) ?? "" },
+        ? young(scene.ageMs)
+        : scene.state === "stale"
+          ? gone(scene.ageMs)
+          : { live: false, mark: "○", text: say("notShown") },
+    line: { live: stands, mark: stands ? "●" : "▲", text: say(stands ? "good" : "lost") },
   };
 }

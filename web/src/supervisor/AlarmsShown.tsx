@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { MARKS } from "../alarms/AlarmBand";
+import { MARKS } from "../alarms/AlarmSentence";
 import { measureText } from "../alarms/measureText";
 import { alarmsVerdict } from "../alarms/verdict";
 import { useLive } from "../live/LiveContext";

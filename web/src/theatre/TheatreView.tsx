@@ -7,6 +7,7 @@ import { BullseyePane } from "../panes/BullseyePane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
+import { Watching } from "../room/Watching";
 import { useWords } from "../words/WordsContext";
 import { TheatreTop } from "./TheatreTop";
 
@@ -18,7 +19,7 @@ export function TheatreView(): ReactNode {
       <a className="skip" href="#numbers">
         {words.skip}
       </a>
-      <TheatreTop />
+      <TheatreTop watching={<Watching />} />
       <AlarmBand />
       <ConfirmRestart />
       <AlertBand />
