@@ -22,7 +22,7 @@ SMALL_TARGETS = """() => [...document.querySelectorAll('main :is(button, a, inpu
     .map(([, one]) => one.outerHTML.slice(0, 120))"""
 WIDER_THAN_SCREEN = "() => document.documentElement.scrollWidth > document.documentElement.clientWidth + 1"
 SCENE_MS, MOTION_MS = 60_000, 240_000
-SETTINGS = {**BUSY_MACHINE, "rehearsal": {"seed": 3, "brings_setup": False}}
+SETTINGS = {**BUSY_MACHINE, "rehearsal": {"seed": 3, "brings_setup": False, "width": 960, "height": 540}}
 
 
 @pytest.fixture

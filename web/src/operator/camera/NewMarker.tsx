@@ -59,50 +59,59 @@ export function NewMarker({
     });
   };
   return (
-    <div className="stack" data-testid="new-marker">
-      <h4>{words.newMarker}</h4>
-      <p className="soft">{words.newMarkerLead}</p>
-      <div className="row">
-        {chosen !== null && <img className="marker-chosen" src={chosen.address} alt={words.pictureChosen} />}
-        <FileButton
-          accept="image/png,image/jpeg,image/bmp"
-          testId="marker-file"
-          onFiles={([file]) => {
-            if (file === undefined) return;
-            choose(file);
-            if (name === "") setName(nameFrom(file.name));
-          }}
-        >
-          {chosen === null ? words.choosePicture : words.otherPicture}
-        </FileButton>
-        <TextInput
-          className="grow"
-          size="lg"
-          label={words.markerName}
-          error={nameError}
-          value={name}
-          onChange={(event) => {
-            setName(event.currentTarget.value);
-          }}
-        />
-        <NumberInput
-          hideControls
-          inputMode="decimal"
-          size="lg"
-          label={`${words.side} (mm)`}
-          min={0.1}
-          max={1000}
-          step={1}
-          decimalScale={3}
-          value={sideMm}
-          onChange={setSideMm}
-        />
-        <Button size="lg" disabled={!ready || transfer.moved !== null} data-testid="add-marker" onClick={add}>
-          {isReplaced ? words.replaceMarker : words.addMarker}
-        </Button>
+    <details className="more" open={known.length === 0} data-testid="new-marker">
+      <summary>{words.newMarker}</summary>
+      <div className="stack">
+        <p className="soft">{words.newMarkerLead}</p>
+        <div className="row">
+          {chosen !== null && (
+            <img className="marker-chosen" src={chosen.address} alt={words.pictureChosen} />
+          )}
+          <FileButton
+            accept="image/png,image/jpeg,image/bmp"
+            testId="marker-file"
+            onFiles={([file]) => {
+              if (file === undefined) return;
+              choose(file);
+              if (name === "") setName(nameFrom(file.name));
+            }}
+          >
+            {chosen === null ? words.choosePicture : words.otherPicture}
+          </FileButton>
+          <TextInput
+            className="grow"
+            size="lg"
+            label={words.markerName}
+            error={nameError}
+            value={name}
+            onChange={(event) => {
+              setName(event.currentTarget.value);
+            }}
+          />
+          <NumberInput
+            hideControls
+            inputMode="decimal"
+            size="lg"
+            label={`${words.side} (mm)`}
+            min={0.1}
+            max={1000}
+            step={1}
+            decimalScale={3}
+            value={sideMm}
+            onChange={setSideMm}
+          />
+          <Button
+            size="lg"
+            disabled={!ready || transfer.moved !== null}
+            data-testid="add-marker"
+            onClick={add}
+          >
+            {isReplaced ? words.replaceMarker : words.addMarker}
+          </Button>
+        </div>
+        {isReplaced && <p className="bad">▲ {words.replaceHint}</p>}
+        <TransferProgress transfer={transfer} name={words.addMarker} />
       </div>
-      {isReplaced && <p className="bad">▲ {words.replaceHint}</p>}
-      <TransferProgress transfer={transfer} name={words.addMarker} />
-    </div>
+    </details>
   );
 }

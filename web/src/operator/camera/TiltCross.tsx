@@ -24,7 +24,7 @@ export function TiltCross({
   const told = arms.map((arm) => `${words.ways[arm.way]} ${shownFigure(arm.reachedDeg, 0)}°`).join(", ");
   return (
     <figure className="tilts">
-      <svg viewBox="0 0 200 200" role="img" aria-label={`${words.tilts}: ${told}`}>
+      <svg viewBox="-30 0 260 200" role="img" aria-label={`${words.tilts}: ${told}`}>
         {arms.map(({ way, reachedDeg, ratio }) => {
           const { x, y, dx, dy } = PLACES[way];
           const to = (share: number): { x2: number; y2: number } => ({

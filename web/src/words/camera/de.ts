@@ -77,7 +77,7 @@ export const cameraDe: CameraWords = {
   rms: "Abweichung der Punkte (RMS)",
   noise: "Rauschen eines Punktes",
   cells: "Abgedeckter Bildteil",
-  parameters: "Linse und 95-%-Bereiche",
+  parameters: "Linse mit 95-%-Bereichen",
   parameter: "Größe",
   value: "Wert (px; Verzeichnung ohne Einheit)",
   interval: "95-%-Bereich",

@@ -76,7 +76,7 @@ export const cameraEn = {
   rms: "Points lie off by (RMS)",
   noise: "Noise of one point",
   cells: "Covered of the image",
-  parameters: "Lens and their 95 % intervals",
+  parameters: "Lens, with 95 % intervals",
   parameter: "Parameter",
   value: "Value (px; distortion without unit)",
   interval: "95 % interval",
