@@ -1,5 +1,5 @@
 import { Button } from "@mantine/core";
-import type { ReactNode } from "react";
+import { useState, type ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
@@ -13,7 +13,12 @@ const ASK_EVERY_MS = 1000;
 /** After a start: why navigation is stopped, and the operator's button to go on. Nothing at other times. */
 export function ConfirmRestart(): ReactNode {
   const { view } = useLive();
-  return view.newest?.snapshot?.withheld === "NOT_CONFIRMED" ? <Question /> : null;
+  const [stopped, setStopped] = useState(false);
+  // While no picture comes nobody says that it is over.
+  const snapshot = view.newest?.snapshot ?? null;
+  const isStopped = snapshot === null ? stopped : snapshot.withheld === "NOT_CONFIRMED";
+  if (isStopped !== stopped) setStopped(isStopped);
+  return isStopped ? <Question /> : null;
 }
 
 function Question(): ReactNode {
@@ -23,7 +28,9 @@ function Question(): ReactNode {
     everyMs: ASK_EVERY_MS,
   });
   const doing = useDo();
-  const needed = data?.confirmation ?? null;
+  const [needed, setNeeded] = useState(data?.confirmation ?? null);
+  // A server that does not answer has not said that it is over either.
+  if (data !== null && data.confirmation !== needed) setNeeded(data.confirmation);
   if (needed === null) return null;
   const isOperator = session.state === "in" && session.who.role === "operator";
   const confirm = async (): Promise<void> => {
@@ -37,7 +44,7 @@ function Question(): ReactNode {
     <section className="restart" role="alert" aria-labelledby="restart-title">
       <div className="restart-words">
         <h2 id="restart-title">
-          <span aria-hidden="true">&#x23F8;</span> {words.title}: {needed.vertebra}
+          <span aria-hidden="true">■</span> {words.title}: {needed.vertebra}
         </h2>
         <p>{words.because[needed.because]}</p>
         <p>
