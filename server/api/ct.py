@@ -20,12 +20,13 @@ from server.api.ct_messages import (
     slice_message,
     upload_message,
 )
-from server.api.errors import STATUS_OF, NothingYet, refusals
+from server.api.errors import STATUS_OF, refusals
 from server.api.pictures import (
     HU,
     PNG,
     PNG_ANSWER,
     SLICE_ANSWER,
+    SLICE_CT,
     SLICE_PLACE,
     PixelMm,
     SizeMm,
@@ -36,7 +37,7 @@ from server.api.pictures import (
     placed_picture,
 )
 from server.api.uploads import received
-from server.procedure.ct import CtStep, OpenedCt, UploadUnknown
+from server.procedure.ct import CtInUse, CtStep, OpenedCt, UploadUnknown
 from server.store import Current, Home
 from tracker.plan import Channel, Volume
 from tracker.plan.slices import (
@@ -97,15 +98,20 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
     @router.get(
         "/uploads/{upload_id}/preview.png",
         response_class=FileResponse,
-        responses={**PNG_ANSWER, **refusals(404, 503)},
+        responses={
+            **PNG_ANSWER,
+            204: {"description": "No slice is read yet; ask again in a moment."},
+            **refusals(404, 503),
+        },
     )
     def preview(upload_id: str) -> Response:
-        """A slice of the middle, as soon as it is read and until the CT is."""
+        """A slice of the middle, as soon as it is read and until the CT is; no content before that."""
         path = step.preview(upload_id)
         try:
             return Response(path.read_bytes(), media_type=PNG)
         except FileNotFoundError:
-            raise NothingYet("PREVIEW_NOT_YET", "no slice is read yet", "Ask again in a moment.") from None
+            # Nothing went wrong: a page that asks early must not look as if it did.
+            return Response(status_code=204)
 
 
 def _add_ct(router: APIRouter, opened: OpenedCt) -> None:
@@ -151,7 +157,8 @@ def _add_slices(router: APIRouter, opened: OpenedCt) -> None:
         found = opened.current()
 
         def draw() -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
-            return _drawn(*_slice(found.volume, plane, at_mm, slab_mm, pixel_mm), grey)
+            one, at = _slice(found.volume, plane, at_mm, slab_mm, pixel_mm)
+            return _drawn(found, one, at, grey)
 
         return placed_picture(request, found.document.id, draw)
 
@@ -173,9 +180,12 @@ def _slice(
     return patient_slice(volume, plane, at_mm, slab_mm=slab_mm, pixel_mm=pixel_mm), at_mm
 
 
-def _drawn(one: Slice, at_mm: float | None, grey: Window) -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
-    """The pixels of a slice, and the header that says where they lie."""
-    return shown(one.hu, grey), {SLICE_PLACE: slice_message(one, at_mm=at_mm).model_dump_json()}
+def _drawn(
+    ct: CtInUse, one: Slice, at_mm: float | None, grey: Window
+) -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
+    """The pixels of a slice, and the headers that say where they lie and of which CT they are."""
+    place = slice_message(one, at_mm=at_mm).model_dump_json()
+    return shown(one.hu, grey), {SLICE_PLACE: place, SLICE_CT: ct.document.id}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -245,7 +255,7 @@ def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
         found = opened.current()
 
         def draw() -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
-            return _drawn(asked.of(found.volume, channel), None, grey)
+            return _drawn(found, asked.of(found.volume, channel), None, grey)
 
         return placed_picture(request, found.document.id, draw)
 

@@ -16,7 +16,7 @@ from tracker.plan.slices import WINDOWS, Window
 PNG = "image/png"
 PNG_ANSWER: dict[int | str, dict[str, object]] = {200: {"content": {PNG: {}}}}
 # Pixels and their place come in one answer, so that no page can lay one slice's numbers on another's picture.
-SLICE_PLACE = "Slice-Place"
+SLICE_PLACE, SLICE_CT = "Slice-Place", "Slice-Ct"
 SLICE_ANSWER: dict[int | str, dict[str, object]] = {
     200: {
         "content": {PNG: {}},
@@ -25,7 +25,12 @@ SLICE_ANSWER: dict[int | str, dict[str, object]] = {
                 "description": "A SliceMessage as JSON: where the pixels lie in the patient.",
                 "required": True,
                 "schema": {"type": "string"},
-            }
+            },
+            SLICE_CT: {
+                "description": "The id of the document of the CT that was cut.",
+                "required": True,
+                "schema": {"type": "string"},
+            },
         },
     }
 }

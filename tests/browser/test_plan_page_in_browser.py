@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, ConsoleMessage, Page, Response, expect
 
 from tests.browser.theatre import CHECKOUT, SCREENSHOTS
 from tests.procedure.real_server import BUSY_MACHINE, PATIENCE_S, RealServer, real_server
@@ -35,7 +35,18 @@ class Tablet:
         self.server = server
         self.complaints: list[str] = []
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        page.on("console", lambda said: said.type == "error" and self.complaints.append(said.text))
+        page.on("console", self._said)
+        page.on("response", self._answered)
+
+    def _said(self, message: ConsoleMessage) -> None:
+        # What the server refused is told below, by its address.
+        if message.type == "error" and not message.text.startswith("Failed to load resource"):
+            self.complaints.append(message.text)
+
+    def _answered(self, response: Response) -> None:
+        # The first slice of an upload goes with it, which may be while it is asked for.
+        if response.status >= 400 and not response.url.split("?")[0].endswith("/preview.png"):
+            self.complaints.append(f"{response.status} {response.url}")
 
     def tap(self, name: str) -> None:
         """On what bears this name for tests."""

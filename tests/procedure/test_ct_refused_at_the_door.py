@@ -146,7 +146,7 @@ def sent_and_begun(server: Server) -> Any:  # noqa: ANN401  JSON
     """The upload of a slow CT, of which a slice is read already."""
     begun = server.ask("POST", "/api/ct", 202, content=slow_zip(), params=BY)
     address = f"/api/ct/uploads/{begun['upload_id']}/preview.png"
-    server.until(lambda: server.door.get(address).status_code != 503)
+    server.until(lambda: server.door.get(address).status_code != 204)
     return begun
 
 

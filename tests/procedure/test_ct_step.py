@@ -57,6 +57,7 @@ def test_a_ct_is_sent_and_looked_at(server: Server, content: Any) -> None:  # no
         assert np.array(place["lps_from_px"]) == pytest.approx(expected.lps_from_px, abs=1e-4)
         answer = server.door.get(f"/api/ct/slices/{plane}.png?at_mm={at_mm}")
         assert json.loads(answer.headers["slice-place"]) == place
+        assert answer.headers["slice-ct"] == ct["heading"]["id"]
     point = truth.lps_from_index([40, 50, 20])
     probed = server.ask("POST", "/api/ct/probe", 200, json={"point_lps_mm": point.tolist()})
     assert probed["hu"] == pytest.approx(truth.hu[20, 50, 40], abs=1.0)

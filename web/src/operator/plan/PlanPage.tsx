@@ -54,7 +54,7 @@ function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
   }
   return (
     <PlanProvider caseId={caseId}>
-      <SlicesProvider key={ct.data.heading.id} ct={ct.data}>
+      <SlicesProvider key={ct.data.heading.id} ct={ct.data} lookAnew={ct.again}>
         <WorkProvider>
           <Workplace onCtTaken={ct.again} />
         </WorkProvider>

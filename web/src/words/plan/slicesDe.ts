@@ -40,6 +40,8 @@ export const slicesDe: SlicesWords = {
     waiting: "Die Schicht ist unterwegs …",
     late: "nächste ist unterwegs",
     again: "Noch einmal versuchen",
+    otherCt: "Jemand hat ein anderes CT in diesen Fall gesendet",
+    lookAtOther: "Dieses ansehen",
     viewRole: "Schichtbild",
     viewLabel: {
       axial: "Axiale Schicht. Pfeil auf und ab: Schicht um Schicht. Plus und minus: näher und weiter.",

@@ -39,6 +39,8 @@ export const slicesEn = {
     waiting: "The slice is on its way …",
     late: "next one is on its way",
     again: "Try again",
+    otherCt: "Somebody sent another CT into this case",
+    lookAtOther: "Look at that one",
     viewRole: "slice view",
     viewLabel: {
       axial: "Axial slice. Arrow up and down: slice by slice. Plus and minus: closer and farther.",

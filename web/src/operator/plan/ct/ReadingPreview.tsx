@@ -12,8 +12,8 @@ export function ReadingPreview({ uploadId, of }: { uploadId: string; of: Job }):
   const round = isThere ? "kept" : String(Math.floor(of.progress_ratio / TRIES_EVERY_RATIO));
   const [kept, setKept] = useState("");
   const source = kept !== "" ? kept : `/api/ct/uploads/${uploadId}/preview.png?round=${round}`;
-  // Before anything is read there is surely none.
-  if (of.progress_ratio === 0) return null;
+  // Before anything is read there is surely none, and in the end it goes.
+  if (kept === "" && (of.progress_ratio === 0 || of.state !== "running")) return null;
   return (
     <img
       className="ct-preview"

@@ -1,4 +1,4 @@
-import { Button } from "@mantine/core";
+import { Alert, Button } from "@mantine/core";
 import { useElementSize, useMergedRef } from "@mantine/hooks";
 import {
   useEffect,
@@ -12,6 +12,7 @@ import { Refusal } from "../../../rest/client";
 import { RefusalNote } from "../../../rest/RefusalNote";
 import { useWords } from "../../../words/WordsContext";
 import { addressOf, neighboursOf, type PlaneName } from "./address";
+import { OtherCt } from "./loadSlice";
 import { SliceLabels } from "./SliceLabels";
 import { frameOf, planeFromLps, type Vec2 } from "./place";
 import { projectionOf, type Projection } from "./projection";
@@ -38,7 +39,7 @@ const KEY_STEPS = new Map([
 export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNode {
   const words = useWords().plan.slices;
   const slices = useSlices();
-  const { ct, look, zooms, setZoom, goTo, scroll, setGreys } = slices;
+  const { ct, look, zooms, setZoom, goTo, scroll, setGreys, lookAnew } = slices;
   const address = addressOf(plane, look, ct);
   const { wanted, shown, trouble, again } = useSlice(address, neighboursOf(plane, look, ct, isLarge ? 2 : 0));
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -107,7 +108,7 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
     >
       <canvas ref={canvas} aria-hidden="true" />
       {projection !== null && (
-        <svg width={width} height={height} aria-hidden="true">
+        <svg width={width} height={height} focusable={false}>
           {drawing(projection)}
         </svg>
       )}
@@ -119,6 +120,13 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
           isLate={isLate}
           isLarge={isLarge}
         />
+      )}
+      {trouble instanceof OtherCt && (
+        <Alert className="consequence slice-trouble" title={words.otherCt}>
+          <Button size="lg" data-testid="look-at-other-ct" onClick={lookAnew}>
+            {words.lookAtOther}
+          </Button>
+        </Alert>
       )}
       {trouble instanceof Refusal && (
         <div className="slice-trouble">

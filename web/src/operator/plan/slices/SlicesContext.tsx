@@ -19,6 +19,8 @@ export type Hand = "scroll" | "greys" | "move";
 
 interface SlicesValue {
   ct: Ct;
+  /** The case has another CT: begin with that one. */
+  lookAnew: () => void;
   look: Look;
   /** The plane that is shown large. */
   plane: PlaneName;
@@ -41,7 +43,13 @@ const SlicesContext = createContext<SlicesValue | null>(null);
 
 const BONE: Greys = { window_hu: 1800, level_hu: 400 };
 
-export function SlicesProvider({ ct, children }: { ct: Ct; children: ReactNode }): ReactNode {
+interface SlicesProviderProps {
+  ct: Ct;
+  lookAnew: () => void;
+  children: ReactNode;
+}
+
+export function SlicesProvider({ ct, lookAnew, children }: SlicesProviderProps): ReactNode {
   const [look, setLook] = useState<Look>(() => ({
     cursor: middleOf(ct),
     greys: ct.presets["bone"] ?? BONE,
@@ -87,6 +95,7 @@ export function SlicesProvider({ ct, children }: { ct: Ct; children: ReactNode }
   const value = useMemo(
     () => ({
       ct,
+      lookAnew,
       look,
       plane: shownPlane,
       hand,
@@ -101,7 +110,21 @@ export function SlicesProvider({ ct, children }: { ct: Ct; children: ReactNode }
       largePlace,
       tellLargePlace,
     }),
-    [ct, look, shownPlane, hand, zooms, setZoom, goTo, scroll, setGreys, setWay, largePlace, tellLargePlace],
+    [
+      ct,
+      lookAnew,
+      look,
+      shownPlane,
+      hand,
+      zooms,
+      setZoom,
+      goTo,
+      scroll,
+      setGreys,
+      setWay,
+      largePlace,
+      tellLargePlace,
+    ],
   );
   return <SlicesContext value={value}>{children}</SlicesContext>;
 }

@@ -14,10 +14,14 @@ const MOST_KEPT = 80;
 /** One shelf for all views: the same slice is never fetched twice while it is there. */
 export const shelf = new SliceShelf<Slice>(MOST_KEPT);
 
+/** The case has another CT now than the one that is looked at. */
+export class OtherCt extends Error {}
+
 /**
  * The slice at this address.
  *
  * @throws Refusal
+ * @throws OtherCt
  */
 export async function loadSlice(address: string): Promise<Slice> {
   let answer: Response;
@@ -29,6 +33,9 @@ export async function loadSlice(address: string): Promise<Slice> {
   if (!answer.ok) throw new Refusal((await answer.json()) as Trouble);
   const told = answer.headers.get("slice-place");
   if (told === null) throw new Error("a slice came without its place");
+  // Somebody may have sent another CT meanwhile: its slices must not stand under this one's numbers.
+  const { hash } = new URL(address, location.origin);
+  if (answer.headers.get("slice-ct") !== hash.slice(1)) throw new OtherCt();
   const place = JSON.parse(told) as Place;
   return { pixels: await createImageBitmap(await answer.blob()), place };
 }
