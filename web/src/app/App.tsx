@@ -3,6 +3,7 @@ import { useLocation } from "wouter";
 import { EnterPage } from "../enter/EnterPage";
 import { LiveProvider } from "../live/LiveContext";
 import { OperatorView } from "../operator/OperatorView";
+import { RoomProvider } from "../room/RoomContext";
 import { SupervisorView } from "../supervisor/SupervisorView";
 import { TheatreView } from "../theatre/TheatreView";
 import { useSession } from "./session";
@@ -20,10 +21,13 @@ export function App(): ReactNode {
   const [path] = useLocation();
   if (session.state === "asking") return null;
   if (session.state === "out" || path === "/enter") return <EnterPage />;
-  const View = VIEWS[viewAt(path, session.who.role)];
+  const view = viewAt(path, session.who.role);
+  const View = VIEWS[view];
   return (
     <LiveProvider>
-      <View />
+      <RoomProvider view={view}>
+        <View />
+      </RoomProvider>
     </LiveProvider>
   );
 }

@@ -1,6 +1,8 @@
 import { useEffect, useRef, type ReactNode } from "react";
+import { LineNote } from "../live/LineNote";
 import { useLive, usePainter } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
+import { MarksLayer } from "../marks/MarksLayer";
 import { useWords } from "../words/WordsContext";
 import { Cover } from "./Cover";
 import { clearPicture, drawPicture } from "./drawPicture";
@@ -12,12 +14,10 @@ import { troublesOf } from "./troubles";
 interface VideoPaneProps {
   /** Beside the title. */
   tools?: ReactNode;
-  /** Over the picture, under what covers it. */
-  over?: ReactNode;
 }
 
 /** The live video: a canvas that is painted directly, and cleared and covered when it is not live. */
-export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
+export function VideoPane({ tools }: VideoPaneProps): ReactNode {
   const words = useWords();
   const { live, view } = useLive();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -59,6 +59,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
       aside={
         <>
           <Moves />
+          <LineNote />
           {tools}
           <p className="stamp" data-testid="video-stamp" ref={stamp} />
         </>
@@ -74,7 +75,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           aria-label={words.video.alt}
         />
         <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
-        {over}
+        <MarksLayer />
         <p className="when-late" data-testid="video-late">
           <span aria-hidden="true">▲▲</span> {words.video.late}
         </p>

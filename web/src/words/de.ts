@@ -6,12 +6,14 @@ import { checkDe } from "./check/de";
 import { enterDe } from "./enter/de";
 import { lineDe } from "./line/de";
 import { navigateDe } from "./navigate/de";
+import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
 import { planDe } from "./plan/de";
 import { reasonsDe } from "./reasons/de";
 import { registrationDe } from "./registration/de";
 import { reportDe } from "./report/de";
 import { restDe } from "./rest/de";
+import { roomDe } from "./room/de";
 import { restartDe } from "./restart/de";
 import { shellDe } from "./shell/de";
 import { supervisorDe } from "./supervisor/de";
@@ -150,4 +152,6 @@ export const de: Words = {
   navigate: navigateDe,
   report: reportDe,
   supervisor: supervisorDe,
+  marks: marksDe,
+  room: roomDe,
 };

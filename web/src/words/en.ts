@@ -6,12 +6,14 @@ import { checkEn } from "./check/en";
 import { enterEn } from "./enter/en";
 import { lineEn } from "./line/en";
 import { navigateEn } from "./navigate/en";
+import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
 import { planEn } from "./plan/en";
 import { reasonsEn } from "./reasons/en";
 import { registrationEn } from "./registration/en";
 import { reportEn } from "./report/en";
 import { restEn } from "./rest/en";
+import { roomEn } from "./room/en";
 import { restartEn } from "./restart/en";
 import { shellEn } from "./shell/en";
 import { supervisorEn } from "./supervisor/en";
@@ -152,4 +154,6 @@ export const en: Words = {
   navigate: navigateEn,
   report: reportEn,
   supervisor: supervisorEn,
+  marks: marksEn,
+  room: roomEn,
 };

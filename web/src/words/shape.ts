@@ -16,12 +16,14 @@ import type { CaseWords } from "./case/en";
 import type { CheckWords } from "./check/en";
 import type { EnterWords } from "./enter/en";
 import type { LineWords } from "./line/en";
+import type { MarksWords } from "./marks/en";
 import type { NavigateWords } from "./navigate/en";
 import type { OperatorWords } from "./operator/en";
 import type { PlanWords } from "./plan/en";
 import type { RegistrationWords } from "./registration/en";
 import type { ReportWords } from "./report/en";
 import type { RestWords } from "./rest/en";
+import type { RoomWords } from "./room/en";
 import type { RestartWords } from "./restart/en";
 import type { ShellWords } from "./shell/en";
 import type { SupervisorWords } from "./supervisor/en";
@@ -137,4 +139,6 @@ export interface Words {
   navigate: NavigateWords;
   report: ReportWords;
   supervisor: SupervisorWords;
+  marks: MarksWords;
+  room: RoomWords;
 }
