@@ -16,6 +16,7 @@ from server.api.registration_messages import (
     PointsMessage,
     PointsRequest,
     RegistrationMessage,
+    RunningMessage,
     UseRequest,
     VertebraName,
     check_message,
@@ -44,6 +45,7 @@ def registration_router(steps: RegistrationSteps) -> APIRouter:
     """Everything under `/api/registration`. Plain functions: they wait for the disk, in threads."""
     router = APIRouter(prefix="/api/registration", tags=["registration"])
     _add_whole(router, steps.shelf, steps.points.gate)
+    _add_running(router, steps)
     _add_points(router, steps.points)
     _add_check(router, steps.check)
     _add_nudges(router, steps.nudge)
@@ -57,6 +59,15 @@ def _add_whole(router: APIRouter, shelf: RegistrationShelf, gate: RegistrationCo
     ) -> RegistrationMessage:
         """The newest registration of a vertebra, by default of the one that is to be drilled."""
         return registration_message(shelf.newest(vertebra), gate)
+
+
+def _add_running(router: APIRouter, steps: RegistrationSteps) -> None:
+    @router.get("/running")
+    def running() -> RunningMessage:
+        """Which ways to register, and whether a check, somebody has begun: a page goes on with them."""
+        return RunningMessage(
+            points=steps.points.running, sweep=steps.sweep.running, check=steps.check.running
+        )
 
 
 def _add_points(router: APIRouter, step: PointsStep) -> None:

@@ -186,6 +186,14 @@ class CheckMessage(Message):
     """What would be kept; null until the tip was captured."""
 
 
+class RunningMessage(Message):
+    """What was begun, and neither kept nor thrown away yet."""
+
+    points: bool
+    sweep: bool
+    check: bool
+
+
 class CheckRuleMessage(Message):
     """What a check must reach, and how long it lasts."""
 

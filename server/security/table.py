@@ -61,8 +61,13 @@ GET     /api/cases/{case_id}/files/{file_id}
 GET     /api/cases/{case_id}/archive
 GET     /api/jobs
 GET     /api/jobs/{job_id}
+GET     /api/gates
+GET     /api/camera
 GET     /api/camera/collection
 GET     /api/camera/calibration
+GET     /api/markers
+GET     /api/markers/{name}/picture
+GET     /api/tools
 GET     /api/tools/collection
 GET     /api/ct
 GET     /api/ct/uploads/{upload_id}/preview.png
@@ -120,6 +125,8 @@ POST    /api/camera/collection/images
 POST    /api/camera/calibration
 POST    /api/camera/accuracy
 POST    /api/camera/board
+POST    /api/markers
+DELETE  /api/markers/{name}
 POST    /api/tools/collection
 DELETE  /api/tools/collection
 POST    /api/tools/collection/conclusion

@@ -22,7 +22,14 @@ from server.stream.place_messages import (
     tool_message,
     vertebra_message,
 )
-from tracker.navigation import Absent, MovesSeen, NavigationSnapshot, Watched, moves_seen_by
+from tracker.navigation import (
+    Absent,
+    AbsentReason,
+    MovesSeen,
+    NavigationSnapshot,
+    Watched,
+    moves_seen_by,
+)
 from tracker.navigation.watch import NeverSeen, SceneState
 from tracker.registration import AnchoredTo, Method
 
@@ -70,6 +77,8 @@ class SnapshotMessage(Message):
     reference: str | None
     """The marker on the patient; null where there is none."""
     channel_name: str | None
+    withheld: AbsentReason | None
+    """Why no number is given although all is known, as NOT_CONFIRMED after a start; null otherwise."""
     vertebra: Annotated[VertebraMessage | AbsentMessage, Field(discriminator="kind")]
     watched: WatchMessage
     markers: list[MarkerMessage]
@@ -95,6 +104,7 @@ def snapshot_message(
         anchored_to=None if isinstance(registration, Absent) else registration.anchored_to,
         reference=setup.reference or None,
         channel_name=None if isinstance(setup.channel, Absent) else setup.channel.name,
+        withheld=setup.withheld,
         vertebra=vertebra_message(snapshot.vertebra),
         watched=_watched(snapshot),
         markers=[

@@ -15,7 +15,7 @@ from server.store import DocumentKind
 from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import Patient, plan_content, ready, with_plan, withheld
 from tests.procedure.test_camera_step import open_a_case
-from tests.server.supervision.persons import SignedIn
+from tests.server.supervision.persons import sign_people_in
 from tracker.navigation import AbsentReason
 
 SIGNATURES = "/api/supervision/signatures"
@@ -28,7 +28,7 @@ def guarded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callabl
 
     def create(parts: AppParts) -> FastAPI:
         app = create_app(parts)
-        app.add_middleware(SignedIn)
+        sign_people_in(app)
         return app
 
     monkeypatch.setattr("tests.procedure.conftest.create_app", create)

@@ -44,6 +44,8 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     assert [one["name"] for one in told["landmarks"]] == list(LANDMARKS)
     assert told["anchored_to"] == "camera"
     assert told["limits"]["most_tre_mm"] == 2.0
+    running = server.ask("GET", "/api/registration/running", 200)
+    assert running == {"points": True, "sweep": False, "check": False}
     assert told["missing"][0]["code"] == "POINTS_TOO_FEW"
     for count, one in enumerate(USED, start=1):
         told = patient.touch(one)
@@ -57,6 +59,7 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     assert 0.2 < max(at_entry) < max(at_end)
 
     document = server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
+    assert not server.ask("GET", "/api/registration/running", 200)["points"]
     assert document["content"]["numbers"]["points"] == 4
     procedure = server.ask("GET", "/api/procedure", 200)
     assert procedure["case_name"] == server.ask("GET", "/api/cases", 200)["cases"][0]["name"]

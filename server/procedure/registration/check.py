@@ -174,6 +174,11 @@ class CheckStep:
         """
         return self._held.get()
 
+    @property
+    def running(self) -> bool:
+        """Whether a check was begun."""
+        return self._held.is_there
+
     def end(self) -> None:
         """Look no more."""
         self._held.end()

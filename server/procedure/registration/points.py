@@ -94,6 +94,11 @@ class PointsStep:
         """
         return self._held.get()
 
+    @property
+    def running(self) -> bool:
+        """Whether landmarks are being touched."""
+        return self._held.is_there
+
     def end(self) -> None:
         """Look no more, and throw away what was touched."""
         self._held.end()

@@ -182,6 +182,11 @@ class SweepStep:
         """
         return self._held.get()
 
+    @property
+    def running(self) -> bool:
+        """Whether a sweep was begun."""
+        return self._held.is_there
+
     def end(self) -> None:
         """Take no more, and throw away what was taken."""
         self._held.end()

@@ -13,7 +13,7 @@ from starlette.websockets import WebSocketDisconnect
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub
-from tests.server.supervision.persons import SignedIn
+from tests.server.supervision.persons import sign_people_in
 from tracker.navigation import NavigationSnapshot
 
 Open = Callable[..., WebSocketTestSession]
@@ -54,7 +54,7 @@ def client(
 ) -> Iterator[TestClient]:
     hub = LiveHub()
     app = create_app(AppParts(hub=hub, config=Config()))
-    app.add_middleware(SignedIn)
+    sign_people_in(app)
     snapshot = snapshot_of(size_wh_px=(1280, 720), image_number=500, captured_at_s=time.monotonic())
     hub.publish(instant_of(1, snapshot=snapshot))
     with TestClient(app, base_url="http://127.0.0.1:8000") as client:

@@ -1,5 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
 import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
 import { useAsked } from "../rest/useAsked";
@@ -11,6 +12,11 @@ const ASK_EVERY_MS = 1000;
 
 /** After a start: why navigation is stopped, and the operator's button to go on. Nothing at other times. */
 export function ConfirmRestart(): ReactNode {
+  const { view } = useLive();
+  return view.newest?.snapshot?.withheld === "NOT_CONFIRMED" ? <Question /> : null;
+}
+
+function Question(): ReactNode {
   const words = useWords().restart;
   const { session } = useSession();
   const { data, again } = useAsked((signal) => answered(server.GET("/api/procedure", { signal })), {

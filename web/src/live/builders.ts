@@ -14,6 +14,7 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
     anchored_to: "camera",
     reference: null,
     channel_name: "L3 left",
+    withheld: null,
     vertebra: { kind: "absent", reason: "NOT_REGISTERED" },
     watched: { moves_seen_by: "not-at-all", camera_moved: false, reference_moved: false, scene: "unsure" },
     markers: [

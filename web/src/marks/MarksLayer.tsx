@@ -35,10 +35,11 @@ export function MarksLayer(): ReactNode {
   const seen = useRef(new Seen());
   const key = useRef<Point | null>(null);
   const hand = useEffectEvent(() => marking?.hand ?? null);
-  const ageWords = useEffectEvent((seconds: number) => `${words.ago} ${seconds} s`.trim());
+  const ageWords = useEffectEvent((seconds: number) => words.ago.replace("#", String(seconds)));
 
   usePainter((view) => {
     seen.current.look(view);
+    marking?.hand.flush(view.nowMs);
   });
 
   useEffect(() => {

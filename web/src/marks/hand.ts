@@ -29,16 +29,29 @@ export class Hand {
   private saidAtMs = -Infinity;
   private drawing: Own | null = null;
   private moment: Moment | null = null;
+  /** Where the hand is, while that was not said. */
+  private rests: { at: Point; moment: Moment } | null = null;
 
   constructor(private readonly say: (said: Said) => boolean) {}
 
   point(at: Point, moment: Moment, nowMs: number): void {
-    if (nowMs - this.pointedAtMs < POINT_EVERY_MS) return;
-    this.pointedAtMs = nowMs;
-    this.say({ point: { at_px: at, ...moment } });
+    this.rests = { at, moment };
+    this.flush(nowMs);
+  }
+
+  /** To be called often: where a hand came to rest is said too, when its time has come. */
+  flush(nowMs: number): void {
+    const { rests, drawing } = this;
+    if (rests !== null && nowMs - this.pointedAtMs >= POINT_EVERY_MS) {
+      this.pointedAtMs = nowMs;
+      this.rests = null;
+      this.say({ point: { at_px: rests.at, ...rests.moment } });
+    }
+    if (drawing?.shape === "pen" && nowMs - this.saidAtMs >= EXTEND_EVERY_MS) this.tellPen(drawing, nowMs);
   }
 
   lift(): void {
+    this.rests = null;
     this.say({ lift: true });
   }
 
@@ -66,7 +79,7 @@ export class Hand {
     const last = drawing.points.at(-1);
     if (last !== undefined && Math.hypot(at[0] - last[0], at[1] - last[1]) < LEAST_STEP_PX) return;
     drawing.points.push(at);
-    if (nowMs - this.saidAtMs >= EXTEND_EVERY_MS) this.tellPen(drawing, nowMs);
+    this.flush(nowMs);
     if (drawing.points.length < MOST_A_DRAWING) return;
     // A line without end is several drawings.
     const { moment } = this;

@@ -45,6 +45,20 @@ describe("a hand", () => {
     expect(said[0]).toEqual({ point: { at_px: [0, 1], ...MOMENT } });
   });
 
+  test("is said where it came to rest", () => {
+    const { made, said } = hand();
+    made.point([1, 1], MOMENT, 0);
+    made.point([2, 2], MOMENT, 10);
+    made.flush(40);
+    expect(said).toHaveLength(1);
+    made.flush(45);
+    made.flush(200);
+    expect(said.slice(1)).toEqual([{ point: { at_px: [2, 2], ...MOMENT } }]);
+    made.down("pen", [0, 0], MOMENT, 300);
+    made.flush(361);
+    expect(said).toHaveLength(3);
+  });
+
   test("says a pen's line in parts that make the whole", () => {
     const { made, said } = hand();
     made.down("pen", [0, 0], MOMENT, 0);

@@ -14,10 +14,12 @@ import { troublesOf } from "./troubles";
 interface VideoPaneProps {
   /** Beside the title. */
   tools?: ReactNode;
+  /** Over the picture, under what covers it. */
+  over?: ReactNode;
 }
 
 /** The live video: a canvas that is painted directly, and cleared and covered when it is not live. */
-export function VideoPane({ tools }: VideoPaneProps): ReactNode {
+export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const words = useWords();
   const { live, view } = useLive();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -76,6 +78,7 @@ export function VideoPane({ tools }: VideoPaneProps): ReactNode {
         />
         <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
         <MarksLayer />
+        {over}
         <p className="when-late" data-testid="video-late">
           <span aria-hidden="true">▲▲</span> {words.video.late}
         </p>

@@ -1,6 +1,7 @@
 import { Button, Checkbox } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useWords } from "../../words/WordsContext";
+import { saved } from "../parts/saved";
 import { fetched } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
@@ -18,7 +19,7 @@ export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
   };
   return (
     <div className="stack grow" data-testid="archive-out">
-      <div className="row">
+      <div className="row row-mid">
         <Button size="lg" variant="default" disabled={transfer.moved !== null} onClick={copyOut}>
           {words.copyOut}
         </Button>
@@ -34,16 +35,4 @@ export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
       <TransferProgress transfer={transfer} name={words.copyOut} />
     </div>
   );
-}
-
-function saved(file: Blob, name: string): void {
-  const address = URL.createObjectURL(file);
-  const link = document.createElement("a");
-  link.href = address;
-  link.download = name;
-  link.click();
-  // The browser has taken it by then; a large one is read from the disk, not from here.
-  setTimeout(() => {
-    URL.revokeObjectURL(address);
-  }, 60_000);
 }

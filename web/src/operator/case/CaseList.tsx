@@ -28,10 +28,9 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
       })
       .then(onChange);
   };
-  if (cases.length === 0) return null;
+  if (others.length === 0) return null;
   return (
     <Card title={words.case.listTitle} testId="case-list">
-      {others.length === 0 && <p className="soft">{words.case.noOthers}</p>}
       <ul className="rows">
         {others.map((one) => (
           <li key={one.id} className="row">
@@ -63,7 +62,7 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
           </li>
         ))}
       </ul>
-      {openedId !== null && others.length > 0 && <p className="soft">{words.case.oneIsClosed}</p>}
+      {openedId !== null && <p className="soft">{words.case.oneIsClosed}</p>}
       <RefusalNote refusal={opening.refusal} />
       {leaving !== null && (
         <DeleteCase

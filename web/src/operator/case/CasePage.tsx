@@ -31,16 +31,18 @@ export function CasePage(): ReactNode {
     return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
   }
   const opened = data.cases.find((one) => one.id === data.opened_id) ?? null;
+  const newCase = <NewCase first={data.cases.length === 0} onMade={changed} />;
   return (
     <div className="cards">
+      {opened === null && newCase}
       {opened !== null && <OpenedCase key={opened.id} opened={opened} onChange={changed} />}
-      <NewCase first={data.cases.length === 0} onMade={changed} />
+      <Rehearsal />
       <CaseList cases={data.cases} openedId={data.opened_id} onChange={changed} />
+      {opened !== null && newCase}
       <ArchiveIn onTaken={changed} />
       {opened !== null && <Documents key={`documents ${opened.id}`} caseId={opened.id} />}
       {opened !== null && <Verification key={`files ${opened.id}`} caseId={opened.id} />}
       <Jobs />
-      <Rehearsal />
     </div>
   );
 }

@@ -25,7 +25,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
   };
   if (name === null) {
     return (
-      <div className="row">
+      <div className="row row-mid">
         <p className="case-name grow">{case_.name}</p>
         {before !== null && (
           <Button size="lg" variant="subtle" onClick={() => void rename(before)}>

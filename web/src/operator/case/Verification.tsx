@@ -29,7 +29,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
   return (
     <Card title={words.filesTitle} testId="files">
       <RefusalNote refusal={refusal} />
-      <div className="row">
+      <div className="row row-mid">
         <p className="grow">
           {data === null
             ? words.loading

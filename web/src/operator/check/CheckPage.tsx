@@ -1,5 +1,57 @@
 import type { ReactNode } from "react";
+import { Link } from "wouter";
+import { answered, server } from "../../rest/client";
+import { useAsked } from "../../rest/useAsked";
+import { useWords } from "../../words/WordsContext";
+import { useProcedure } from "../procedure";
+import { usedLandmarks } from "../registration/planRead";
+import { Refused } from "../registration/Refused";
+import { RehearsalStrip } from "../registration/RehearsalStrip";
+import { TipRests } from "../registration/TipRests";
+import { useRunning } from "../registration/useRunning";
+import { CheckChoice } from "./CheckChoice";
+import { CheckDue } from "./CheckDue";
+import { CheckWork } from "./CheckWork";
 
+/** The check on anatomy: a landmark that was not used decides whether anybody may navigate. */
 export function CheckPage(): ReactNode {
-  return null;
+  const words = useWords().check;
+  const procedure = useProcedure();
+  const register = procedure.data?.steps.find((one) => one.step === "register");
+  if (register === undefined) return null;
+  if (register.state !== "done" || register.document_id === null)
+    return (
+      <p className="warning" data-testid="check-shut">
+        ▲ {words.needsRegistration}{" "}
+        <Link className="big-link" href="/operator/register">
+          {words.toRegister}
+        </Link>
+      </p>
+    );
+  return <Checking key={register.document_id} registrationId={register.document_id} />;
+}
+
+function Checking({ registrationId }: { registrationId: string }): ReactNode {
+  const running = useRunning();
+  const registration = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
+    key: registrationId,
+  });
+  if (registration.data === null) return <Refused refusal={registration.refusal} />;
+  const { check, vertebra } = registration.data;
+  return (
+    <div className="registration">
+      <RehearsalStrip scenes={["check"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
+      <CheckDue rule={check} />
+      {running.data?.check === true ? (
+        <CheckWork onOver={running.again} />
+      ) : (
+        <CheckChoice
+          vertebra={vertebra}
+          used={usedLandmarks(registration.data.made_from)}
+          mostMm={check.most_mm}
+          onBegun={running.again}
+        />
+      )}
+    </div>
+  );
 }

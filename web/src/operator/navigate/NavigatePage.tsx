@@ -1,5 +1,31 @@
 import type { ReactNode } from "react";
+import { NumbersPane } from "../../panes/NumbersPane";
+import { VideoPane } from "../../panes/VideoPane";
+import { useProcedure } from "../procedure";
+import { RehearsalStrip } from "../registration/RehearsalStrip";
+import { ChannelSwitch } from "./ChannelSwitch";
+import { Gates } from "./Gates";
+import { Moved } from "./Moved";
+import { Steadiness } from "./Steadiness";
 
+/** What the operator watches while the surgeon drills: picture, numbers, gates, and the channel in work. */
 export function NavigatePage(): ReactNode {
-  return null;
+  const { data } = useProcedure();
+  return (
+    <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
+      <RehearsalStrip scenes={["operation"]} />
+      <Moved />
+      <Gates />
+      <div className="work navigate">
+        <div className="work-main">
+          <VideoPane />
+          <Steadiness />
+        </div>
+        <div className="work-side">
+          <NumbersPane />
+          <ChannelSwitch />
+        </div>
+      </div>
+    </div>
+  );
 }

@@ -1,5 +1,6 @@
 // What is sent up or fetched down in one piece, with how far it is; both can be stopped.
-import { Refusal, type Trouble } from "../../rest/client";
+import { Refusal } from "../../rest/client";
+import { parsed, troubleIn } from "./trouble";
 
 export interface Moved {
   doneBytes: number;
@@ -73,20 +74,4 @@ export async function fetched(path: string, onMoved: OnMoved, signal: AbortSigna
     throw new Refusal(troubleIn("", 0));
   }
   return new Blob(parts, { type: answer.headers.get("Content-Type") ?? "" });
-}
-
-/** What a refusal's body says; the page has its own words for one that says nothing. */
-export function troubleIn(text: string, status: number): Trouble {
-  const told = parsed(text);
-  if (typeof told === "object" && told !== null && "code" in told && "message" in told)
-    return told as Trouble;
-  return { code: "NO_ANSWER", message: "", remedy: "", context: { status } };
-}
-
-function parsed(text: string): unknown {
-  try {
-    return JSON.parse(text) as unknown;
-  } catch {
-    return null;
-  }
 }

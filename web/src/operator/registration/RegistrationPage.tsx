@@ -1,5 +1,50 @@
 import type { ReactNode } from "react";
+import { Link, useLocation } from "wouter";
+import { useWords } from "../../words/WordsContext";
+import { useProcedure } from "../procedure";
+import { MethodChoice } from "./MethodChoice";
+import { NeedlesPage } from "./needles/NeedlesPage";
+import { NudgesPage } from "./nudges/NudgesPage";
+import { PointsPage } from "./points/PointsPage";
+import { SweepPage } from "./sweep/SweepPage";
 
+const WAYS = { points: PointsPage, needles: NeedlesPage, sweep: SweepPage, nudges: NudgesPage } as const;
+type Way = keyof typeof WAYS;
+
+/** Registration: `/operator/register` chooses a way, `/operator/register/<way>` is one. */
 export function RegistrationPage(): ReactNode {
-  return null;
+  const words = useWords().registration;
+  const [path] = useLocation();
+  const { data } = useProcedure();
+  const step = data?.steps.find((one) => one.step === "register");
+  const named = path.split("/")[3] ?? "";
+  const way = Object.hasOwn(WAYS, named) ? (named as Way) : null;
+  if (step !== undefined && !step.allowed)
+    return (
+      <p className="warning" data-testid="register-shut">
+        ▲ {words.shut}
+      </p>
+    );
+  if (way === null) return <MethodChoice />;
+  const Way = WAYS[way];
+  return (
+    <div className="registration">
+      <nav className="ways" aria-label={words.ways}>
+        <Link href="/operator/register" data-testid="back-to-ways">
+          ← {words.overview}
+        </Link>
+        {(["points", "needles", "sweep", "nudges"] as const).map((one) => (
+          <Link
+            key={one}
+            href={`/operator/register/${one}`}
+            aria-current={one === way ? "page" : undefined}
+            data-testid={`way-${one}`}
+          >
+            {words.way[one]}
+          </Link>
+        ))}
+      </nav>
+      <Way />
+    </div>
+  );
 }

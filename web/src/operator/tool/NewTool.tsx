@@ -6,9 +6,8 @@ import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
+import { NAME } from "../parts/name";
 import type { Purpose } from "./kept";
-
-export const NAME = /^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$/;
 
 interface NewToolProps {
   first: boolean;

@@ -27,6 +27,8 @@ export function Shape({
   return (
     <div className="row">
       <NumberInput
+        hideControls
+        inputMode="decimal"
         className="grow"
         size="lg"
         label={`${words.diameter} (mm)`}
@@ -41,6 +43,8 @@ export function Shape({
         }}
       />
       <NumberInput
+        hideControls
+        inputMode="decimal"
         className="grow"
         size="lg"
         label={`${words.length} (mm)`}

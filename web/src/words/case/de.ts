@@ -31,7 +31,6 @@ export const caseDe: CaseWords = {
   copyOut: "Als Archiv sichern",
   withIdentity: "mit Fallnamen und Patientendaten",
   listTitle: "Andere Fälle",
-  noOthers: "Es gibt keinen anderen Fall.",
   open: "Öffnen",
   oneIsClosed: "Beim Öffnen wird der jetzige Fall geschlossen. Es geht nichts verloren.",
   delete: "Löschen …",

@@ -24,7 +24,6 @@ export const caseEn = {
   copyOut: "Save as archive",
   withIdentity: "with the case’s name and the patient’s identity",
   listTitle: "Other cases",
-  noOthers: "There is no other case.",
   open: "Open",
   oneIsClosed: "Opening one closes the case that is open. Nothing in it is lost.",
   delete: "Delete …",

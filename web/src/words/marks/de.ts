@@ -8,7 +8,7 @@ export const marksDe: MarksWords = {
   undo: "Rückgängig",
   clear: "Meine löschen",
   clearAll: "Alle löschen",
-  ago: "−",
+  ago: "vor # s",
   seenBy: "Alle, die zusehen, sehen es. Zeichnungen verschwinden von selbst.",
   lineGone: "Die Leitung ist weg: Niemand sieht, was Sie zeigen.",
   noPicture: "Es gibt kein Live-Bild, auf dem man zeichnen könnte.",

@@ -5,7 +5,7 @@ export const marksEn = {
   undo: "Undo",
   clear: "Clear mine",
   clearAll: "Clear all",
-  ago: "−",
+  ago: "# s ago",
   seenBy: "Everybody who watches sees it. Drawings go by themselves.",
   lineGone: "The line is gone: nobody sees what you mark.",
   noPicture: "There is no live picture to mark on.",

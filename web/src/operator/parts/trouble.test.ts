@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { troubleIn } from "./transfer";
+import { troubleIn } from "./trouble";
 
 test("a refusal keeps its code, sentence and remedy", () => {
   const told = { code: "STORE_FULL", message: "the disk is full", remedy: "Make room.", context: {} };

@@ -1,0 +1,97 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { LiveStage } from "../registration/LiveStage";
+import { filled } from "../registration/filled";
+import { plannedVertebrae } from "../registration/planRead";
+import { WhereToTouch } from "../registration/points/WhereToTouch";
+import { Refused } from "../registration/Refused";
+import { ToolChoice } from "../registration/ToolChoice";
+import { ToolSeen } from "../registration/ToolSeen";
+import { useTools } from "../registration/useTools";
+
+interface CheckChoiceProps {
+  vertebra: string;
+  used: readonly string[];
+  mostMm: number;
+  onBegun: () => void;
+}
+
+/** Which landmark is checked on: one that the registration was not made from. */
+export function CheckChoice({ vertebra, used, mostMm, onBegun }: CheckChoiceProps): ReactNode {
+  const words = useWords().check;
+  const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
+  const first = useTools()[0]?.name ?? "";
+  const [tool, setTool] = useState("");
+  const [picked, setPicked] = useState<string | null>(null);
+  const beginning = useDo();
+  if (plan.data === null) return <Refused refusal={plan.refusal} />;
+  const landmarks = plannedVertebrae(plan.data.plan).find((one) => one.name === vertebra)?.landmarks ?? [];
+  const free = landmarks.filter((one) => !used.includes(one.name));
+  const landmark = free.find((one) => one.name === picked) ?? null;
+  const touching = tool || first;
+  return (
+    <div className="work">
+      <div className="work-main">
+        <LiveStage />
+        {landmark !== null && <WhereToTouch name={landmark.name} pointMm={landmark.pointMm} />}
+      </div>
+      <section className="card work-side">
+        <h3>{words.choose}</h3>
+        <p>{filled(words.why, { most: mostMm })}</p>
+        {free.length === 0 && <p className="warning">▲ {words.noneFree}</p>}
+        <ul className="landmarks">
+          {landmarks.map((one) => {
+            const taken = used.includes(one.name);
+            return (
+              <li key={one.name}>
+                <button
+                  type="button"
+                  className="landmark-name"
+                  disabled={taken}
+                  aria-pressed={one.name === picked}
+                  data-testid={`check-${one.name}`}
+                  onClick={() => {
+                    setPicked(one.name);
+                  }}
+                >
+                  <span aria-hidden="true">{taken ? "–" : one.name === picked ? "●" : "○"}</span>
+                  <span>
+                    {one.name}
+                    {taken && <small>{words.wasUsed}</small>}
+                  </span>
+                </button>
+              </li>
+            );
+          })}
+        </ul>
+        <ToolChoice tool={touching} onTool={setTool} />
+        <ToolSeen tool={touching} />
+        <Refused refusal={beginning.refusal} />
+        <Button
+          size="xl"
+          disabled={landmark === null || touching === ""}
+          loading={beginning.busy}
+          data-testid="check-begin"
+          onClick={() => {
+            if (landmark === null) return;
+            void beginning
+              .run(async () => {
+                await answered(
+                  server.POST("/api/registration/check", {
+                    body: { landmark: landmark.name, tool: touching },
+                  }),
+                );
+              })
+              .then(onBegun);
+          }}
+        >
+          {words.begin}
+        </Button>
+      </section>
+    </div>
+  );
+}

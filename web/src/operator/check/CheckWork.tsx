@@ -1,0 +1,101 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useLocation } from "wouter";
+import { answered, server } from "../../rest/client";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { useProcedure } from "../procedure";
+import { CaptureProgress } from "../registration/CaptureProgress";
+import { LiveStage } from "../registration/LiveStage";
+import { Refused } from "../registration/Refused";
+import { ToolSeen } from "../registration/ToolSeen";
+import { useMadeBy } from "../registration/useMadeBy";
+import { CheckOutcome } from "./CheckOutcome";
+
+const ASK_EVERY_MS = 250;
+
+/** The tip held on the landmark until it is taken; then its distance, and what to do with it. */
+export function CheckWork({ onOver }: { onOver: () => void }): ReactNode {
+  const words = useWords().check;
+  const procedure = useProcedure();
+  const madeBy = useMadeBy();
+  const [, navigate] = useLocation();
+  const asked = useAsked((signal) => answered(server.GET("/api/registration/check", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const doing = useDo();
+  const { data } = asked;
+  if (data === null) return <Refused refusal={asked.refusal} />;
+  const { outcome, capture } = data;
+  const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
+    void doing
+      .run(async () => {
+        await action();
+      })
+      .then(then);
+  };
+  return (
+    <div className="work">
+      <LiveStage />
+      <section className="card work-side">
+        <h3>{capture.landmark}</h3>
+        <ToolSeen tool={data.tool} />
+        <CaptureProgress capture={capture} mostSpreadMm={data.most_spread_mm} />
+        {outcome === null ? <p className="quiet">{words.byEye}</p> : <CheckOutcome outcome={outcome} />}
+        <Refused refusal={doing.refusal} />
+        <Button
+          size="xl"
+          disabled={outcome === null}
+          color={outcome?.passed === false ? "yellow" : "cyan"}
+          loading={doing.busy}
+          data-testid="check-conclude"
+          onClick={() => {
+            const passed = outcome?.passed === true;
+            run(
+              () =>
+                answered(server.POST("/api/registration/check/conclusion", { body: { made_by: madeBy } })),
+              (done) => {
+                procedure.again();
+                onOver();
+                if (done && passed) navigate("/operator/navigate");
+              },
+            );
+          }}
+        >
+          {outcome?.passed === false ? words.keepFailed : words.keep}
+        </Button>
+        <div className="row">
+          <Button
+            size="lg"
+            variant="default"
+            data-testid="check-again"
+            onClick={() => {
+              run(
+                () =>
+                  answered(
+                    server.POST("/api/registration/check", {
+                      body: { landmark: capture.landmark, tool: data.tool },
+                    }),
+                  ),
+                asked.again,
+              );
+            }}
+          >
+            ↶ {words.again}
+          </Button>
+          <Button
+            size="lg"
+            variant="default"
+            data-testid="check-end"
+            onClick={() => {
+              run(() => answered(server.DELETE("/api/registration/check")), onOver);
+            }}
+          >
+            {words.other}
+          </Button>
+        </div>
+      </section>
+    </div>
+  );
+}

@@ -1,0 +1,91 @@
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { useProcedure } from "../procedure";
+import { filled } from "../registration/filled";
+import { plannedVertebrae } from "../registration/planRead";
+import { Refused } from "../registration/Refused";
+import { SureButton } from "../registration/SureButton";
+import { useMadeBy } from "../registration/useMadeBy";
+import { useSides } from "../registration/useSides";
+
+/** Which channel is drilled; another one is chosen by two touches, with what that ends. */
+export function ChannelSwitch(): ReactNode {
+  const words = useWords().navigate;
+  const sideName = useSides();
+  const procedure = useProcedure();
+  const madeBy = useMadeBy();
+  const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
+  const [shown, setShown] = useState(false);
+  const switching = useDo();
+  if (plan.data === null) return <Refused refusal={plan.refusal} />;
+  const active = plan.data.active_channel;
+  const others = plannedVertebrae(plan.data.plan)
+    .flatMap((one) => one.sides.map((side) => ({ vertebra: one.name, side })))
+    .filter((one) => one.vertebra !== active?.vertebra || one.side !== active.side);
+  return (
+    <section className="card" data-testid="channel-switch">
+      <p className="row">
+        <strong data-testid="active-channel">
+          {active === null ? words.noChannel : `${active.vertebra} ${sideName(active.side)}`}
+        </strong>
+        {others.length > 0 && (
+          <button
+            type="button"
+            className="big-link"
+            aria-expanded={shown}
+            data-testid="switch-channel"
+            onClick={() => {
+              setShown(!shown);
+            }}
+          >
+            {words.switchTo}
+          </button>
+        )}
+      </p>
+      {shown &&
+        others.map((one) => {
+          const stays = one.vertebra === active?.vertebra;
+          const name = `${one.vertebra} ${sideName(one.side)}`;
+          return (
+            <div key={name}>
+              <p className="quiet">
+                {stays ? words.sameVertebra : filled(words.otherVertebra, { vertebra: one.vertebra })}
+              </p>
+              <SureButton
+                ask
+                variant="default"
+                sure={filled(words.switchSure, { channel: name })}
+                busy={switching.busy}
+                testId={`channel-${one.vertebra}-${one.side}`}
+                onSure={() => {
+                  void switching
+                    .run(async () => {
+                      await answered(
+                        server.POST("/api/plan/active-channel", {
+                          body: {
+                            made_by: madeBy,
+                            vertebra: one.vertebra,
+                            side: one.side === "right" ? "right" : "left",
+                          },
+                        }),
+                      );
+                    })
+                    .then(() => {
+                      setShown(false);
+                      plan.again();
+                      procedure.again();
+                    });
+                }}
+              >
+                {name}
+              </SureButton>
+            </div>
+          );
+        })}
+      <Refused refusal={switching.refusal} />
+    </section>
+  );
+}

@@ -1,0 +1,60 @@
+import { useRef, type ReactNode } from "react";
+import { useLive, usePainter } from "../../live/LiveContext";
+import { shownNumber } from "../../live/rounding";
+import { setText } from "../../panes/setText";
+import { useWords } from "../../words/WordsContext";
+
+/** How sure and how prompt the numbers are, how long each marker is unseen, and what sees a move. */
+export function Steadiness(): ReactNode {
+  const words = useWords();
+  const { view } = useLive();
+  const tip = useRef<HTMLElement>(null);
+  const lag = useRef<HTMLElement>(null);
+  const unseen = useRef<HTMLElement>(null);
+  usePainter(({ newest, numbers }) => {
+    const reading = numbers.live ? numbers.reading : null;
+    setText(tip.current, reading?.tipSdMm == null ? "—" : `± ${shownNumber(reading.tipSdMm, 2)} mm`);
+    setText(
+      lag.current,
+      reading === null
+        ? "—"
+        : reading.lagMs > 0
+          ? `${words.navigate.steadied} ${shownNumber(reading.lagMs, 0)} ms`
+          : words.navigate.notSteadied,
+    );
+    const markers = newest?.snapshot?.markers ?? [];
+    setText(
+      unseen.current,
+      markers
+        .map(({ name, sighting, unseen_s }) => {
+          if (sighting.kind === "seen") return `${name} ✓`;
+          return `${name} ▲ ${unseen_s === null ? words.navigate.neverSeen : `${shownNumber(unseen_s, 1)} s`}`;
+        })
+        .join(" · ") || "—",
+    );
+  });
+  const moves = view.newest?.snapshot?.watched.moves_seen_by;
+  return (
+    <section className="card steadiness" data-testid="steadiness">
+      <dl>
+        <div>
+          <dt>{words.navigate.tip}</dt>
+          <dd ref={tip} />
+        </div>
+        <div>
+          <dt>{words.navigate.lag}</dt>
+          <dd ref={lag} />
+        </div>
+        <div>
+          <dt>{words.navigate.markers}</dt>
+          <dd ref={unseen} />
+        </div>
+      </dl>
+      {moves !== undefined && (
+        <p className={moves === "reference" ? "quiet" : "warning"}>
+          {moves === "reference" ? "✓" : "▲"} {words.moves[moves]}
+        </p>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,50 @@
+import { Progress } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownNumber } from "../../live/rounding";
+import { Refusal } from "../../rest/client";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { filled } from "./filled";
+import { Refused } from "./Refused";
+
+interface CaptureProgressProps {
+  capture: components["schemas"]["TouchMessage"];
+  mostSpreadMm: number;
+}
+
+/** How far the tip at rest has been seen, how still it was, or why it was refused. */
+export function CaptureProgress({ capture, mostSpreadMm }: CaptureProgressProps): ReactNode {
+  const words = useWords().registration.capture;
+  if (capture.state === "refused" && capture.trouble !== null)
+    return (
+      <div data-testid="capture-refused">
+        <p>
+          ▲ <strong>{capture.landmark}</strong>: {words.refused}
+        </p>
+        <Refused refusal={new Refusal(capture.trouble)} />
+      </div>
+    );
+  if (capture.state === "taken") {
+    const worst = Math.max(...(capture.spread_mm ?? [0]));
+    return (
+      <p className="good" role="status" data-testid="captured">
+        ✓ <strong>{capture.landmark}</strong>{" "}
+        {filled(words.taken, {
+          images: capture.images,
+          spread: shownNumber(worst, 2),
+          most: shownNumber(mostSpreadMm, 2),
+        })}
+      </p>
+    );
+  }
+  const share = Math.min(100, (100 * capture.images) / Math.max(1, capture.wanted));
+  return (
+    <div role="status" data-testid="capturing">
+      <p>
+        ● <strong>{capture.landmark}</strong>{" "}
+        {filled(words.looking, { images: capture.images, wanted: capture.wanted })}
+      </p>
+      <Progress value={share} size="xl" aria-label={words.images} />
+    </div>
+  );
+}

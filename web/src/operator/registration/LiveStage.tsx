@@ -1,0 +1,131 @@
+import { Button } from "@mantine/core";
+import { useEffect, useRef, useState, type ReactNode, type RefObject } from "react";
+import { useLive, usePainter } from "../../live/LiveContext";
+import { shownNumber } from "../../live/rounding";
+import { Cover } from "../../panes/Cover";
+import { clearPicture, drawPicture } from "../../panes/drawPicture";
+import { setData, setText } from "../../panes/setText";
+import { useWords } from "../../words/WordsContext";
+import { filled } from "./filled";
+import { useImageSize } from "./useImageSize";
+
+interface LiveStageProps {
+  /** Drawn over the picture, in pixels of the camera's image. */
+  children?: ReactNode;
+  stage?: RefObject<HTMLDivElement | null>;
+  /** The canvas on which the live picture stands. */
+  picture?: RefObject<HTMLCanvasElement | null>;
+  held?: boolean;
+  onHeld?: (held: boolean) => void;
+}
+
+/** The live video with something laid over it; it can be held, and then says loudly that it is. */
+export function LiveStage({ children, stage, picture, held = false, onHeld }: LiveStageProps): ReactNode {
+  const words = useWords();
+  const { live, view } = useLive();
+  const size = useImageSize();
+  const ownStage = useRef<HTMLDivElement>(null);
+  const ownCanvas = useRef<HTMLCanvasElement>(null);
+  const coarse = useRef<HTMLCanvasElement>(null);
+  const still = useRef<HTMLCanvasElement>(null);
+  const stamp = useRef<HTMLParagraphElement>(null);
+  const heldAt = useRef(0);
+  const [heldClock, setHeldClock] = useState("");
+  const box = stage ?? ownStage;
+  const canvas = picture ?? ownCanvas;
+
+  useEffect(() => {
+    live.setDraw((jpeg, isCurrent) =>
+      canvas.current === null || coarse.current === null
+        ? Promise.resolve(false)
+        : drawPicture(canvas.current, coarse.current, jpeg, isCurrent),
+    );
+  }, [live, canvas]);
+
+  useEffect(() => {
+    const element = box.current;
+    if (element === null) return;
+    const watch = new ResizeObserver(() => {
+      element.style.setProperty("--fit", String(element.clientWidth / size.widthPx));
+    });
+    watch.observe(element);
+    return () => {
+      watch.disconnect();
+    };
+  }, [box, size.widthPx]);
+
+  usePainter(({ video, nowMs }) => {
+    setData(box.current, "live", String(video.live || held));
+    if (held) {
+      setText(
+        stamp.current,
+        filled(words.registration.held.stamp, {
+          clock: heldClock,
+          age: shownNumber((nowMs - heldAt.current) / 1000, 0),
+        }),
+      );
+      return;
+    }
+    setText(
+      stamp.current,
+      video.live
+        ? `${words.video.image} ${video.imageNumber} · ${words.video.age} ${shownNumber(video.ageMs, 0)} ms`
+        : "",
+    );
+    if (!video.live && canvas.current) clearPicture(canvas.current);
+  });
+
+  const hold = (): void => {
+    if (canvas.current === null || still.current === null || onHeld === undefined) return;
+    if (!held) {
+      still.current.width = canvas.current.width;
+      still.current.height = canvas.current.height;
+      still.current.getContext("2d", { alpha: false })?.drawImage(canvas.current, 0, 0);
+      heldAt.current = performance.now();
+      setHeldClock(new Date().toLocaleTimeString(words.language));
+    }
+    onHeld(!held);
+  };
+
+  const cause = view.video.live ? "old" : view.video.cause;
+  return (
+    <div className="live-stage" data-held={held}>
+      <div className="live-stage-head">
+        <p className="stamp" ref={stamp} data-testid="stage-stamp" />
+        {onHeld !== undefined && (
+          <Button
+            size="md"
+            variant={held ? "filled" : "default"}
+            color="yellow"
+            aria-pressed={held}
+            onClick={hold}
+          >
+            {held ? words.registration.held.release : words.registration.held.hold}
+          </Button>
+        )}
+      </div>
+      <div
+        className="video-stage"
+        data-live="false"
+        data-testid="stage"
+        ref={box}
+        style={{ aspectRatio: `${size.widthPx} / ${size.heightPx}` }}
+      >
+        <canvas ref={canvas} width={1280} height={720} role="img" aria-label={words.registration.videoAlt} />
+        <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
+        <canvas className="still" ref={still} width={1280} height={720} hidden={!held} aria-hidden="true" />
+        <div className="stage-space" style={{ width: size.widthPx, height: size.heightPx }}>
+          {children}
+        </div>
+        <div className="when-stale">
+          <Cover
+            urgency="medium"
+            title={words.video.none}
+            state={words.cause[cause].state}
+            sentence={words.cause[cause].sentence}
+          />
+        </div>
+      </div>
+    </div>
+  );
+}

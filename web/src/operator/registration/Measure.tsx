@@ -1,0 +1,43 @@
+import type { ReactNode } from "react";
+import { shownNumber } from "../../live/rounding";
+import { useWords } from "../../words/WordsContext";
+
+interface MeasureProps {
+  name: string;
+  value: number | null;
+  unit: string;
+  /** What is allowed; left out where nothing is. */
+  most?: number | null | undefined;
+  digits?: number;
+  hint?: string;
+}
+
+/** One number with its unit, and its limit where it has one: kept or not in a word, a mark and a colour. */
+export function Measure({ name, value, unit, most, digits = 2, hint }: MeasureProps): ReactNode {
+  const words = useWords().registration.measure;
+  const limited = most !== undefined && most !== null;
+  const kept = value === null || !limited ? null : value <= most;
+  return (
+    <div className="measure" data-kept={kept ?? undefined}>
+      <dt>
+        {name}
+        {hint !== undefined && <small>{hint}</small>}
+      </dt>
+      <dd>
+        <strong>
+          {value === null ? "—" : shownNumber(value, digits)} <span className="unit">{unit}</span>
+        </strong>
+        {limited && (
+          <small>
+            {kept !== null && (
+              <b>
+                <span aria-hidden="true">{kept ? "✓" : "▲"}</span> {kept ? words.kept : words.over} ·{" "}
+              </b>
+            )}
+            {words.allowed} {shownNumber(most, digits)} {unit}
+          </small>
+        )}
+      </dd>
+    </div>
+  );
+}

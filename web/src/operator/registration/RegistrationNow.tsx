@@ -1,0 +1,96 @@
+import { Badge } from "@mantine/core";
+import type { ReactNode } from "react";
+import { Link } from "wouter";
+import { answered, server } from "../../rest/client";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { useProcedure } from "../procedure";
+import { filled } from "./filled";
+import { Refused } from "./Refused";
+import { RegistrationNumbers } from "./RegistrationNumbers";
+import { SureButton } from "./SureButton";
+import { useMadeBy } from "./useMadeBy";
+
+/** The registration that is there: how it was made, what it states of itself, and what comes next. */
+export function RegistrationNow(): ReactNode {
+  const { data } = useProcedure();
+  const step = data?.steps.find((one) => one.step === "register");
+  const words = useWords().registration;
+  if (data === null || step === undefined) return null;
+  if (step.document_id === null) return <p data-testid="registration-none">{words.now.none}</p>;
+  return <Newest key={step.document_id} caseId={data.case_id ?? ""} documentId={step.document_id} />;
+}
+
+function Newest({ caseId, documentId }: { caseId: string; documentId: string }): ReactNode {
+  const words = useWords().registration;
+  const procedure = useProcedure();
+  const madeBy = useMadeBy();
+  const asked = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
+    key: documentId,
+  });
+  const withdrawing = useDo();
+  const { data } = asked;
+  if (data === null) return <Refused refusal={asked.refusal} />;
+  const { heading } = data;
+  const lost = heading.withdrawn?.reason ?? heading.out_of_date;
+  const check = procedure.data?.steps.find((one) => one.step === "check");
+  return (
+    <section className="card" data-testid="registration-now">
+      <h3>
+        {filled(words.now.title, { vertebra: data.vertebra, version: heading.version })}{" "}
+        <Badge size="lg" color={heading.current ? "teal" : "yellow"}>
+          {heading.current ? words.now.holds : words.now.lost}
+        </Badge>
+      </h3>
+      <p>
+        {words.method[data.method]} · {heading.made_by} · {timeOf(heading.made_at)} ·{" "}
+        {data.reference === null
+          ? words.now.toCamera
+          : filled(words.now.toMarker, { marker: data.reference })}
+      </p>
+      {lost !== null && <p className="warning">▲ {lost}</p>}
+      <RegistrationNumbers method={data.method} numbers={data.numbers} />
+      <Refused refusal={withdrawing.refusal} />
+      <div className="row">
+        {heading.current && (
+          <>
+            <Link className="big-link" href="/operator/check" data-testid="to-check">
+              {check?.state === "done" ? words.now.checked : words.now.toCheck}
+            </Link>
+            <Link className="big-link" href="/operator/register/nudges" data-testid="to-nudges">
+              {words.now.nudge}
+            </Link>
+            <SureButton
+              ask
+              variant="default"
+              sure={words.now.withdrawSure}
+              busy={withdrawing.busy}
+              onSure={() => {
+                void withdrawing
+                  .run(async () => {
+                    await answered(
+                      server.POST("/api/cases/{case_id}/documents/{document_id}/withdrawal", {
+                        params: { path: { case_id: caseId, document_id: heading.id } },
+                        body: { by: madeBy, reason: words.now.withdrawReason },
+                      }),
+                    );
+                  })
+                  .then(() => {
+                    asked.again();
+                    procedure.again();
+                  });
+              }}
+            >
+              {words.now.withdraw}
+            </SureButton>
+          </>
+        )}
+      </div>
+    </section>
+  );
+}
+
+function timeOf(utc: string): string {
+  return new Date(utc).toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
+}

@@ -1,0 +1,69 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useLive } from "../../live/LiveContext";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+
+export type Rehearsed = components["schemas"]["RehearsalMessage"];
+type Scene = components["schemas"]["SceneRequest"]["scene"];
+
+const ASK_EVERY_MS = 400;
+
+interface RehearsalStripProps {
+  scenes: readonly Scene[];
+  /** Something more that only a rehearsal can tell. */
+  children?: (told: Rehearsed) => ReactNode;
+}
+
+/** In a rehearsal alone: which scene is played before the camera, so that a step can be done without hardware. */
+export function RehearsalStrip(props: RehearsalStripProps): ReactNode {
+  const { view } = useLive();
+  // Where a real camera looks there is nothing to play, and nothing to ask for.
+  return view.newest?.source.name.startsWith("rehearsal") ? <Scenes {...props} /> : null;
+}
+
+function Scenes({ scenes, children }: RehearsalStripProps): ReactNode {
+  const words = useWords().registration.rehearsal;
+  const { data, again } = useAsked(
+    (signal) => answered(server.GET("/api/rehearsal", { signal, params: { query: { truth: true } } })),
+    { everyMs: ASK_EVERY_MS },
+  );
+  const playing = useDo();
+  if (data === null) return null;
+  return (
+    <aside className="rehearsal" aria-label={words.title} data-testid="rehearsal">
+      <p>
+        <strong>{words.title}</strong> <small>{words.hint}</small>
+      </p>
+      <div className="row">
+        {scenes.map((scene) => (
+          <Button
+            key={scene}
+            size="md"
+            variant={data.scene === scene ? "filled" : "default"}
+            aria-pressed={data.scene === scene}
+            loading={playing.busy && data.scene !== scene}
+            data-testid={`scene-${scene}`}
+            onClick={() => {
+              void playing
+                .run(async () => {
+                  await answered(
+                    server.PUT("/api/rehearsal", { body: { scene, skill: "good", events: [] } }),
+                  );
+                })
+                .then(again);
+            }}
+          >
+            {words.scene[scene]}
+          </Button>
+        ))}
+        {children?.(data)}
+      </div>
+      <RefusalNote refusal={playing.refusal} />
+    </aside>
+  );
+}

@@ -1,0 +1,34 @@
+import { SegmentedControl } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+import { useTools } from "./useTools";
+
+interface ToolChoiceProps {
+  tool: string;
+  onTool: (tool: string) => void;
+}
+
+/** Which tool touches; nothing to choose where there is but one. */
+export function ToolChoice({ tool, onTool }: ToolChoiceProps): ReactNode {
+  const words = useWords().registration;
+  const tools = useTools();
+  if (tools.length === 0) return <p className="warning">▲ {words.tool.none}</p>;
+  if (tools.length === 1)
+    return (
+      <p>
+        {words.tool.touches}: <strong>{tool}</strong>
+      </p>
+    );
+  return (
+    <div>
+      <p>{words.tool.touches}:</p>
+      <SegmentedControl
+        size="lg"
+        aria-label={words.tool.touches}
+        data={tools.map((one) => one.name)}
+        value={tool}
+        onChange={onTool}
+      />
+    </div>
+  );
+}

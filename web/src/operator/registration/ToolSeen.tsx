@@ -1,0 +1,23 @@
+import { useRef, type ReactNode } from "react";
+import { usePainter } from "../../live/LiveContext";
+import { shownNumber } from "../../live/rounding";
+import { setData, setText } from "../../panes/setText";
+import { useWords } from "../../words/WordsContext";
+
+/** Whether the tool is seen in the newest image, and how sure its tip is; painted with every image. */
+export function ToolSeen({ tool }: { tool: string }): ReactNode {
+  const words = useWords().registration.tool;
+  const line = useRef<HTMLParagraphElement>(null);
+  usePainter(({ newest, video }) => {
+    const now = newest?.snapshot?.tools.find((one) => one.name === tool);
+    const pose = video.live && now?.pose.kind === "tool" ? now.pose : null;
+    setData(line.current, "seen", String(pose !== null));
+    setText(
+      line.current,
+      pose === null
+        ? `▲ ${tool} ${words.unseen}`
+        : `✓ ${tool} ${words.seen} · ${words.tip} ± ${shownNumber(pose.tip_sd_mm, 2)} mm`,
+    );
+  });
+  return <p className="tool-seen" data-testid="tool-seen" ref={line} />;
+}

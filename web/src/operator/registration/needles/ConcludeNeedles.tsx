@@ -1,0 +1,89 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useLocation } from "wouter";
+import { answered, server } from "../../../rest/client";
+import { useDo } from "../../../rest/useDo";
+import { useWords } from "../../../words/WordsContext";
+import { useProcedure } from "../../procedure";
+import { Refused } from "../Refused";
+import { SureButton } from "../SureButton";
+import { useMadeBy } from "../useMadeBy";
+import type { Overlay } from "./overlay";
+import { asked, type NeedleOrder } from "./order";
+
+interface ConcludeNeedlesProps {
+  order: NeedleOrder;
+  overlay?: Overlay | null;
+  marked?: readonly {
+    entry_px: number[];
+    head_px: number[];
+    entry_is_seen?: boolean;
+    along_sd_px?: number;
+  }[];
+  picked?: boolean;
+  held: boolean;
+  disabled: boolean;
+  onRelease?: (() => void) | undefined;
+  children: ReactNode;
+}
+
+/** Registers by what was laid, picked or marked: always by the newest live image, never by a held one. */
+export function ConcludeNeedles({
+  order,
+  overlay = null,
+  marked = [],
+  picked = false,
+  held,
+  disabled,
+  onRelease,
+  children,
+}: ConcludeNeedlesProps): ReactNode {
+  const words = useWords().registration;
+  const procedure = useProcedure();
+  const madeBy = useMadeBy();
+  const [, navigate] = useLocation();
+  const doing = useDo();
+  const isThere =
+    procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true;
+  return (
+    <div className="conclude">
+      <Refused refusal={doing.refusal} />
+      {held ? (
+        <>
+          <p className="warning">▲ {words.needles.heldNoFit}</p>
+          {onRelease !== undefined && (
+            <Button size="lg" color="yellow" onClick={onRelease}>
+              {words.held.release}
+            </Button>
+          )}
+        </>
+      ) : (
+        <p className="quiet">{words.needles.fitsLive}</p>
+      )}
+      <SureButton
+        ask={isThere}
+        sure={words.replaceSure}
+        disabled={disabled || held}
+        busy={doing.busy}
+        testId="needles-conclude"
+        onSure={() => {
+          void doing
+            .run(async () => {
+              const needles = marked.map((one) => ({ entry_is_seen: true, along_sd_px: 1, ...one }));
+              await answered(
+                server.POST("/api/registration/needles/conclusion", {
+                  body: { ...asked(order), overlay, marked: needles, picked, made_by: madeBy },
+                }),
+              );
+            })
+            .then((done) => {
+              procedure.again();
+              if (done) navigate("/operator/register");
+            });
+        }}
+      >
+        {children}
+      </SureButton>
+    </div>
+  );
+}

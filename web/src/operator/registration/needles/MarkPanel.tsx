@@ -1,0 +1,125 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode, type RefObject } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { filled } from "../filled";
+import { ConcludeNeedles } from "./ConcludeNeedles";
+import { Magnifier } from "./Magnifier";
+import { nextEnd, withEnd, type End, type Mark } from "./marks";
+import type { NeedleOrder } from "./order";
+import type { Px } from "./overlay";
+import { useMarkOnStage } from "./useMarkOnStage";
+import { useNeedleNames } from "./useNeedleNames";
+
+const WAYS: readonly [string, "left" | "up" | "down" | "right", Px][] = [
+  ["←", "left", [-1, 0]],
+  ["↑", "up", [0, -1]],
+  ["↓", "down", [0, 1]],
+  ["→", "right", [1, 0]],
+];
+
+interface MarkPanelProps {
+  order: NeedleOrder;
+  names: readonly string[];
+  marks: Mark[];
+  onMarks: (marks: Mark[]) => void;
+  stage: RefObject<HTMLDivElement | null>;
+  picture: RefObject<HTMLCanvasElement | null>;
+  held: boolean;
+}
+
+/** Needles touched in the picture one after the other: where each leaves the bone, then its head. */
+export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }: MarkPanelProps): ReactNode {
+  const words = useWords().registration;
+  const nameOf = useNeedleNames();
+  const [chosen, setChosen] = useState<End | null>(null);
+  const placed = marks.filter(
+    (one) => one.head_px[0] !== one.entry_px[0] || one.head_px[1] !== one.entry_px[1],
+  );
+  const open = placed.length < marks.length ? (marks.at(-1)?.entry_px ?? null) : null;
+  const next = nextEnd(placed, open, names.length);
+
+  useMarkOnStage(stage, marks, {
+    onPlace: (at) => {
+      if (next === null) return;
+      // Until its head is touched a needle is as short as a point.
+      if (next.end === "entry_px") onMarks([...marks, { entry_px: [...at], head_px: [...at] }]);
+      else onMarks(withEnd(marks, next, at));
+      setChosen(next);
+    },
+    onTake: setChosen,
+    onMove: (end, at) => {
+      onMarks(withEnd(marks, end, at));
+    },
+  });
+
+  const at = chosen === null ? null : (marks[chosen.needle]?.[chosen.end] ?? null);
+  const nudge = ([x, y]: Px): void => {
+    if (chosen === null || at === null) return;
+    onMarks(withEnd(marks, chosen, [(at[0] ?? 0) + x, (at[1] ?? 0) + y]));
+  };
+  return (
+    <section className="card">
+      <p data-testid="mark-next">
+        {next === null
+          ? words.mark.all
+          : filled(next.end === "entry_px" ? words.mark.entry : words.mark.head, {
+              needle: nameOf(names[next.needle] ?? ""),
+              number: next.needle + 1,
+            })}
+      </p>
+      <div className="row">
+        <Magnifier picture={picture} at={at} name={words.mark.magnifier} />
+        <div className="pad" role="group" aria-label={words.mark.adjust}>
+          {WAYS.map(([symbol, way, by]) => (
+            <Button
+              key={way}
+              size="lg"
+              variant="default"
+              aria-label={words.overlay[way]}
+              disabled={at === null}
+              onClick={() => {
+                nudge(by);
+              }}
+            >
+              {symbol}
+            </Button>
+          ))}
+        </div>
+      </div>
+      <div className="row">
+        <Button
+          size="lg"
+          variant="default"
+          disabled={marks.length === 0}
+          data-testid="mark-undo"
+          onClick={() => {
+            setChosen(null);
+            onMarks(marks.slice(0, -1));
+          }}
+        >
+          ↶ {words.mark.undo}
+        </Button>
+        <Button
+          size="lg"
+          variant="default"
+          disabled={marks.length === 0}
+          onClick={() => {
+            setChosen(null);
+            onMarks([]);
+          }}
+        >
+          {words.mark.clear}
+        </Button>
+      </div>
+      <p className="quiet">{words.mark.hint}</p>
+      <ConcludeNeedles
+        order={order}
+        marked={placed}
+        held={held}
+        disabled={next !== null || names.length === 0}
+      >
+        {words.mark.conclude}
+      </ConcludeNeedles>
+    </section>
+  );
+}

@@ -1,0 +1,57 @@
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useAsked } from "../../../rest/useAsked";
+import { useWords } from "../../../words/WordsContext";
+import { useProcedure } from "../../procedure";
+import { plannedVertebrae } from "../planRead";
+import { Refused } from "../Refused";
+import { NeedlesWork } from "./NeedlesWork";
+import { PlacesForm } from "./PlacesForm";
+import { RulerForm } from "./RulerForm";
+import { FIRST_VIEW, remember, remembered } from "./ruler";
+import type { NeedleOrder } from "./order";
+
+/** Registration by three needles: first what a ruler says and where the needles stand, then the picture. */
+export function NeedlesPage(): ReactNode {
+  const words = useWords().registration.needles;
+  const caseId = useProcedure().data?.case_id ?? "";
+  const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
+  const known = remembered(caseId);
+  const [view, setView] = useState(known ?? FIRST_VIEW);
+  const [measured, setMeasured] = useState(known !== null);
+  const [chosen, setChosen] = useState<string[] | null>(null);
+  if (plan.data === null) return <Refused refusal={plan.refusal} />;
+  const name = plan.data.active_channel?.vertebra ?? "";
+  const vertebra = plannedVertebrae(plan.data.plan).find((one) => one.name === name);
+  if (vertebra === undefined) return <p className="warning">▲ {words.noVertebra}</p>;
+  const landmarks = chosen ?? (vertebra.hasReference ? [] : null);
+  if (!measured || landmarks === null)
+    return (
+      <>
+        <p className="quiet">{words.intro}</p>
+        <RulerForm
+          view={view}
+          onView={setView}
+          middleMm={[0, 40, 0]}
+          done={measured}
+          onDone={() => {
+            remember(caseId, view);
+            setMeasured(true);
+          }}
+        />
+        {measured && <PlacesForm vertebra={vertebra} chosen={[]} onChosen={setChosen} />}
+      </>
+    );
+  const order: NeedleOrder = { view, landmarks };
+  return (
+    <NeedlesWork
+      key={JSON.stringify(order)}
+      order={order}
+      vertebra={vertebra}
+      onRuler={() => {
+        setMeasured(false);
+      }}
+      onLandmarks={setChosen}
+    />
+  );
+}

@@ -1,0 +1,152 @@
+import { Button, SegmentedControl } from "@mantine/core";
+import { useEffect, useRef, useState, useSyncExternalStore, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { filled } from "../filled";
+import type { PlannedVertebra } from "../planRead";
+import { Refused } from "../Refused";
+import { LiveStage } from "../LiveStage";
+import { asked, type NeedleOrder } from "./order";
+import { LineLayer } from "./LineLayer";
+import { MarkLayer } from "./MarkLayer";
+import { MarkPanel } from "./MarkPanel";
+import type { Mark } from "./marks";
+import { OverlayDesk } from "./overlayDesk";
+import { OverlayPanel } from "./OverlayPanel";
+import { PlacesForm } from "./PlacesForm";
+import { ProposalPanel, type Proposal } from "./ProposalPanel";
+import { SliceLayer } from "./SliceLayer";
+import { useHandOnStage } from "./useHandOnStage";
+
+type Mode = "overlay" | "proposal" | "mark";
+
+interface NeedlesWorkProps {
+  order: NeedleOrder;
+  vertebra: PlannedVertebra;
+  onRuler: () => void;
+  onLandmarks: (landmarks: string[]) => void;
+}
+
+/** The slice over the live picture, needles that the software found, or needles marked by hand. */
+export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWorkProps): ReactNode {
+  const words = useWords().registration.needles;
+  const [desk] = useState(
+    () =>
+      new OverlayDesk((overlay) =>
+        answered(
+          server.POST("/api/registration/needles/overlay", {
+            body: { ...asked(order), overlay, marked: [] },
+          }),
+        ),
+      ),
+  );
+  const state = useSyncExternalStore(desk.subscribe, desk.state);
+  const stage = useRef<HTMLDivElement>(null);
+  const picture = useRef<HTMLCanvasElement>(null);
+  const [mode, setMode] = useState<Mode>("overlay");
+  const [held, setHeld] = useState(false);
+  const [placing, setPlacing] = useState(false);
+  const [picked, setPicked] = useState<Proposal | null>(null);
+  const [marks, setMarks] = useState<Mark[]>([]);
+  useEffect(() => {
+    desk.start();
+    return () => {
+      desk.stop();
+    };
+  }, [desk]);
+  useHandOnStage(desk, stage, mode === "overlay");
+
+  const names = state.laid?.needles.map((one) => one.name) ?? [];
+  return (
+    <div className="work" data-testid="needles-work">
+      <div className="work-main">
+        <LiveStage stage={stage} picture={picture} held={held} onHeld={setHeld}>
+          {mode === "overlay" && state.laid?.slice != null && (
+            <SliceLayer desk={desk} slice={state.laid.slice} vertebra={vertebra.name} />
+          )}
+          {mode === "overlay" && <LineLayer desk={desk} names={names} />}
+          {mode === "proposal" && picked !== null && (
+            <MarkLayer
+              marks={picked.marked.map((one) => ({ entry_px: one.entry_px, head_px: one.head_px }))}
+              names={picked.laid.needles.map((one) => one.name)}
+              lines={picked.laid.needles.map((one) => one.line_px)}
+            />
+          )}
+          {mode === "mark" && <MarkLayer marks={marks} names={names} />}
+        </LiveStage>
+        <p className="row quiet">
+          {filled(words.seenFrom, {
+            v: order.view.vertical_mm,
+            h: order.view.horizontal_mm,
+            places: order.landmarks.length === 0 ? words.onLines : order.landmarks.join(", "),
+          })}
+          <Button size="md" variant="default" onClick={onRuler} data-testid="needles-ruler">
+            {words.changeRuler}
+          </Button>
+          <Button
+            size="md"
+            variant="default"
+            data-testid="needles-places"
+            onClick={() => {
+              setPlacing(!placing);
+            }}
+          >
+            {words.changePlaces}
+          </Button>
+        </p>
+        {placing && <PlacesForm vertebra={vertebra} chosen={order.landmarks} onChosen={onLandmarks} />}
+      </div>
+      <div className="work-side">
+        <SegmentedControl
+          size="lg"
+          fullWidth
+          aria-label={words.how}
+          value={mode}
+          onChange={(value) => {
+            setMode(value as Mode);
+          }}
+          data={[
+            { value: "overlay", label: words.overlay },
+            { value: "proposal", label: words.proposal },
+            { value: "mark", label: words.mark },
+          ]}
+        />
+        <Refused refusal={state.refusal} />
+        {mode === "overlay" && (
+          <OverlayPanel
+            desk={desk}
+            state={state}
+            order={order}
+            held={held}
+            onRelease={() => {
+              setHeld(false);
+            }}
+          />
+        )}
+        {mode === "proposal" && (
+          <ProposalPanel
+            order={order}
+            picked={picked}
+            held={held}
+            onPick={setPicked}
+            onAdjust={(proposal) => {
+              setMarks(proposal.marked.map((one) => ({ entry_px: one.entry_px, head_px: one.head_px })));
+              setMode("mark");
+            }}
+          />
+        )}
+        {mode === "mark" && (
+          <MarkPanel
+            order={order}
+            names={names}
+            marks={marks}
+            onMarks={setMarks}
+            stage={stage}
+            picture={picture}
+            held={held}
+          />
+        )}
+      </div>
+    </div>
+  );
+}

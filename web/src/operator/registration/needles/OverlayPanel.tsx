@@ -1,0 +1,134 @@
+import { Button, SegmentedControl, Slider } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { useWords } from "../../../words/WordsContext";
+import { ConcludeNeedles } from "./ConcludeNeedles";
+import type { NeedleOrder } from "./order";
+import { faded, moved, placeOf, scaled, turned, type Overlay } from "./overlay";
+import type { DeskState, OverlayDesk } from "./overlayDesk";
+
+const STEPS = {
+  fine: { px: 1, deg: 0.25, ratio: 1.0025 },
+  coarse: { px: 10, deg: 2, ratio: 1.02 },
+} as const;
+
+interface OverlayPanelProps {
+  desk: OverlayDesk;
+  state: DeskState;
+  order: NeedleOrder;
+  held: boolean;
+  onRelease: () => void;
+}
+
+/** Small steps for what fingers do roughly: move, turn, scale; fade, undo, and at last register. */
+export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPanelProps): ReactNode {
+  const words = useWords().registration.overlay;
+  const [size, setSize] = useState<keyof typeof STEPS>("coarse");
+  const step = STEPS[size];
+  const turn = (deg: number) => (hand: Overlay) => turned(hand, deg, placeOf(hand));
+  const grow = (ratio: number) => (hand: Overlay) => scaled(hand, ratio, placeOf(hand));
+  const pad: [string, string, (hand: Overlay) => Overlay][] = [
+    ["⟲", words.turnLeft, turn(-step.deg)],
+    ["↑", words.up, (hand) => moved(hand, [0, -step.px])],
+    ["⟳", words.turnRight, turn(step.deg)],
+    ["←", words.left, (hand) => moved(hand, [-step.px, 0])],
+    ["↓", words.down, (hand) => moved(hand, [0, step.px])],
+    ["→", words.right, (hand) => moved(hand, [step.px, 0])],
+    ["−", words.smaller, grow(1 / step.ratio)],
+    ["+", words.larger, grow(step.ratio)],
+  ];
+  const { hand } = state;
+  return (
+    <section className="card overlay-panel">
+      <p>{words.hint}</p>
+      <label className="fade">
+        <span>
+          {words.fade} {shownNumber(100 * (hand?.fade_ratio ?? 0.5), 0)} %
+        </span>
+        <Slider
+          size="xl"
+          thumbSize={36}
+          min={0}
+          max={100}
+          label={null}
+          thumbLabel={words.fade}
+          data-testid="fade"
+          value={100 * (hand?.fade_ratio ?? 0.5)}
+          disabled={hand === null}
+          onChange={(percent) => {
+            desk.change((now) => faded(now, percent / 100));
+          }}
+        />
+      </label>
+      <div className="pad" role="group" aria-label={words.pad}>
+        {pad.map(([symbol, name, next]) => (
+          <Button
+            key={name}
+            size="lg"
+            variant="default"
+            aria-label={name}
+            disabled={hand === null}
+            onClick={() => {
+              desk.step(next);
+            }}
+          >
+            {symbol}
+          </Button>
+        ))}
+      </div>
+      <SegmentedControl
+        size="md"
+        aria-label={words.step}
+        value={size}
+        onChange={(value) => {
+          setSize(value === "fine" ? "fine" : "coarse");
+        }}
+        data={[
+          { value: "fine", label: words.fine },
+          { value: "coarse", label: words.coarse },
+        ]}
+      />
+      <div className="row">
+        <Button
+          size="lg"
+          variant="default"
+          disabled={!state.canUndo}
+          data-testid="overlay-undo"
+          onClick={() => {
+            desk.undo();
+          }}
+        >
+          ↶ {words.undo}
+        </Button>
+        <Button
+          size="lg"
+          variant="default"
+          data-testid="overlay-reset"
+          onClick={() => {
+            desk.reset();
+          }}
+        >
+          {words.reset}
+        </Button>
+      </div>
+      <p
+        data-testid="overlay-state"
+        data-settled={state.settled}
+        data-overlay={JSON.stringify(hand)}
+        className={state.settled ? "good" : "quiet"}
+      >
+        {state.settled ? `✓ ${words.exact}` : `● ${words.following}`}
+      </p>
+      <p className="warning">▲ {words.blind}</p>
+      <ConcludeNeedles
+        order={order}
+        overlay={hand}
+        held={held}
+        disabled={!state.settled}
+        onRelease={onRelease}
+      >
+        {words.conclude}
+      </ConcludeNeedles>
+    </section>
+  );
+}

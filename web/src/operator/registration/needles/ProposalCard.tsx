@@ -1,0 +1,58 @@
+import type { ReactNode } from "react";
+import { shownFigure, shownNumber, shownPercent } from "../../../live/rounding";
+import { useWords } from "../../../words/WordsContext";
+import { filled } from "../filled";
+import type { Proposal } from "./ProposalPanel";
+import { useNeedleNames } from "./useNeedleNames";
+
+interface ProposalCardProps {
+  number: number;
+  proposal: Proposal;
+  isPicked: boolean;
+  onPick: () => void;
+}
+
+/** One naming of the needles that were found: how far each lies from its place, in the image and in mm. */
+export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCardProps): ReactNode {
+  const words = useWords().registration.proposal;
+  const nameOf = useNeedleNames();
+  const { laid, chance_ratio } = proposal;
+  const depth = laid.directions[0];
+  return (
+    <li>
+      <button
+        type="button"
+        className="proposal"
+        aria-pressed={isPicked}
+        onClick={onPick}
+        data-testid={`proposal-${number}`}
+      >
+        <strong>{filled(words.number, { number })}</strong>{" "}
+        <span>{filled(words.chance, { percent: shownPercent(chance_ratio) })}</span>
+        <table>
+          <thead>
+            <tr>
+              <th>{words.needle}</th>
+              <th>px</th>
+              <th>mm</th>
+              <th>{words.lean}</th>
+            </tr>
+          </thead>
+          <tbody>
+            {laid.needles.map((needle) => (
+              <tr key={needle.name}>
+                <th scope="row">{nameOf(needle.name)}</th>
+                <td>{shownFigure(needle.offset_px, 1)}</td>
+                <td>{shownFigure(needle.offset_mm, 1)}</td>
+                <td>{shownFigure(needle.lean_deg, 0)}°</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+        {depth !== undefined && (
+          <small>{filled(words.depth, { sd: shownNumber(depth.sd, 1), unit: depth.unit })}</small>
+        )}
+      </button>
+    </li>
+  );
+}

@@ -1,0 +1,85 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useDo } from "../../../rest/useDo";
+import type { components } from "../../../schema";
+import { useWords } from "../../../words/WordsContext";
+import { Refused } from "../Refused";
+import { ConcludeNeedles } from "./ConcludeNeedles";
+import type { NeedleOrder } from "./order";
+import { asked } from "./order";
+import { ProposalCard } from "./ProposalCard";
+
+export type Proposal = components["schemas"]["ProposalMessage"];
+
+interface ProposalPanelProps {
+  order: NeedleOrder;
+  picked: Proposal | null;
+  held: boolean;
+  onPick: (proposal: Proposal | null) => void;
+  onAdjust: (proposal: Proposal) => void;
+}
+
+/** What the software takes for the needles, each likely naming of its own; only a person picks one. */
+export function ProposalPanel({ order, picked, held, onPick, onAdjust }: ProposalPanelProps): ReactNode {
+  const words = useWords().registration.proposal;
+  const [proposals, setProposals] = useState<Proposal[] | null>(null);
+  const finding = useDo();
+  return (
+    <section className="card">
+      <p className="warning">▲ {words.oftenWrong}</p>
+      <Button
+        size="lg"
+        loading={finding.busy}
+        data-testid="find-needles"
+        onClick={() => {
+          onPick(null);
+          setProposals(null);
+          void finding.run(async () => {
+            const told = await answered(
+              server.POST("/api/registration/needles/proposal", { body: asked(order) }),
+            );
+            setProposals(told.proposals);
+          });
+        }}
+      >
+        {proposals === null ? words.find : words.findAgain}
+      </Button>
+      <Refused refusal={finding.refusal} />
+      {proposals !== null && (
+        <>
+          <p>{words.pick}</p>
+          <ol className="proposals">
+            {proposals.map((one, index) => (
+              <ProposalCard
+                key={one.laid.image_number + index}
+                number={index + 1}
+                proposal={one}
+                isPicked={one === picked}
+                onPick={() => {
+                  onPick(one);
+                }}
+              />
+            ))}
+          </ol>
+        </>
+      )}
+      {picked !== null && (
+        <>
+          <Button
+            size="lg"
+            variant="default"
+            onClick={() => {
+              onAdjust(picked);
+            }}
+          >
+            {words.adjust}
+          </Button>
+          <ConcludeNeedles order={order} marked={picked.marked} picked held={held} disabled={false}>
+            {words.conclude}
+          </ConcludeNeedles>
+        </>
+      )}
+    </section>
+  );
+}

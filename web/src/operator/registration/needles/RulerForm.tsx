@@ -1,0 +1,79 @@
+import { Button, SegmentedControl } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { RehearsalStrip } from "../RehearsalStrip";
+import { StepField } from "../StepField";
+import { viewOfTruth, type RuledView } from "./ruler";
+
+interface RulerFormProps {
+  view: RuledView;
+  onView: (view: RuledView) => void;
+  /** Of the needles, for the rehearsal's ruler. */
+  middleMm: readonly number[];
+  done: boolean;
+  onDone: () => void;
+}
+
+/** What a ruler says of the camera: how far above and beside the vertebra, and at which end of the patient. */
+export function RulerForm({ view, onView, middleMm, done, onDone }: RulerFormProps): ReactNode {
+  const words = useWords().registration.ruler;
+  const fields = [
+    { name: "vertical_mm", label: words.vertical, unit: "mm", min: 20, max: 3000, step: 10 },
+    { name: "horizontal_mm", label: words.horizontal, unit: "mm", min: 1, max: 3000, step: 10 },
+    { name: "azimuth_deg", label: words.azimuth, unit: "°", min: -180, max: 180, step: 5 },
+  ] as const;
+  return (
+    <section className="card ruler" data-testid="ruler">
+      <h3>{words.title}</h3>
+      <p>{words.hint}</p>
+      <RehearsalStrip scenes={["landmarks"]}>
+        {(told) => (
+          <Button
+            size="md"
+            variant="default"
+            disabled={!told.truth?.moment}
+            data-testid="ruler-rehearsed"
+            onClick={() => {
+              if (told.truth?.moment) onView(viewOfTruth(told.truth.moment.camera_from_vertebra, middleMm));
+            }}
+          >
+            {words.rehearsed}
+          </Button>
+        )}
+      </RehearsalStrip>
+      <div className="row">
+        {fields.map(({ name, label, unit, ...bounds }) => (
+          <StepField
+            key={name}
+            label={`${label} [${unit}]`}
+            value={view[name]}
+            {...bounds}
+            testId={`ruler-${name}`}
+            onValue={(value) => {
+              onView({ ...view, [name]: value });
+            }}
+          />
+        ))}
+      </div>
+      <p>{words.standing}</p>
+      <SegmentedControl
+        size="lg"
+        aria-label={words.standing}
+        value={view.standing}
+        data={[
+          { value: "feet", label: words.feet },
+          { value: "head", label: words.head },
+        ]}
+        onChange={(value) => {
+          onView({ ...view, standing: value === "head" ? "head" : "feet" });
+        }}
+      />
+      <p className="quiet">{words.said}</p>
+      {!done && (
+        <Button size="xl" onClick={onDone} data-testid="ruler-done">
+          {words.done}
+        </Button>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,38 @@
+import { useEffect, useRef, type ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { cssMatrix, times } from "./overlay";
+import type { Laid, OverlayDesk } from "./overlayDesk";
+
+interface SliceLayerProps {
+  desk: OverlayDesk;
+  slice: NonNullable<Laid["slice"]>;
+  vertebra: string;
+}
+
+/** The plan's picture of the reference slice, translucent over the live picture, where the server lays it. */
+export function SliceLayer({ desk, slice, vertebra }: SliceLayerProps): ReactNode {
+  const words = useWords().registration.needles;
+  const image = useRef<HTMLImageElement>(null);
+  useEffect(
+    () =>
+      desk.onPaint(() => {
+        const { newest, sinceAnswer } = desk;
+        const place = newest?.laid.slice;
+        if (image.current === null || newest === null || sinceAnswer === null || !place) return;
+        image.current.style.transform = cssMatrix(times(sinceAnswer, place.image_from_slice.flat()));
+        image.current.style.opacity = String(newest.hand.fade_ratio);
+      }),
+    [desk],
+  );
+  return (
+    <img
+      ref={image}
+      className="slice-layer"
+      data-testid="slice-layer"
+      src={`/api/plan/vertebrae/${encodeURIComponent(vertebra)}/reference.png`}
+      alt={words.sliceAlt}
+      draggable={false}
+      style={{ width: slice.width_px, height: slice.height_px }}
+    />
+  );
+}

@@ -1,0 +1,39 @@
+// Needles marked by hand: the end at the bone, then the head, one needle after the other.
+import type { Px } from "./overlay";
+
+export interface Mark {
+  entry_px: number[];
+  head_px: number[];
+}
+
+/** Which end of which needle. */
+export interface End {
+  needle: number;
+  end: "entry_px" | "head_px";
+}
+
+/** Marks while the last of them may have but its first end. */
+export type Marking = Partial<Mark> & { entry_px: number[] };
+
+/** The end that is asked for next; null when all needles have both. */
+export function nextEnd(marks: readonly Mark[], open: number[] | null, needles: number): End | null {
+  if (open !== null) return { needle: marks.length, end: "head_px" };
+  return marks.length < needles ? { needle: marks.length, end: "entry_px" } : null;
+}
+
+export function withEnd(marks: readonly Mark[], { needle, end }: End, at: Px): Mark[] {
+  return marks.map((mark, index) => (index === needle ? { ...mark, [end]: [...at] } : mark));
+}
+
+/** The end nearest to a touch, where one is near enough for a glove. */
+export function endNear(marks: readonly Mark[], [x, y]: Px, withinPx: number): End | null {
+  let [best, nearest]: [End | null, number] = [null, withinPx];
+  marks.forEach((mark, needle) => {
+    for (const end of ["entry_px", "head_px"] as const) {
+      const [endX = 0, endY = 0] = mark[end];
+      const far = Math.hypot(endX - x, endY - y);
+      if (far <= nearest) [best, nearest] = [{ needle, end }, far];
+    }
+  });
+  return best;
+}

@@ -1,0 +1,118 @@
+// The slice in the hand: moved, turned and scaled in pixels of the camera's image, as the server does it.
+// What lies between two of the server's answers is a similarity; each answer makes it exact again.
+
+export type Px = readonly [number, number];
+/** 3 rows of 3, one after the other. */
+export type Matrix = readonly number[];
+
+export interface Overlay {
+  shift_px: number[];
+  /** Clockwise in the image. */
+  turn_deg: number;
+  scale_px_per_mm: number;
+  fade_ratio: number;
+}
+
+export const LEAST_SCALE = 0.05;
+export const MOST_SCALE = 100;
+
+export function moved(overlay: Overlay, by: Px): Overlay {
+  const [x, y] = placeOf(overlay);
+  return { ...overlay, shift_px: [x + by[0], y + by[1]] };
+}
+
+export function turned(overlay: Overlay, byDeg: number, about: Px): Overlay {
+  const radians = (byDeg * Math.PI) / 180;
+  const [cosine, sine] = [Math.cos(radians), Math.sin(radians)];
+  const [x, y] = placeOf(overlay);
+  const [armX, armY] = [x - about[0], y - about[1]];
+  return {
+    ...overlay,
+    shift_px: [about[0] + cosine * armX - sine * armY, about[1] + sine * armX + cosine * armY],
+    turn_deg: wrapped(overlay.turn_deg + byDeg),
+  };
+}
+
+/** Held within what the server takes, with the place that belongs to the scale that it then has. */
+export function scaled(overlay: Overlay, byRatio: number, about: Px): Overlay {
+  const scale = clamp(overlay.scale_px_per_mm * byRatio, LEAST_SCALE, MOST_SCALE);
+  const ratio = scale / overlay.scale_px_per_mm;
+  const [x, y] = placeOf(overlay);
+  return {
+    ...overlay,
+    shift_px: [about[0] + ratio * (x - about[0]), about[1] + ratio * (y - about[1])],
+    scale_px_per_mm: scale,
+  };
+}
+
+export function faded(overlay: Overlay, toRatio: number): Overlay {
+  return { ...overlay, fade_ratio: clamp(toRatio, 0, 1) };
+}
+
+/** Two fingers: what was under them stays under them. */
+export function pinched(
+  overlay: Overlay,
+  { from, to, ratio, turnDeg }: { from: Px; to: Px; ratio: number; turnDeg: number },
+): Overlay {
+  const turnedThere = turned(scaled(overlay, ratio, from), turnDeg, from);
+  return moved(turnedThere, [to[0] - from[0], to[1] - from[1]]);
+}
+
+/** Takes what is drawn for one overlay to where another has it. */
+export function similarity(from: Overlay, to: Overlay): Matrix {
+  const ratio = to.scale_px_per_mm / from.scale_px_per_mm;
+  const radians = ((to.turn_deg - from.turn_deg) * Math.PI) / 180;
+  const [a, b] = [ratio * Math.cos(radians), ratio * Math.sin(radians)];
+  const [x, y] = placeOf(from);
+  const [toX, toY] = placeOf(to);
+  return [a, -b, toX - a * x + b * y, b, a, toY - b * x - a * y, 0, 0, 1];
+}
+
+export function times(left: Matrix, right: Matrix): Matrix {
+  return Array.from({ length: 9 }, (_, at) => {
+    const [row, column] = [3 * Math.floor(at / 3), at % 3];
+    return [0, 1, 2].reduce((sum, k) => sum + at3(left, row + k) * at3(right, 3 * k + column), 0);
+  });
+}
+
+export function applied(matrix: Matrix, [x, y]: Px): Px {
+  const [u, v, w] = [0, 3, 6].map(
+    (row) => at3(matrix, row) * x + at3(matrix, row + 1) * y + at3(matrix, row + 2),
+  ) as [number, number, number];
+  return [u / w, v / w];
+}
+
+/** For an element whose top-left corner is the origin: half a pixel lies between it and a pixel's centre. */
+export function cssMatrix(imageFromPicture: Matrix): string {
+  const [a, b, c, d, e, f, g, h, i] = times(
+    times([1, 0, 0.5, 0, 1, 0.5, 0, 0, 1], imageFromPicture),
+    [1, 0, -0.5, 0, 1, -0.5, 0, 0, 1],
+  );
+  return `matrix3d(${[a, d, 0, g, b, e, 0, h, 0, 0, 1, 0, c, f, 0, i].join(",")})`;
+}
+
+export function same(one: Overlay, other: Overlay): boolean {
+  return (
+    one.turn_deg === other.turn_deg &&
+    one.scale_px_per_mm === other.scale_px_per_mm &&
+    one.fade_ratio === other.fade_ratio &&
+    one.shift_px[0] === other.shift_px[0] &&
+    one.shift_px[1] === other.shift_px[1]
+  );
+}
+
+export function placeOf(overlay: Overlay): Px {
+  return [overlay.shift_px[0] ?? 0, overlay.shift_px[1] ?? 0];
+}
+
+function wrapped(degrees: number): number {
+  return ((((degrees + 180) % 360) + 360) % 360) - 180;
+}
+
+function clamp(value: number, least: number, most: number): number {
+  return Math.min(Math.max(value, least), most);
+}
+
+function at3(matrix: Matrix, index: number): number {
+  return matrix[index] ?? 0;
+}

@@ -1,0 +1,130 @@
+// The slice in the hand, and the newest word of the server about it: painted at once, asked after as fast as
+// the server answers, exact again with each answer.
+import { Refusal } from "../../../rest/client";
+import type { components } from "../../../schema";
+import { same, similarity, type Matrix, type Overlay } from "./overlay";
+
+export type Laid = components["schemas"]["LaidMessage"];
+
+export interface DeskState {
+  hand: Overlay | null;
+  laid: Laid | null;
+  refusal: Refusal | null;
+  /** What is drawn is what the server has, exactly. */
+  settled: boolean;
+  canUndo: boolean;
+}
+
+const MOST_UNDO = 50;
+
+export class OverlayDesk {
+  private hand: Overlay | null = null;
+  private laid: Laid | null = null;
+  private refusal: Refusal | null = null;
+  private before: Overlay[] = [];
+  private asking = false;
+  private stopped = false;
+  private readonly painters = new Set<() => void>();
+  private readonly readers = new Set<() => void>();
+  private told: DeskState = { hand: null, laid: null, refusal: null, settled: false, canUndo: false };
+
+  constructor(private readonly ask: (overlay: Overlay | null) => Promise<Laid>) {}
+
+  /** Called whenever something is to be drawn elsewhere, past React's state. */
+  onPaint(paint: () => void): () => void {
+    this.painters.add(paint);
+    paint();
+    return () => this.painters.delete(paint);
+  }
+
+  readonly subscribe = (reader: () => void): (() => void) => {
+    this.readers.add(reader);
+    return () => this.readers.delete(reader);
+  };
+
+  readonly state = (): DeskState => this.told;
+
+  /** Where the ruler has it. */
+  start(): void {
+    this.stopped = false;
+    if (this.laid === null) void this.askNow(true);
+  }
+
+  stop(): void {
+    this.stopped = true;
+  }
+
+  /** Remembers where the slice is, before a hand moves it. */
+  begin(): void {
+    if (this.hand === null) return;
+    this.before = [...this.before.slice(-MOST_UNDO), this.hand];
+  }
+
+  change(next: (hand: Overlay) => Overlay): void {
+    if (this.hand === null) return;
+    this.hand = next(this.hand);
+    this.paint();
+    void this.askNow(false);
+  }
+
+  /** A step that is begun and over at once. */
+  step(next: (hand: Overlay) => Overlay): void {
+    this.begin();
+    this.change(next);
+  }
+
+  undo(): void {
+    const last = this.before.pop();
+    if (last === undefined) return;
+    this.change(() => last);
+  }
+
+  /** Back to where the ruler has it; can be undone. */
+  reset(): void {
+    this.begin();
+    void this.askNow(true);
+  }
+
+  /** Takes what the server drew last to where the hand has it. */
+  get sinceAnswer(): Matrix | null {
+    return this.laid === null || this.hand === null ? null : similarity(this.laid.overlay, this.hand);
+  }
+
+  get newest(): { hand: Overlay; laid: Laid } | null {
+    return this.laid === null || this.hand === null ? null : { hand: this.hand, laid: this.laid };
+  }
+
+  private async askNow(fresh: boolean): Promise<void> {
+    if (this.asking && !fresh) return;
+    this.asking = true;
+    this.tell();
+    try {
+      const asked = fresh ? null : this.hand;
+      const laid = await this.ask(asked);
+      this.laid = laid;
+      this.refusal = null;
+      // What the hand did meanwhile goes on from there.
+      if (asked === null) this.hand = laid.overlay;
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      this.refusal = error;
+    } finally {
+      this.asking = false;
+    }
+    this.paint();
+    this.tell();
+    const behind = this.laid !== null && this.hand !== null && !same(this.laid.overlay, this.hand);
+    if (behind && this.refusal === null && !this.stopped) void this.askNow(false);
+  }
+
+  private paint(): void {
+    for (const paint of this.painters) paint();
+  }
+
+  private tell(): void {
+    const { hand, laid, refusal } = this;
+    const settled = hand !== null && laid !== null && refusal === null && same(laid.overlay, hand);
+    this.told = { hand, laid, refusal, settled, canUndo: this.before.length > 0 };
+    for (const reader of this.readers) reader();
+  }
+}

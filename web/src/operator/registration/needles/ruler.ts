@@ -1,0 +1,52 @@
+// What a ruler beside the table tells of the camera, and where it is remembered.
+import type { components } from "../../../schema";
+
+export type RuledView = components["schemas"]["ViewMessage"];
+
+export const FIRST_VIEW: RuledView = {
+  vertical_mm: 400,
+  horizontal_mm: 250,
+  azimuth_deg: 0,
+  standing: "feet",
+  ruler_sd_mm: 10,
+  azimuth_sd_deg: 5,
+  level_sd_deg: 3,
+  lying_sd_deg: 5,
+};
+
+/** What a ruler would say in the rehearsal, of the camera above and beside a vertebra that lies flat. */
+export function viewOfTruth(
+  cameraFromVertebra: readonly (readonly number[])[],
+  middleMm: readonly number[],
+): RuledView {
+  const at = (row: number, column: number): number => cameraFromVertebra[row]?.[column] ?? 0;
+  // The camera's centre in the vertebra's frame: -R^T t.
+  const centre = [0, 1, 2].map((axis) => [0, 1, 2].reduce((sum, row) => sum - at(row, axis) * at(row, 3), 0));
+  const [left, back, head] = centre.map((mm, axis) => mm - (middleMm[axis] ?? 0)) as [number, number, number];
+  return {
+    ...FIRST_VIEW,
+    vertical_mm: Math.round(back),
+    horizontal_mm: Math.round(Math.hypot(left, head)),
+    azimuth_deg: Math.round((Math.atan2(left, -head) * 180) / Math.PI),
+  };
+}
+
+const KEY = "coaxial-ruler";
+
+/** As it was last given on this tablet for this case; null where it never was. */
+export function remembered(caseId: string): RuledView | null {
+  try {
+    const kept: unknown = JSON.parse(localStorage.getItem(`${KEY} ${caseId}`) ?? "null");
+    return typeof kept === "object" && kept !== null ? { ...FIRST_VIEW, ...kept } : null;
+  } catch {
+    return null;
+  }
+}
+
+export function remember(caseId: string, view: RuledView): void {
+  try {
+    localStorage.setItem(`${KEY} ${caseId}`, JSON.stringify(view));
+  } catch {
+    // A browser that keeps nothing asks again.
+  }
+}

@@ -1,0 +1,75 @@
+import { useGesture } from "@use-gesture/react";
+import { useEffect, type RefObject } from "react";
+import { useImageSize } from "../useImageSize";
+import { moved, pinched, scaled, type Overlay, type Px } from "./overlay";
+import type { OverlayDesk } from "./overlayDesk";
+
+const WHEEL_PER_PX = 0.001;
+
+/** One finger moves the slice; two move, turn and scale it; a wheel scales it where it points. */
+export function useHandOnStage(
+  desk: OverlayDesk,
+  stage: RefObject<HTMLDivElement | null>,
+  enabled: boolean,
+): void {
+  const { widthPx } = useImageSize();
+  const pxAt = ([x, y]: Px): Px => {
+    const box = stage.current?.getBoundingClientRect();
+    if (!box) return [0, 0];
+    return [((x - box.left) / box.width) * widthPx, ((y - box.top) / box.width) * widthPx];
+  };
+  const perPx = (): number => widthPx / (stage.current?.clientWidth ?? widthPx);
+
+  useGesture(
+    {
+      onDrag: ({ first, delta: [x, y], pinching, cancel }) => {
+        if (pinching === true) {
+          cancel();
+          return;
+        }
+        if (first) desk.begin();
+        const ratio = perPx();
+        desk.change((hand) => moved(hand, [x * ratio, y * ratio]));
+      },
+      onPinch: ({ first, origin, movement: [ratio, turnDeg], memo }) => {
+        let begun = memo as { hand: Overlay; from: Px } | undefined;
+        if (first || begun === undefined) {
+          const { newest } = desk;
+          if (newest === null) return undefined;
+          desk.begin();
+          begun = { hand: newest.hand, from: pxAt(origin) };
+        }
+        const { hand, from } = begun;
+        desk.change(() => pinched(hand, { from, to: pxAt(origin), ratio, turnDeg }));
+        return begun;
+      },
+      onWheel: ({ event, delta: [, y], first, ctrlKey }) => {
+        // With the key held it comes as a pinch.
+        if (ctrlKey) return;
+        if (first) desk.begin();
+        const about = pxAt([event.clientX, event.clientY]);
+        desk.change((hand) => scaled(hand, Math.exp(-y * WHEEL_PER_PX), about));
+      },
+    },
+    {
+      target: stage,
+      enabled,
+      drag: { filterTaps: true, pointer: { touch: false } },
+      eventOptions: { passive: false },
+    },
+  );
+
+  // The page must not scroll under a hand that lays the slice.
+  useEffect(() => {
+    const element = stage.current;
+    if (element === null) return;
+    element.style.touchAction = enabled ? "none" : "manipulation";
+    const keep = (event: WheelEvent): void => {
+      if (enabled) event.preventDefault();
+    };
+    element.addEventListener("wheel", keep, { passive: false });
+    return () => {
+      element.removeEventListener("wheel", keep);
+    };
+  }, [stage, enabled]);
+}

@@ -1,0 +1,40 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import type { components } from "../../../schema";
+import { useWords } from "../../../words/WordsContext";
+
+export type Kind = components["schemas"]["NudgeKind"];
+export type Axis = components["schemas"]["NudgeAxis"];
+/** Each axis with its two ways, the one that the server counts as negative first. */
+const AXES: readonly Axis[] = ["left", "back", "head"];
+
+interface NudgePadProps {
+  kind: Kind;
+  disabled: boolean;
+  onNudge: (axis: Axis, way: 1 | -1) => void;
+}
+
+/** Six ways, in the patient's directions. */
+export function NudgePad({ kind, disabled, onNudge }: NudgePadProps): ReactNode {
+  const words = useWords().registration.nudges;
+  return (
+    <div className="nudge-pad" role="group" aria-label={words.pad}>
+      {AXES.flatMap((axis) =>
+        ([-1, 1] as const).map((way) => (
+          <Button
+            key={`${axis} ${way}`}
+            size="lg"
+            variant="default"
+            disabled={disabled}
+            data-testid={`nudge-${axis}-${way > 0 ? "plus" : "minus"}`}
+            onClick={() => {
+              onNudge(axis, way);
+            }}
+          >
+            {words[kind === "shift" ? "shiftTo" : "turnTo"][axis][way > 0 ? "plus" : "minus"]}
+          </Button>
+        )),
+      )}
+    </div>
+  );
+}

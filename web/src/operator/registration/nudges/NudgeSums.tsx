@@ -1,0 +1,38 @@
+import { Progress } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import type { components } from "../../../schema";
+import { useWords } from "../../../words/WordsContext";
+
+/** How far all nudges together lead, against what is allowed. */
+export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMessage"] }): ReactNode {
+  const words = useWords().registration.nudges;
+  const sums = [
+    { name: words.sumMm, value: nudges.shift_mm, most: nudges.most_mm, unit: "mm" },
+    { name: words.sumDeg, value: nudges.turn_deg, most: nudges.most_deg, unit: "°" },
+  ];
+  return (
+    <dl className="measures" data-testid="nudge-sums">
+      {sums.map(({ name, value, most, unit }) => (
+        <div className="measure" key={unit}>
+          <dt>
+            {name}
+            <Progress
+              size="lg"
+              value={most > 0 ? Math.min(100, (100 * value) / most) : 0}
+              aria-label={name}
+            />
+          </dt>
+          <dd>
+            <strong>
+              {shownNumber(value, 1)} <span className="unit">{unit}</span>
+            </strong>
+            <small>
+              {words.allowed} {shownNumber(most, 1)} {unit}
+            </small>
+          </dd>
+        </div>
+      ))}
+    </dl>
+  );
+}

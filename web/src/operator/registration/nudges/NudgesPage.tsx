@@ -1,0 +1,21 @@
+import type { ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { useProcedure } from "../../procedure";
+import { LiveStage } from "../LiveStage";
+import { NudgesWork } from "./NudgesWork";
+
+/** Small steps by hand, with the drawn vertebra in sight. */
+export function NudgesPage(): ReactNode {
+  const words = useWords().registration.nudges;
+  const step = useProcedure().data?.steps.find((one) => one.step === "register");
+  if (step === undefined) return null;
+  if (step.state !== "done") return <p className="warning">▲ {words.needsRegistration}</p>;
+  return (
+    <div className="work">
+      <LiveStage />
+      <div className="work-side">
+        <NudgesWork />
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,93 @@
+import { Button, SegmentedControl } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useAsked } from "../../../rest/useAsked";
+import { useDo } from "../../../rest/useDo";
+import { useWords } from "../../../words/WordsContext";
+import { useProcedure } from "../../procedure";
+import { Refused } from "../Refused";
+import { useMadeBy } from "../useMadeBy";
+import { NudgeLog } from "./NudgeLog";
+import { NudgePad, type Axis, type Kind } from "./NudgePad";
+import { NudgeSums } from "./NudgeSums";
+
+const STEPS = ["0.1", "0.5", "1"];
+
+/** One step at a time, the sum of all against its bound, and the last one taken back. */
+export function NudgesWork(): ReactNode {
+  const words = useWords().registration;
+  const procedure = useProcedure();
+  const madeBy = useMadeBy();
+  const asked = useAsked((signal) => answered(server.GET("/api/registration/nudges", { signal })));
+  const [kind, setKind] = useState<Kind>("shift");
+  const [step, setStep] = useState("0.5");
+  const doing = useDo();
+  const { data } = asked;
+
+  const run = (action: () => Promise<unknown>): void => {
+    void doing
+      .run(async () => {
+        await action();
+      })
+      .then(() => {
+        asked.again();
+        procedure.again();
+      });
+  };
+  const nudge = (axis: Axis, way: 1 | -1): void => {
+    run(() =>
+      answered(
+        server.POST("/api/registration/nudges", {
+          body: { made_by: madeBy, kind, axis, amount: way * Number(step) },
+        }),
+      ),
+    );
+  };
+  return (
+    <>
+      <section className="card">
+        <p className="warning">▲ {words.nudges.checkAgain}</p>
+        {data !== null && <NudgeSums nudges={data} />}
+        <div className="row">
+          <SegmentedControl
+            size="lg"
+            aria-label={words.nudges.kind}
+            value={kind}
+            onChange={(value) => {
+              setKind(value === "turn" ? "turn" : "shift");
+            }}
+            data={[
+              { value: "shift", label: words.nudges.shift },
+              { value: "turn", label: words.nudges.turn },
+            ]}
+          />
+          <SegmentedControl
+            size="lg"
+            aria-label={words.nudges.step}
+            value={step}
+            onChange={setStep}
+            data={STEPS.map((one) => ({ value: one, label: `${one} ${kind === "shift" ? "mm" : "°"}` }))}
+          />
+        </div>
+        <NudgePad kind={kind} disabled={doing.busy} onNudge={nudge} />
+        <Refused refusal={doing.refusal ?? asked.refusal} />
+        <Button
+          size="lg"
+          variant="default"
+          disabled={doing.busy || data === null || data.nudges.length === 0}
+          data-testid="nudge-undo"
+          onClick={() => {
+            run(() =>
+              answered(
+                server.DELETE("/api/registration/nudges/last", { params: { query: { made_by: madeBy } } }),
+              ),
+            );
+          }}
+        >
+          ↶ {words.nudges.undo}
+        </Button>
+      </section>
+      {data !== null && <NudgeLog nudges={data.nudges} />}
+    </>
+  );
+}

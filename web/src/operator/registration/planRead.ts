@@ -1,0 +1,43 @@
+// What these pages need of the plan, which the server tells as one large document.
+
+export interface PlannedLandmark {
+  name: string;
+  pointMm: number[];
+}
+
+export interface PlannedVertebra {
+  name: string;
+  sides: string[];
+  landmarks: PlannedLandmark[];
+  hasReference: boolean;
+}
+
+/** The vertebrae of a plan; what is not as expected is left out. */
+export function plannedVertebrae(plan: Record<string, unknown>): PlannedVertebra[] {
+  return recordsIn(plan["vertebrae"]).map((one) => ({
+    name: String(one["name"]),
+    sides: recordsIn(one["channels"]).map((channel) => String(channel["side"])),
+    landmarks: recordsIn(one["landmarks"]).map((landmark) => ({
+      name: String(landmark["name"]),
+      pointMm: numbersIn(landmark["point_lps_mm"]),
+    })),
+    hasReference: recordsIn(one["references"]).length > 0,
+  }));
+}
+
+/** The landmarks that a registration was fitted to: nothing can be checked on them. */
+export function usedLandmarks(madeFrom: Record<string, unknown>): string[] {
+  return recordsIn(madeFrom["points"])
+    .filter((one) => one["used"] === true)
+    .map((one) => String(one["landmark"]));
+}
+
+export function recordsIn(value: unknown): Record<string, unknown>[] {
+  return Array.isArray(value)
+    ? value.filter((one): one is Record<string, unknown> => typeof one === "object" && one !== null)
+    : [];
+}
+
+function numbersIn(value: unknown): number[] {
+  return Array.isArray(value) ? value.filter((one): one is number => typeof one === "number") : [];
+}

@@ -1,0 +1,73 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { CaptureProgress } from "../CaptureProgress";
+import { filled } from "../filled";
+import { ToolSeen } from "../ToolSeen";
+import type { Points } from "./PointsWork";
+
+interface CapturePanelProps {
+  points: Points;
+  wanted: string | null;
+  busy: boolean;
+  /** The landmark that was taken last. */
+  last: string | null;
+  onCapture: (landmark: string) => void;
+  onUndo: (landmark: string) => void;
+}
+
+/** The landmark that is asked for, and the one large button that takes it. */
+export function CapturePanel({
+  points,
+  wanted,
+  busy,
+  last,
+  onCapture,
+  onUndo,
+}: CapturePanelProps): ReactNode {
+  const words = useWords().registration;
+  const { capture, limits } = points;
+  const touched = points.landmarks.filter((one) => one.touched).length;
+  const looking = capture?.state === "looking";
+  const again = points.landmarks.some((one) => one.name === wanted && one.touched);
+  return (
+    <section className="card capture">
+      <p>
+        {filled(words.points.count, {
+          touched,
+          all: points.landmarks.length,
+          least: limits.least_points,
+        })}
+      </p>
+      <h3 data-testid="wanted">{wanted ?? words.points.enough}</h3>
+      <ToolSeen tool={points.tool} />
+      {capture !== null && <CaptureProgress capture={capture} mostSpreadMm={limits.most_spread_mm} />}
+      <div className="row">
+        <Button
+          size="xl"
+          className="grow"
+          disabled={wanted === null || looking}
+          loading={busy}
+          data-testid="capture"
+          onClick={() => {
+            if (wanted !== null) onCapture(wanted);
+          }}
+        >
+          {again ? words.points.captureAgain : words.points.capture}
+        </Button>
+        <Button
+          size="xl"
+          variant="default"
+          disabled={last === null || looking || busy}
+          data-testid="undo-last"
+          onClick={() => {
+            if (last !== null) onUndo(last);
+          }}
+        >
+          ↶ {words.points.undo}
+        </Button>
+      </div>
+      <p className="quiet">{words.points.hold}</p>
+    </section>
+  );
+}

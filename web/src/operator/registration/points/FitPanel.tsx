@@ -1,0 +1,63 @@
+import type { ReactNode } from "react";
+import { Refusal } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { Measure } from "../Measure";
+import { Refused } from "../Refused";
+import { useSides } from "../useSides";
+import type { Points } from "./PointsWork";
+
+/** How well the points fit together, what error that leaves at the entry points, and what is missing. */
+export function FitPanel({ points }: { points: Points }): ReactNode {
+  const words = useWords().registration;
+  const sideName = useSides();
+  const { limits, targets } = points;
+  const strays = points.landmarks.map((one) => one.left_out_mm).filter((mm) => mm !== null);
+  const sides = [...new Set(targets.map((one) => one.side))];
+  return (
+    <section className="card" aria-live="polite">
+      <dl className="measures">
+        <Measure
+          name={words.numbers.fre}
+          hint={words.numbers.freHint}
+          value={points.fre_rms_mm}
+          unit="mm"
+          most={limits.most_fre_mm}
+        />
+        {sides.map((side) => (
+          <Measure
+            key={side}
+            name={`${words.numbers.atEntry} ${sideName(side)}`}
+            hint={words.numbers.atEntryHint}
+            value={targets.find((one) => one.side === side && one.depth_mm === 0)?.stated_mm ?? null}
+            unit="mm"
+            most={limits.most_tre_mm}
+          />
+        ))}
+        {strays.length > 0 && (
+          <Measure
+            name={words.numbers.leftOut}
+            hint={words.numbers.leftOutHint}
+            value={Math.max(...strays)}
+            unit="mm"
+            most={limits.most_left_out_mm}
+          />
+        )}
+      </dl>
+      {points.remarks.map((remark) => (
+        <p className="warning" key={remark.code}>
+          ▲ {remark.message}. {remark.remedy}
+        </p>
+      ))}
+      <div data-testid="points-missing">
+        {points.missing.map((trouble) => (
+          <Refused key={trouble.code} refusal={new Refusal(trouble)} />
+        ))}
+      </div>
+      {points.missing.length === 0 && (
+        <p className="good" data-testid="points-pass">
+          ✓ {words.points.passes}
+        </p>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,82 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { useWords } from "../../../words/WordsContext";
+import type { Points } from "./PointsWork";
+
+interface LandmarkListProps {
+  points: Points;
+  wanted: string | null;
+  onPick: (landmark: string) => void;
+  onUse: (landmark: string, used: boolean) => void;
+  onForget: (landmark: string) => void;
+}
+
+/** Every landmark with its residual; a touch on one asks for it, or for it again. */
+export function LandmarkList({ points, wanted, onPick, onUse, onForget }: LandmarkListProps): ReactNode {
+  const words = useWords().registration.points;
+  const strays = new Set(points.missing.map((one) => String(one.context["landmark"] ?? "")));
+  return (
+    <ul className="landmarks" aria-label={words.landmarks}>
+      {points.landmarks.map((one) => (
+        <li
+          key={one.name}
+          data-touched={one.touched}
+          data-used={one.used}
+          data-strays={strays.has(one.name) || undefined}
+          data-testid={`landmark-${one.name}`}
+        >
+          <button
+            type="button"
+            className="landmark-name"
+            aria-pressed={one.name === wanted}
+            onClick={() => {
+              onPick(one.name);
+            }}
+          >
+            <span aria-hidden="true">{one.touched ? (one.used ? "✓" : "–") : "○"}</span>
+            <span>
+              {one.name}
+              <small>{said(one, words)}</small>
+            </span>
+          </button>
+          {one.touched && (
+            <span className="landmark-buttons">
+              <Button
+                size="md"
+                variant="default"
+                onClick={() => {
+                  onUse(one.name, !one.used);
+                }}
+              >
+                {one.used ? words.leaveOut : words.takeIn}
+              </Button>
+              <Button
+                size="md"
+                variant="default"
+                aria-label={`${words.forget}: ${one.name}`}
+                onClick={() => {
+                  onForget(one.name);
+                }}
+              >
+                ✕
+              </Button>
+            </span>
+          )}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function said(
+  one: Points["landmarks"][number],
+  words: { notTouched: string; residual: string; leftOutBy: string; noFit: string; notUsed: string },
+): string {
+  if (!one.touched) return words.notTouched;
+  const far =
+    one.residual_mm === null ? words.noFit : `${words.residual} ${shownNumber(one.residual_mm, 2)} mm`;
+  const others =
+    one.left_out_mm === null ? "" : ` · ${words.leftOutBy} ${shownNumber(one.left_out_mm, 2)} mm`;
+  return one.used ? `${far}${others}` : `${words.notUsed} · ${far}`;
+}

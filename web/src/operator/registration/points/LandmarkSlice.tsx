@@ -1,0 +1,58 @@
+import type { ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useAsked } from "../../../rest/useAsked";
+import { useWords } from "../../../words/WordsContext";
+import { pxInSlice } from "./sliceView";
+
+const PLANES = { axial: 2, sagittal: 0 } as const;
+const PIXEL_MM = 0.4;
+/** How much of the patient is shown around the landmark. */
+const SHOWN_MM = 90;
+
+interface LandmarkSliceProps {
+  plane: keyof typeof PLANES;
+  pointMm: readonly number[];
+}
+
+/** A slice of the CT through a landmark, with a ring where it lies. */
+export function LandmarkSlice({ plane, pointMm }: LandmarkSliceProps): ReactNode {
+  const words = useWords().registration.points;
+  const atMm = pointMm[PLANES[plane]] ?? 0;
+  const { data } = useAsked(
+    (signal) =>
+      answered(
+        server.GET("/api/ct/slices/{plane}", {
+          signal,
+          params: { path: { plane }, query: { at_mm: atMm, pixel_mm: PIXEL_MM } },
+        }),
+      ),
+    { key: `${plane} ${atMm}` },
+  );
+  if (data === null) return <div className="landmark-slice" />;
+  const [u, v] = pxInSlice(data.lps_from_px, pointMm);
+  const shownPx = SHOWN_MM / PIXEL_MM;
+  // In shares of the frame, which shows so many millimetres whatever its size on the screen.
+  const style = {
+    width: `${(100 * data.width_px) / shownPx}%`,
+    left: `${50 - (100 * (u + 0.5)) / shownPx}%`,
+    top: `${50 - (100 * (v + 0.5)) / shownPx}%`,
+  };
+  return (
+    <figure className="landmark-slice">
+      <img
+        src={`/api/ct/slices/${plane}.png?at_mm=${atMm}&pixel_mm=${PIXEL_MM}`}
+        alt={words.sliceAlt[plane]}
+        style={style}
+      />
+      <svg viewBox="-50 -50 100 100" aria-hidden="true">
+        <circle r="7" />
+        <path d="M-18 0H-9M9 0H18M0 -18V-9M0 9V18" />
+      </svg>
+      <span className="edge edge-left">{data.edges.left}</span>
+      <span className="edge edge-right">{data.edges.right}</span>
+      <span className="edge edge-top">{data.edges.top}</span>
+      <span className="edge edge-bottom">{data.edges.bottom}</span>
+      <figcaption>{words.slice[plane]}</figcaption>
+    </figure>
+  );
+}

@@ -1,0 +1,52 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useDo } from "../../../rest/useDo";
+import { useWords } from "../../../words/WordsContext";
+import { LiveStage } from "../LiveStage";
+import { Refused } from "../Refused";
+import { ToolChoice } from "../ToolChoice";
+import { ToolSeen } from "../ToolSeen";
+import { useTools } from "../useTools";
+
+/** Before the first landmark: what is to come, and with which tool. */
+export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
+  const words = useWords().registration;
+  const first = useTools()[0]?.name ?? "";
+  const [chosen, setChosen] = useState("");
+  const tool = chosen || first;
+  const beginning = useDo();
+  return (
+    <div className="work">
+      <LiveStage />
+      <div className="work-side">
+        <section className="card">
+          <h3>{words.points.before}</h3>
+          <ol className="steps">
+            {words.points.steps.map((step) => (
+              <li key={step}>{step}</li>
+            ))}
+          </ol>
+          <ToolChoice tool={tool} onTool={setChosen} />
+          <ToolSeen tool={tool} />
+          <Refused refusal={beginning.refusal} />
+          <Button
+            size="xl"
+            disabled={tool === ""}
+            loading={beginning.busy}
+            data-testid="points-begin"
+            onClick={() => {
+              void beginning
+                .run(async () => {
+                  await answered(server.POST("/api/registration/points", { body: { tool } }));
+                })
+                .then(onBegun);
+            }}
+          >
+            {words.points.begin}
+          </Button>
+        </section>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,24 @@
+import type { ReactNode } from "react";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { RehearsalStrip } from "../RehearsalStrip";
+import { TipRests } from "../TipRests";
+import { useRunning } from "../useRunning";
+import { PointsBegin } from "./PointsBegin";
+import { PointsWork } from "./PointsWork";
+
+/** Registration by points: the tip on landmarks of the plan. */
+export function PointsPage(): ReactNode {
+  const running = useRunning();
+  return (
+    <>
+      <RehearsalStrip scenes={["landmarks"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
+      <RefusalNote refusal={running.refusal} />
+      {running.data !== null &&
+        (running.data.points ? (
+          <PointsWork onOver={running.again} />
+        ) : (
+          <PointsBegin onBegun={running.again} />
+        ))}
+    </>
+  );
+}

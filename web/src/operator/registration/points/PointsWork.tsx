@@ -1,0 +1,132 @@
+import { useState, type ReactNode } from "react";
+import { useLocation } from "wouter";
+import { answered, server } from "../../../rest/client";
+import { useAsked } from "../../../rest/useAsked";
+import { useDo } from "../../../rest/useDo";
+import type { components } from "../../../schema";
+import { useWords } from "../../../words/WordsContext";
+import { useProcedure } from "../../procedure";
+import { LiveStage } from "../LiveStage";
+import { Refused } from "../Refused";
+import { SureButton } from "../SureButton";
+import { useMadeBy } from "../useMadeBy";
+import { CapturePanel } from "./CapturePanel";
+import { FitPanel } from "./FitPanel";
+import { LandmarkList } from "./LandmarkList";
+import { nextLandmark } from "./nextLandmark";
+import { WhereToTouch } from "./WhereToTouch";
+
+export type Points = components["schemas"]["PointsMessage"];
+const ASK_EVERY_MS = 250;
+
+/** The landmarks one after the other: captured, judged, left out, touched again, and at last kept. */
+export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
+  const words = useWords().registration;
+  const procedure = useProcedure();
+  const madeBy = useMadeBy();
+  const [, navigate] = useLocation();
+  const asked = useAsked((signal) => answered(server.GET("/api/registration/points", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const [picked, setPicked] = useState<string | null>(null);
+  const [order, setOrder] = useState<string[]>([]);
+  const doing = useDo();
+  const { data } = asked;
+  if (data === null) return <Refused refusal={asked.refusal} />;
+  const wanted = nextLandmark(data, picked);
+  const landmark = data.landmarks.find((one) => one.name === wanted) ?? null;
+
+  const run = (action: () => Promise<unknown>): void => {
+    void doing
+      .run(async () => {
+        await action();
+      })
+      .then(asked.again);
+  };
+  const forget = (name: string): void => {
+    setPicked(name);
+    setOrder((before) => before.filter((one) => one !== name));
+    run(() =>
+      answered(server.DELETE("/api/registration/points/captures", { params: { query: { landmark: name } } })),
+    );
+  };
+  const touched = data.landmarks.filter((one) => one.touched).map((one) => one.name);
+  const last = order.findLast((name) => touched.includes(name)) ?? touched.at(-1) ?? null;
+  return (
+    <div className="work">
+      <div className="work-main">
+        <LiveStage />
+        {landmark !== null && <WhereToTouch name={landmark.name} pointMm={landmark.point_lps_mm} />}
+      </div>
+      <div className="work-side">
+        <CapturePanel
+          points={data}
+          wanted={wanted}
+          busy={doing.busy}
+          last={last}
+          onUndo={forget}
+          onCapture={(name) => {
+            setPicked(null);
+            setOrder((before) => [...before.filter((one) => one !== name), name]);
+            run(() =>
+              answered(server.POST("/api/registration/points/captures", { body: { landmark: name } })),
+            );
+          }}
+        />
+        <Refused refusal={doing.refusal ?? asked.refusal} />
+        <LandmarkList
+          points={data}
+          wanted={wanted}
+          onPick={setPicked}
+          onForget={forget}
+          onUse={(name, used) => {
+            run(() =>
+              answered(server.PUT("/api/registration/points/use", { body: { landmark: name, used } })),
+            );
+          }}
+        />
+        <FitPanel points={data} />
+        <div className="row">
+          <SureButton
+            ask={
+              procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true
+            }
+            sure={words.replaceSure}
+            disabled={data.missing.length > 0}
+            busy={doing.busy}
+            testId="points-conclude"
+            onSure={() => {
+              void doing
+                .run(async () => {
+                  await answered(
+                    server.POST("/api/registration/points/conclusion", { body: { made_by: madeBy } }),
+                  );
+                })
+                .then((done) => {
+                  procedure.again();
+                  if (done) navigate("/operator/register");
+                });
+            }}
+          >
+            {words.points.conclude}
+          </SureButton>
+          <SureButton
+            ask
+            variant="default"
+            sure={words.throwAwaySure}
+            testId="points-end"
+            onSure={() => {
+              void doing
+                .run(async () => {
+                  await answered(server.DELETE("/api/registration/points"));
+                })
+                .then(onOver);
+            }}
+          >
+            {words.throwAway}
+          </SureButton>
+        </div>
+      </div>
+    </div>
+  );
+}

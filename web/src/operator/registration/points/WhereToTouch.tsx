@@ -1,0 +1,19 @@
+import type { ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { LandmarkSlice } from "./LandmarkSlice";
+
+interface WhereToTouchProps {
+  name: string;
+  pointMm: readonly number[];
+}
+
+/** Where the landmark lies on the CT, in two slices through it. */
+export function WhereToTouch({ name, pointMm }: WhereToTouchProps): ReactNode {
+  const words = useWords().registration.points;
+  return (
+    <section className="where" aria-label={`${words.where}: ${name}`} data-testid="where">
+      <LandmarkSlice plane="axial" pointMm={pointMm} />
+      <LandmarkSlice plane="sagittal" pointMm={pointMm} />
+    </section>
+  );
+}

@@ -1,0 +1,54 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useDo } from "../../../rest/useDo";
+import { useWords } from "../../../words/WordsContext";
+import { useProcedure } from "../../procedure";
+import { LiveStage } from "../LiveStage";
+import { Refused } from "../Refused";
+import { ToolChoice } from "../ToolChoice";
+import { ToolSeen } from "../ToolSeen";
+import { useTools } from "../useTools";
+
+/** Before the sweep: what it needs, and how the tip is led. */
+export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
+  const words = useWords().registration;
+  const procedure = useProcedure().data;
+  const first = useTools()[0]?.name ?? "";
+  const [chosen, setChosen] = useState("");
+  const tool = chosen || first;
+  const beginning = useDo();
+  const registered = procedure?.steps.some((one) => one.step === "register" && one.state === "done") === true;
+  return (
+    <div className="work">
+      <LiveStage />
+      <section className="card work-side">
+        <h3>{words.sweep.before}</h3>
+        <ol className="steps">
+          {words.sweep.steps.map((step) => (
+            <li key={step}>{step}</li>
+          ))}
+        </ol>
+        {!registered && <p className="warning">▲ {words.sweep.needsPoints}</p>}
+        <ToolChoice tool={tool} onTool={setChosen} />
+        <ToolSeen tool={tool} />
+        <Refused refusal={beginning.refusal} />
+        <Button
+          size="xl"
+          disabled={tool === "" || !registered}
+          loading={beginning.busy}
+          data-testid="sweep-begin"
+          onClick={() => {
+            void beginning
+              .run(async () => {
+                await answered(server.POST("/api/registration/sweep", { body: { tool } }));
+              })
+              .then(onBegun);
+          }}
+        >
+          {words.sweep.begin}
+        </Button>
+      </section>
+    </div>
+  );
+}

@@ -1,0 +1,19 @@
+import type { ReactNode } from "react";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { RehearsalStrip } from "../RehearsalStrip";
+import { useRunning } from "../useRunning";
+import { SweepBegin } from "./SweepBegin";
+import { SweepWork } from "./SweepWork";
+
+/** Registration refined by a sweep of the tip over bare bone. */
+export function SweepPage(): ReactNode {
+  const running = useRunning();
+  return (
+    <>
+      <RehearsalStrip scenes={["sweep"]} />
+      <RefusalNote refusal={running.refusal} />
+      {running.data !== null &&
+        (running.data.sweep ? <SweepWork onOver={running.again} /> : <SweepBegin onBegun={running.again} />)}
+    </>
+  );
+}

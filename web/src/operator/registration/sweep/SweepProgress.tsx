@@ -1,0 +1,39 @@
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import type { components } from "../../../schema";
+import { useWords } from "../../../words/WordsContext";
+
+/** How many places the tip was taken at, and how far they reach. */
+export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMessage"] }): ReactNode {
+  const words = useWords().registration.sweep;
+  const reach = sweep.reach_mm.map((mm) => shownNumber(mm, 0)).join(" × ");
+  return (
+    <dl className="measures" data-testid="sweep-progress" data-points={sweep.points}>
+      <div className="measure">
+        <dt>{sweep.taking ? `● ${words.taking}` : `■ ${words.lifted}`}</dt>
+        <dd>
+          <strong>
+            {sweep.points} <span className="unit">{words.points}</span>
+          </strong>
+        </dd>
+      </div>
+      <div className="measure">
+        <dt>
+          {words.reach}
+          <small>{words.reachHint}</small>
+        </dt>
+        <dd>
+          <strong>
+            {reach} <span className="unit">mm</span>
+          </strong>
+        </dd>
+      </div>
+      <div className="measure">
+        <dt>{words.unseen}</dt>
+        <dd>
+          <strong>{sweep.unseen}</strong>
+        </dd>
+      </div>
+    </dl>
+  );
+}
