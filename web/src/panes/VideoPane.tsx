@@ -1,4 +1,5 @@
 import { useEffect, useRef, type ReactNode } from "react";
+import { LineNote } from "../live/LineNote";
 import { useLive, usePainter } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
@@ -60,6 +61,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
       aside={
         <>
           <Moves />
+          <LineNote />
           {tools}
           <p className="stamp" data-testid="video-stamp" ref={stamp} />
         </>

@@ -1,5 +1,6 @@
 import { useRef, type ReactNode } from "react";
 import { ViewSwitch } from "../app/ViewSwitch";
+import { PictureSize } from "../live/PictureSize";
 import { DetailsPane } from "../panes/DetailsPane";
 import { MarkersPane } from "../panes/MarkersPane";
 import { useWords } from "../words/WordsContext";
@@ -20,7 +21,10 @@ export function MoreDetails(): ReactNode {
     >
       <summary data-testid="more">{words.more}</summary>
       <div className="more-sheet" tabIndex={0} role="region" aria-label={words.more}>
-        <ViewSwitch />
+        <div className="more-tools">
+          <ViewSwitch />
+          <PictureSize />
+        </div>
         <MarkersPane />
         <DetailsPane />
       </div>
