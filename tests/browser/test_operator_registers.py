@@ -18,7 +18,21 @@ pytestmark = pytest.mark.browser
 BY = {"made_by": "M. Ito"}
 SETTINGS = {
     **BUSY_MACHINE,
-    "rehearsal": {"seed": 3, "brings_setup": False, "reference": True, "scene": "landmarks", "skill": "good"},
+    "rehearsal": {
+        "seed": 3,
+        "brings_setup": False,
+        "reference": True,
+        "rate_hz": 8,
+        "scene": "landmarks",
+        "skill": "good",
+    },
+    # A busy machine brings images seldom; how still a tip must be held, others ask.
+    "registration": {
+        "capture_images": 3,
+        "capture_s": 0.4,
+        "most_capture_gap_s": 2.0,
+        "most_capture_sd_mm": 1.0,
+    },
     "reference": {"marker": "reference"},
 }
 LANDSCAPE, UPRIGHT = (1280, 800), (800, 1280)
