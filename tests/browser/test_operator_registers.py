@@ -29,7 +29,7 @@ SETTINGS = {
     # A busy machine brings images seldom; how still a tip must be held, others ask.
     "registration": {
         "capture_images": 3,
-        "capture_s": 0.4,
+        "capture_s": 0.8,
         "most_capture_gap_s": 2.0,
         "most_capture_sd_mm": 1.0,
     },
@@ -190,12 +190,12 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
     fingers(((0, 0), (60, -20)))
     dragged = overlay_of(page)
     moved = np.subtract(dragged["shift_px"], first["shift_px"])
-    np.testing.assert_allclose(moved, [60 * per_px, -20 * per_px], atol=6.0)
+    np.testing.assert_allclose(moved, [60 * per_px, -20 * per_px], atol=4 * per_px)
     assert dragged["turn_deg"] == first["turn_deg"]
 
     fingers(((-40, 0), (-80, 0)), ((40, 0), (80, 0)))
     pinched = overlay_of(page)
-    assert pinched["scale_px_per_mm"] / dragged["scale_px_per_mm"] == pytest.approx(2.0, rel=0.2)
+    assert pinched["scale_px_per_mm"] / dragged["scale_px_per_mm"] == pytest.approx(2.0, rel=0.3)
 
     fingers(((-60, 0), (-60, -30)), ((60, 0), (60, 30)))
     turned = overlay_of(page)
