@@ -173,7 +173,6 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
     page = tablet.page
     tablet.go("register/needles")
     tablet.tap("ruler-rehearsed")
-    tablet.picture("ruler")
     tablet.tap("ruler-done")
     state = page.get_by_test_id("overlay-state")
     expect(state).to_have_attribute("data-settled", "true")
