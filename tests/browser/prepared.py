@@ -1,4 +1,4 @@
-"""A case with camera, tool, CT and plan in a folder, before a server is started there: nothing to wait for."""
+"""A case with camera, tool, CT and plan in a folder, before a server is started there: nothing waits."""
 
 from pathlib import Path
 

@@ -18,7 +18,21 @@ pytestmark = pytest.mark.browser
 BY = {"made_by": "M. Ito"}
 SETTINGS = {
     **BUSY_MACHINE,
-    "rehearsal": {"seed": 3, "brings_setup": False, "reference": True, "scene": "landmarks", "skill": "good"},
+    "rehearsal": {
+        "seed": 3,
+        "brings_setup": False,
+        "reference": True,
+        "rate_hz": 8,
+        "scene": "landmarks",
+        "skill": "good",
+    },
+    # A busy machine brings images seldom; how still a tip must be held, others ask.
+    "registration": {
+        "capture_images": 3,
+        "capture_s": 0.8,
+        "most_capture_gap_s": 2.0,
+        "most_capture_sd_mm": 1.0,
+    },
     "reference": {"marker": "reference"},
 }
 LANDSCAPE, UPRIGHT = (1280, 800), (800, 1280)
@@ -159,7 +173,6 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
     page = tablet.page
     tablet.go("register/needles")
     tablet.tap("ruler-rehearsed")
-    tablet.picture("ruler")
     tablet.tap("ruler-done")
     state = page.get_by_test_id("overlay-state")
     expect(state).to_have_attribute("data-settled", "true")
@@ -176,12 +189,12 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
     fingers(((0, 0), (60, -20)))
     dragged = overlay_of(page)
     moved = np.subtract(dragged["shift_px"], first["shift_px"])
-    np.testing.assert_allclose(moved, [60 * per_px, -20 * per_px], atol=6.0)
+    np.testing.assert_allclose(moved, [60 * per_px, -20 * per_px], atol=4 * per_px)
     assert dragged["turn_deg"] == first["turn_deg"]
 
     fingers(((-40, 0), (-80, 0)), ((40, 0), (80, 0)))
     pinched = overlay_of(page)
-    assert pinched["scale_px_per_mm"] / dragged["scale_px_per_mm"] == pytest.approx(2.0, rel=0.2)
+    assert pinched["scale_px_per_mm"] / dragged["scale_px_per_mm"] == pytest.approx(2.0, rel=0.3)
 
     fingers(((-60, 0), (-60, -30)), ((60, 0), (60, 30)))
     turned = overlay_of(page)

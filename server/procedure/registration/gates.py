@@ -13,5 +13,6 @@ def capture_settings(gate: RegistrationConfig) -> CaptureSettings:
         least_images=gate.capture_images,
         least_s=gate.capture_s,
         most_s=PATIENCE * gate.capture_s,
+        most_gap_s=gate.most_capture_gap_s,
         most_sd_mm=gate.most_capture_sd_mm,
     )

@@ -6,6 +6,14 @@ import type { OverlayDesk } from "./overlayDesk";
 
 const WHEEL_PER_PX = 0.001;
 
+/** Where two fingers and the slice were when they began. */
+interface Pinch {
+  hand: Overlay;
+  from: Px;
+  apart: number;
+  turnDeg: number;
+}
+
 /** One finger moves the slice; two move, turn and scale it; a wheel scales it where it points. */
 export function useHandOnStage(
   desk: OverlayDesk,
@@ -31,16 +39,18 @@ export function useHandOnStage(
         const ratio = perPx();
         desk.change((hand) => moved(hand, [x * ratio, y * ratio]));
       },
-      onPinch: ({ first, origin, movement: [ratio, turnDeg], memo }) => {
-        let begun = memo as { hand: Overlay; from: Px } | undefined;
+      onPinch: ({ first, origin, da: [apart, turnDeg], memo }) => {
+        let begun = memo as Pinch | undefined;
         if (first || begun === undefined) {
           const { newest } = desk;
-          if (newest === null) return undefined;
+          if (newest === null || apart === 0) return undefined;
           desk.begin();
-          begun = { hand: newest.hand, from: pxAt(origin) };
+          begun = { hand: newest.hand, from: pxAt(origin), apart, turnDeg };
         }
         const { hand, from } = begun;
-        desk.change(() => pinched(hand, { from, to: pxAt(origin), ratio, turnDeg }));
+        const ratio = apart / begun.apart;
+        const by = turnDeg - begun.turnDeg;
+        desk.change(() => pinched(hand, { from, to: pxAt(origin), ratio, turnDeg: by }));
         return begun;
       },
       onWheel: ({ event, delta: [, y], first, ctrlKey }) => {

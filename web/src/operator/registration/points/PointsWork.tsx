@@ -74,17 +74,6 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
           }}
         />
         <Refused refusal={doing.refusal ?? asked.refusal} />
-        <LandmarkList
-          points={data}
-          wanted={wanted}
-          onPick={setPicked}
-          onForget={forget}
-          onUse={(name, used) => {
-            run(() =>
-              answered(server.PUT("/api/registration/points/use", { body: { landmark: name, used } })),
-            );
-          }}
-        />
         <FitPanel points={data} />
         <div className="row">
           <SureButton
@@ -126,6 +115,17 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
             {words.throwAway}
           </SureButton>
         </div>
+        <LandmarkList
+          points={data}
+          wanted={wanted}
+          onPick={setPicked}
+          onForget={forget}
+          onUse={(name, used) => {
+            run(() =>
+              answered(server.PUT("/api/registration/points/use", { body: { landmark: name, used } })),
+            );
+          }}
+        />
       </div>
     </div>
   );
