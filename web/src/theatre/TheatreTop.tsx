@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { SignedIn } from "../app/SignedIn";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
 import { Watching } from "../room/Watching";
@@ -14,6 +15,7 @@ export function TheatreTop(): ReactNode {
       <Watching />
       <LiveStatus />
       <div className="top-tools">
+        <SignedIn />
         <MoreDetails />
       </div>
     </header>

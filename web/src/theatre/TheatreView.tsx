@@ -7,7 +7,6 @@ import { BullseyePane } from "../panes/BullseyePane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
-import { Watching } from "../room/Watching";
 import { useWords } from "../words/WordsContext";
 import { TheatreTop } from "./TheatreTop";
 
@@ -19,7 +18,7 @@ export function TheatreView(): ReactNode {
       <a className="skip" href="#numbers">
         {words.skip}
       </a>
-      <TheatreTop watching={<Watching />} />
+      <TheatreTop />
       <AlarmBand />
       <ConfirmRestart />
       <AlertBand />
