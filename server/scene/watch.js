@@ -32,8 +32,7 @@
   document.hasFocus = () => true;
 
   // Without a graphics card the processor draws the scene, which then takes a whole core from the video and
-  // the tracker if it may. A dozen pictures a second are enough for it, and fewer where each one takes long:
-  // a fifth of the page's time is the scene's, the rest is the video's.
+  // the tracker if it may. A dozen pictures a second are enough for it.
   const drawnByProcessor = (() => {
     const gl = document.createElement("canvas").getContext("webgl");
     const names = gl && gl.getExtension("WEBGL_debug_renderer_info");
@@ -44,24 +43,19 @@
   })();
   if (drawnByProcessor) {
     const leastMs = 80;
-    const mostMs = 250;
-    const partOfTime = 5;
-    let gapMs = leastMs;
     const ownRequest = window.requestAnimationFrame.bind(window);
     let due = new Map();
     let handle = 0;
     let lastAt = -Infinity;
     const tick = (at) => {
-      if (at - lastAt < gapMs) {
+      if (at - lastAt < leastMs) {
         ownRequest(tick);
         return;
       }
       lastAt = at;
-      const called = due;
+      const now = due;
       due = new Map();
-      const beganAt = performance.now();
-      for (const callback of called.values()) callback(at);
-      gapMs = Math.min(mostMs, Math.max(leastMs, partOfTime * (performance.now() - beganAt)));
+      for (const callback of now.values()) callback(at);
     };
     window.requestAnimationFrame = (callback) => {
       if (due.size === 0) ownRequest(tick);

@@ -5,7 +5,9 @@ and then: its longest pause is measured beside, and allowed for. What was measur
 """
 
 import itertools
+import json
 import sys
+import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -91,6 +93,11 @@ def first_changes(page: Page, *, live: bool) -> dict[str, float]:
 def recorded(watched: Watched) -> Iterator[Page]:
     """A page that writes down, and is live, and is not loaded anew for the time of the block."""
     watched.page.add_init_script(RECORDER)
+    with urllib.request.urlopen(f"http://127.0.0.1:{watched.port}/api/dashboard", timeout=60) as answer:
+        told = json.load(answer)
+    # On a busy machine images are older than the usual limits, which is no matter of the server's absence.
+    told["limits"] |= {"pose_stale_after_ms": 700, "video_stale_after_ms": 700}
+    watched.page.route("**/api/dashboard", lambda route: route.fulfill(json=told))
     page = watched.open()
     all_live(page, live=True)
     page.evaluate("window.neverReloaded = true")
@@ -132,8 +139,6 @@ def judge(what: str, seen: Absence) -> None:
     )
     for pane in PANES:
         assert seen.said_ms[pane] <= SAID_WITHIN_MS + seen.pause_ms
-    # Numbers stay away while images are older than 150 ms, which on a busy machine is no matter of the line.
-    for pane in ("video", "scene"):
         assert seen.right_ms[pane] <= RIGHT_WITHIN_MS + seen.pause_ms
 
 
