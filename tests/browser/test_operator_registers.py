@@ -13,12 +13,7 @@ from tests.browser.prepared import prepared
 from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Watched
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.skip(
-        reason="not yet seen to pass from end to end: the pinch and the captures want a free machine"
-    ),
-]
+pytestmark = pytest.mark.browser
 
 BY = {"made_by": "M. Ito"}
 SETTINGS = {
@@ -111,6 +106,7 @@ def tablet(server: RealServer, browser: Browser) -> Iterator[Tablet]:
     assert watched.complaints == []
 
 
+@pytest.mark.skip(reason="not yet seen to pass from end to end: its captures want a machine that is free")
 def test_points_are_touched_checked_and_navigated_by(server: RealServer, tablet: Tablet) -> None:
     page = tablet.page
     tablet.go("register")
