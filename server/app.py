@@ -16,9 +16,11 @@ from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import DocumentedApi, documentation_router
 from server.api.errors import install_errors, refusals
+from server.api.gates import gates_router
 from server.api.health import health_router
 from server.api.jobs import jobs_router
 from server.api.live import live_router
+from server.api.markers import markers_router
 from server.api.metrics import Metrics, metrics_router
 from server.api.needles import needles_router
 from server.api.page import mount_page, page_addresses, page_folder
@@ -30,6 +32,7 @@ from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
 from server.api.session import session_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
+from server.api.supervision import ROOM_IN_WORDS, room_router, signatures_router
 from server.api.surface import surface_router
 from server.api.sweep import sweep_router
 from server.api.tools import tools_router
@@ -43,8 +46,13 @@ from server.procedure.shown_bone import ShownBone
 from server.scene import mount_scene
 from server.security import HostGuard, KnownHosts, PeopleDesk, SecurityHeaders, SessionGuard
 from server.store import CaseStore
+from server.stream.connection import cut_line
+from server.stream.fitting.pictures import Pictures
+from server.stream.fitting.texts import Texts
 from server.stream.mjpeg import Video
+from server.stream.view_socket import View
 from server.stream.viewers import Viewers
+from server.supervision import Holds, Lobby, SignatureDesk
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
@@ -84,9 +92,11 @@ class AppParts:
 def create_app(parts: AppParts) -> FastAPI:
     """The application, ready to be served."""
     hub, config, limits = parts.hub, parts.config, parts.config.limits
-    viewers = Viewers()
-    metrics = Metrics(hub=hub, viewers=viewers)
-    video = Video(hub=hub, viewers=viewers, stale_after_ms=limits.video_stale_after_ms)
+    viewers = Viewers(most=config.video.most_viewers)
+    pictures = Pictures(quality=config.video.jpeg_quality)
+    metrics = Metrics(hub=hub, viewers=viewers, pictures=pictures)
+    video = Video(hub=hub, viewers=viewers, pictures=pictures, stale_after_ms=limits.video_stale_after_ms)
+    view = View(hub=hub, viewers=viewers, pictures=pictures, texts=Texts())
 
     @contextlib.asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -100,11 +110,12 @@ def create_app(parts: AppParts) -> FastAPI:
             await app.state.scene.stop()
             counting.cancel()
             await asyncio.wait([counting])
+            pictures.close()
 
     app = DocumentedApi(
         title=PRODUCT,
         version=product_version(),
-        description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}",
+        description=f"{RESEARCH_SOFTWARE.capitalize()}.\n{SOCKETS_IN_WORDS}{ROOM_IN_WORDS}",
         openapi_url=OPENAPI_PATH,
         docs_url=None,
         redoc_url=None,
@@ -113,11 +124,13 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     install_errors(app)
     _add_guards(app, parts)
-    app.include_router(streams_router(camera_name=config.camera.name, video=video, hub=hub, viewers=viewers))
+    app.state.pictures = pictures
+    app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
     app.include_router(live_router(hub))
     _add_people(app, parts)
-    app.include_router(alarms_router(parts.alarms or AlarmDesk(config)))
+    _add_supervision(app, parts, viewers)
     app.include_router(dashboard_router(dashboard_message(config, scene_available=True)))
+    app.include_router(gates_router(config))
     app.include_router(health_router(hub, stale_after_ms=limits.video_stale_after_ms))
     app.include_router(metrics_router(metrics))
     app.include_router(rehearsal_router(parts.rehearsed, hub, config.camera))
@@ -129,6 +142,8 @@ def create_app(parts: AppParts) -> FastAPI:
         setup=parts.setup,
         surface=parts.surface,
         stale_after_ms=limits.scene_stale_after_ms,
+        most_viewers=config.video.most_viewers,
+        cut=cut_line,
     )
     if parts.store is not None:
         ShownBone(parts.store, app.state.scene.show_surface, own=parts.surface)
@@ -159,6 +174,23 @@ def _add_people(app: FastAPI, parts: AppParts) -> None:
     app.include_router(audit_router(None if parts.people is None else parts.people.audit))
 
 
+def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
+    """The doors to alarms, to the room of those who watch, and to what is co-signed in a case."""
+    desk = parts.alarms or AlarmDesk(parts.config)
+    holds, signatures = Holds(desk), None
+    if parts.steps is not None and parts.store is not None:
+        signatures = SignatureDesk(parts.store, parts.steps.procedure)
+        app.include_router(signatures_router(signatures))
+    lobby = Lobby(
+        hub=parts.hub,
+        holds=holds,
+        signatures=signatures,
+        fades_after_s=parts.config.supervision.drawings_fade_after_s,
+    )
+    app.include_router(alarms_router(desk, holds))
+    app.include_router(room_router(lobby, viewers))
+
+
 def _add_procedure(app: FastAPI, parts: AppParts) -> None:
     """The doors to cases, jobs and the steps, where there is a store."""
     if parts.store is not None:
@@ -167,10 +199,18 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(jobs_router(parts.jobs))
     if parts.steps is not None and parts.store is not None:
         app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))
-        app.include_router(plan_router(parts.steps.plan, parts.steps.opened_ct, parts.store.home))
-        app.include_router(procedure_router(parts.steps.procedure))
+        app.include_router(
+            plan_router(
+                parts.steps.plan,
+                parts.steps.opened_ct,
+                parts.store.home,
+                least_landmarks=parts.config.registration.least_points,
+            )
+        )
+        app.include_router(procedure_router(parts.steps.procedure, parts.steps.confirm))
         app.include_router(registration_router(parts.steps.registration))
         app.include_router(sweep_router(parts.steps.registration.sweep))
         app.include_router(needles_router(parts.steps.registration, parts.steps.opened_ct))

@@ -267,6 +267,23 @@ class VideoConfig(Section):
     """The picture that goes out."""
 
     jpeg_quality: Annotated[int, Field(ge=1, le=100)] = 80
+    most_viewers: Annotated[int, Field(ge=1, le=10_000)] = 64
+    """Who may watch at once, of pictures and numbers; as many again may watch the 3-D scene."""
+
+
+class CosignConfig(Section):
+    """What a second person signs. required: nobody navigates before; offered: it may be done."""
+
+    plan: Literal["required", "offered"] = "offered"
+    registration: Literal["required", "offered"] = "offered"
+
+
+class SupervisionConfig(Section):
+    """Those who look on from afar."""
+
+    cosign: CosignConfig = CosignConfig()
+    drawings_fade_after_s: Annotated[float, Field(ge=2.0, le=600.0)] = 20
+    """Counted from the image that was drawn on: patient and camera move."""
 
 
 class PlanConfig(Section):
@@ -299,5 +316,6 @@ class Config(Section):
     calibration: CalibrationConfig = CalibrationConfig()
     limits: LimitsConfig = LimitsConfig()
     alarms: AlarmsConfig = AlarmsConfig()
+    supervision: SupervisionConfig = SupervisionConfig()
     plan: PlanConfig = PlanConfig()
     video: VideoConfig = VideoConfig()

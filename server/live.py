@@ -99,7 +99,10 @@ class Instant:
         process: the tracking process.
         snapshot: what the newest image says; None before the first image, and from the moment on when
             capture or tracking is known to be dead (an old snapshot is not kept as if it were live).
-        jpeg: the same image with the overlay burned in; empty when there is no snapshot.
+        jpeg: the same image with the overlay burned in; empty when there is no snapshot, and when nobody has
+            watched in full size lately.
+        drawn: the picture in that JPEG, (h, w, 3) uint8 BGR, for other sizes and late comers. Never written
+            into.
         image: the same image as the camera gave it, (h, w, 3) uint8 BGR, for set-up; None when there is no
             snapshot. Never written into.
         server_ms: time of the server's own stages ("overlay", "encode") for this image.
@@ -111,9 +114,15 @@ class Instant:
     process: ProcessStatus
     snapshot: NavigationSnapshot | None = None
     jpeg: bytes = b""
+    drawn: npt.NDArray[np.uint8] | None = None
     image: npt.NDArray[np.uint8] | None = None
     server_ms: dict[str, float] = field(default_factory=dict)
     alarms: AlarmPicture = QUIET
+
+    @property
+    def has_picture(self) -> bool:
+        """Whether there is a picture to be shown, encoded yet or not."""
+        return bool(self.jpeg) or self.drawn is not None
 
 
 class LiveHub:

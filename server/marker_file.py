@@ -21,37 +21,6 @@ def load_marker_image(path: Path) -> npt.NDArray[np.uint8]:
         InvalidInput: MARKER_IMAGE_UNREADABLE, MARKER_IMAGE_TOO_SMALL, MARKER_IMAGE_NOT_SQUARE or
             MARKER_IMAGE_FLAT.
     """
-    image = _grey(path)
-    height, width = image.shape
-    context: dict[str, object] = {"file": str(path), "width_px": width, "height_px": height}
-    if min(width, height) < SMALLEST_SIDE_PX:
-        raise InvalidInput(
-            "MARKER_IMAGE_TOO_SMALL",
-            f"the marker picture {path} is {width}x{height} px, needed at least {SMALLEST_SIDE_PX} px a side",
-            REMEDY,
-            context,
-        )
-    if abs(width - height) > SQUARE_TOLERANCE_RATIO * max(width, height):
-        raise InvalidInput(
-            "MARKER_IMAGE_NOT_SQUARE",
-            f"the marker picture {path} is {width}x{height} px, its sides may differ by "
-            f"{SQUARE_TOLERANCE_RATIO:.0%} at most",
-            REMEDY,
-            context,
-        )
-    contrast = int(image.max()) - int(image.min())
-    if contrast < LEAST_CONTRAST_GREY:
-        raise InvalidInput(
-            "MARKER_IMAGE_FLAT",
-            f"the marker picture {path} spans {contrast} grey levels of 255, needed at least "
-            f"{LEAST_CONTRAST_GREY}",
-            REMEDY,
-            {**context, "contrast_grey": contrast},
-        )
-    return image
-
-
-def _grey(path: Path) -> npt.NDArray[np.uint8]:
     try:
         content = path.read_bytes()
     except OSError as error:
@@ -61,6 +30,47 @@ def _grey(path: Path) -> npt.NDArray[np.uint8]:
             REMEDY,
             {"file": str(path)},
         ) from error
+    return marker_image(content, named=str(path))
+
+
+def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
+    """The picture of a marker as grey (h, w), out of a file's bytes.
+
+    Raises:
+        InvalidInput: as `load_marker_image`; `named` is how the file is called there.
+    """
+    image = _grey(content, named)
+    height, width = image.shape
+    context: dict[str, object] = {"file": named, "width_px": width, "height_px": height}
+    if min(width, height) < SMALLEST_SIDE_PX:
+        raise InvalidInput(
+            "MARKER_IMAGE_TOO_SMALL",
+            f"the marker picture {named} is {width}x{height} px, needed at least "
+            f"{SMALLEST_SIDE_PX} px a side",
+            REMEDY,
+            context,
+        )
+    if abs(width - height) > SQUARE_TOLERANCE_RATIO * max(width, height):
+        raise InvalidInput(
+            "MARKER_IMAGE_NOT_SQUARE",
+            f"the marker picture {named} is {width}x{height} px, its sides may differ by "
+            f"{SQUARE_TOLERANCE_RATIO:.0%} at most",
+            REMEDY,
+            context,
+        )
+    contrast = int(image.max()) - int(image.min())
+    if contrast < LEAST_CONTRAST_GREY:
+        raise InvalidInput(
+            "MARKER_IMAGE_FLAT",
+            f"the marker picture {named} spans {contrast} grey levels of 255, needed at least "
+            f"{LEAST_CONTRAST_GREY}",
+            REMEDY,
+            {**context, "contrast_grey": contrast},
+        )
+    return image
+
+
+def _grey(content: bytes, named: str) -> npt.NDArray[np.uint8]:
     decoded = None
     if content:
         try:
@@ -70,8 +80,8 @@ def _grey(path: Path) -> npt.NDArray[np.uint8]:
     if decoded is None:
         raise InvalidInput(
             "MARKER_IMAGE_UNREADABLE",
-            f"the marker picture {path} ({len(content)} bytes) is no picture that can be decoded",
+            f"the marker picture {named} ({len(content)} bytes) is no picture that can be decoded",
             REMEDY,
-            {"file": str(path), "bytes": len(content)},
+            {"file": named, "bytes": len(content)},
         )
     return np.asarray(decoded, dtype=np.uint8)

@@ -19,3 +19,9 @@ def decoded(content: bytes, *, grey: bool = False) -> npt.NDArray[np.uint8] | No
         # It is empty, or says that it is larger than OpenCV reads at all.
         return None
     return None if picture is None else np.asarray(picture, dtype=np.uint8)
+
+
+def png_bytes(picture: npt.NDArray[np.uint8]) -> bytes:
+    """The picture (h, w) or (h, w, 3) BGR as a PNG file."""
+    _, content = cv2.imencode(".png", picture)
+    return content.tobytes()

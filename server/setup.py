@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,7 @@ from tracker.navigation.clearance import choose_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.pose import SteadySettings, ToolModel
-from tracker.registration import Method, Registration
+from tracker.registration import AnchoredTo, Method, Registration
 
 if TYPE_CHECKING:
     from tracker.plan import Surface
@@ -32,12 +33,37 @@ if TYPE_CHECKING:
 NOMINAL_FOCAL_BY_WIDTH = 1.2
 
 
+class Unconfirmed(StrEnum):
+    """Why nobody stands for a registration any more."""
+
+    SERVER_STARTED = "server_started"  # it was made, checked and confirmed before this run of the server
+    TRACKING_STARTED = "tracking_started"  # fixed to a camera that nobody watched for a while
+
+
+def unconfirmed(
+    registration: Registration, believed_from_s: float | None, *, tracked_from_s: float
+) -> Unconfirmed | None:
+    """Why a person has to confirm a registration before it is navigated by; None where nobody has to.
+
+    Args:
+        registration: of plan and patient.
+        believed_from_s: when a person last touched, checked or confirmed it, by the images' clock; None
+            where that was before this run of the server.
+        tracked_from_s: since when the tracking process runs: what it watches for, it has watched since then.
+    """
+    if believed_from_s is None:
+        return Unconfirmed.SERVER_STARTED
+    is_loose = registration.anchored_to is AnchoredTo.CAMERA
+    return Unconfirmed.TRACKING_STARTED if is_loose and believed_from_s < tracked_from_s else None
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CaseSetup:
     """What the open case knows of camera, tools and plan; the rest stays as the settings have it.
 
     Attributes:
         camera: calibrated in this case.
+        models: markers whose picture was sent into this case.
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
         registration: of that channel's vertebra.
@@ -45,15 +71,25 @@ class CaseSetup:
             clock that images are stamped with; None where that was before this server.
         guide: what is known of that pedicle besides its channel.
         withheld: why no number may be given yet, although all is known.
+        believed_from_s: see `unconfirmed`.
     """
 
     camera: CameraModel | None = None
+    models: tuple[MarkerModel, ...] = ()
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
     registration: Registration | None = None
     registered_from_s: float | None = None
     guide: Guide | None = None
     withheld: AbsentReason | None = None
+    believed_from_s: float | None = None
+
+    def tracked_from(self, tracked_from_s: float) -> "CaseSetup":
+        """The same for a tracking process that runs since then: it may not know what happened before."""
+        if self.registration is None or self.withheld is not None:
+            return self
+        why = unconfirmed(self.registration, self.believed_from_s, tracked_from_s=tracked_from_s)
+        return self if why is None else replace(self, withheld=AbsentReason.NOT_CONFIRMED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,11 +173,16 @@ class Preparation:
         """The same with what a case knows in the place of what the settings say.
 
         A channel of the case is not registered by whatever registered the one before: numbers against it wait
-        for a registration of their own. A tool whose marker is not looked for is left out.
+        for a registration of their own. A marker of the settings stays what it is; a tool whose marker is not
+        looked for is left out.
         """
-        markers = {model.name for model in self.models}
+        settled = {model.name for model in self.models}
+        models = (*self.models, *(model for model in case.models if model.name not in settled))
+        markers = {model.name for model in models}
         known = {name: tool for name, tool in case.tools.items() if tool.marker in markers}
-        changed = replace(self, camera=case.camera or self.camera, tools={**self.tools, **known})
+        changed = replace(
+            self, camera=case.camera or self.camera, models=models, tools={**self.tools, **known}
+        )
         if case.channel is None:
             return changed
         return replace(

@@ -8,9 +8,10 @@ from pydantic import Field, StringConstraints
 from server.alarms import AlarmDesk
 from server.alarms.sound import BURSTS, burst_wav
 from server.api.errors import refusals
-from server.security import acting
+from server.security import ANYBODY, acting, person_of
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.message import Message
+from server.supervision import Holds
 from tracker.navigation.alarms import AlarmPicture, Priority
 
 WAV = "audio/wav"
@@ -83,12 +84,12 @@ def sound_messages() -> list[SoundMessage]:
     ]
 
 
-def alarms_router(desk: AlarmDesk) -> APIRouter:
+def alarms_router(desk: AlarmDesk, holds: Holds) -> APIRouter:
     """Everything under `/api/alarms`."""
     router = APIRouter(prefix="/api/alarms", tags=["alarms"])
     _add_seeing(router, desk)
     _add_answering(router, desk)
-    _add_holding(router, desk)
+    _add_holding(router, desk, holds)
     return router
 
 
@@ -148,13 +149,18 @@ def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
         return _message(desk.screen_said(asked.screen, armed=asked.state == "armed"))
 
 
-def _add_holding(router: APIRouter, desk: AlarmDesk) -> None:
+def _add_holding(router: APIRouter, desk: AlarmDesk, holds: Holds) -> None:
     @router.post("/hold", responses=refusals(422, 503, 507))
-    def hold(asked: ByRequest, request: Request) -> AlarmsMessage:
+    def hold(request: Request, asked: ByRequest) -> AlarmsMessage:
         """Ask those in theatre to hold. It raises an alarm, and stops or changes nothing."""
-        return _logged(desk, desk.ask_hold(by=acting(request.scope, asked.by)))
+        return _logged(desk, holds.ask(person_of(request.scope), name=_typed(request, asked)))
 
-    @router.post("/release", responses=refusals(422, 503, 507))
-    def release(asked: ByRequest, request: Request) -> AlarmsMessage:
-        """Ask no more."""
-        return _logged(desk, desk.release_hold(by=acting(request.scope, asked.by)))
+    @router.post("/release", responses=refusals(409, 422, 503, 507))
+    def release(request: Request, asked: ByRequest) -> AlarmsMessage:
+        """Ask no more: who asked for themselves, the operator for everybody."""
+        return _logged(desk, holds.release(person_of(request.scope), name=_typed(request, asked)))
+
+
+def _typed(request: Request, asked: ByRequest) -> str:
+    """A name that was typed in counts only where nobody has to sign in."""
+    return asked.by or "" if person_of(request.scope) is ANYBODY else ""

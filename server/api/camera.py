@@ -9,6 +9,7 @@ from server.api.camera_messages import (
     AccuracyRequest,
     BoardFileRequest,
     CalibrationRequest,
+    CameraStepMessage,
     CollectionMessage,
     CollectionRequest,
     board_of,
@@ -20,8 +21,8 @@ from server.api.jobs import JobMessage, job_message
 from server.api.uploads import received
 from server.picture_file import decoded
 from server.printing import board_sheet, pdf_from_sheet, svg_from_sheet
-from server.procedure.camera import CameraStep
-from server.store import Current, Home
+from server.procedure.camera import ACCURACY, MAIN_CAMERA, CameraStep
+from server.store import Current, DocumentKind, Home
 from tracker.errors import InvalidInput
 
 LARGEST_IMAGE_BYTES = 64 * 2**20
@@ -31,6 +32,16 @@ IMAGE_TYPES: dict[str, dict[str, object]] = {"image/png": {}, "image/jpeg": {}}
 def camera_router(step: CameraStep, home: Home) -> APIRouter:
     """Everything under `/api/camera`."""
     router = APIRouter(prefix="/api/camera", tags=["camera"])
+
+    @router.get("", responses=refusals(503))
+    def camera() -> CameraStepMessage:
+        """What the open case has of the camera, and whether views are being collected."""
+        return CameraStepMessage(
+            collecting=step.is_collecting,
+            calibration=_newest(step, DocumentKind.CAMERA, MAIN_CAMERA),
+            accuracy=_newest(step, DocumentKind.CHECK, ACCURACY),
+        )
+
     _add_collection(router, step, home)
     _add_calibration(router, step)
 
@@ -111,6 +122,11 @@ def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
             content = await to_thread.run_sync(path.read_bytes)
         await to_thread.run_sync(lambda: collection.add(_picture(content, name[:100]), name=name[:100]))
         return collection_message(collection)
+
+
+def _newest(step: CameraStep, kind: DocumentKind, name: str) -> DocumentMessage | None:
+    found = step.newest(kind, name)
+    return None if found is None else document_message(*found)
 
 
 def _picture(content: bytes, name: str) -> npt.NDArray[np.uint8]:

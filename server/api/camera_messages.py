@@ -4,7 +4,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from server.api.case_messages import MadeBy
+from server.api.case_messages import DocumentMessage, MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, TroubleMessage, trouble_message
 from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
@@ -91,6 +91,17 @@ class CollectionMessage(Message):
     points_px: list[list[float]]
     """Where the board was seen in it."""
     trouble: TroubleMessage | None
+
+
+class CameraStepMessage(Message):
+    """How the camera's step stands in the open case."""
+
+    collecting: bool
+    """Whether views are held: see `/api/camera/collection`."""
+    calibration: DocumentMessage | None
+    """The newest, whether or not it holds; null where there is none."""
+    accuracy: DocumentMessage | None
+    """The newest check of the accuracy."""
 
 
 class BoardFileRequest(Message):

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
+import numpy.typing as npt
 from anyio import to_thread
 from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.responses import FileResponse
@@ -24,19 +25,30 @@ from server.api.pictures import (
     HU,
     PNG,
     PNG_ANSWER,
+    SLICE_ANSWER,
+    SLICE_PLACE,
     PixelMm,
     SizeMm,
     SlabMm,
     WindowHu,
     asked_point,
     asked_window,
-    picture,
+    placed_picture,
 )
 from server.api.uploads import received
 from server.procedure.ct import CtStep, OpenedCt, UploadUnknown
 from server.store import Current, Home
 from tracker.plan import Channel, Volume
-from tracker.plan.slices import Plane, Slice, across_channel, along_channel, patient_slice, reach_mm, shown
+from tracker.plan.slices import (
+    Plane,
+    Slice,
+    Window,
+    across_channel,
+    along_channel,
+    patient_slice,
+    reach_mm,
+    shown,
+)
 
 STATUS_OF[UploadUnknown] = 404
 LARGEST_CT_BYTES = 4 * 2**30
@@ -118,7 +130,7 @@ def _add_ct(router: APIRouter, opened: OpenedCt) -> None:
 
 def _add_slices(router: APIRouter, opened: OpenedCt) -> None:
     @router.get(
-        "/slices/{plane}.png", response_class=Response, responses={**PNG_ANSWER, **refusals(409, 422, 503)}
+        "/slices/{plane}.png", response_class=Response, responses={**SLICE_ANSWER, **refusals(409, 422, 503)}
     )
     def slice_picture(
         request: Request,
@@ -130,18 +142,18 @@ def _add_slices(router: APIRouter, opened: OpenedCt) -> None:
         slab_mm: SlabMm = 0.0,
         pixel_mm: PixelMm | None = None,
     ) -> Response:
-        """A slice as a picture; the middle one if no place is given.
+        """A slice as a picture, its place in the header; the middle one if no place is given.
 
         Left in the image is the patient's right (axial, coronal) or front (sagittal). The pixels are the
         scanner's own where they lie so, and need not be square; `pixel_mm` makes them.
         """
         grey = asked_window(window, level, preset)
         found = opened.current()
-        return picture(
-            request,
-            found.document.id,
-            lambda: shown(_slice(found.volume, plane, at_mm, slab_mm, pixel_mm)[0].hu, grey),
-        )
+
+        def draw() -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
+            return _drawn(*_slice(found.volume, plane, at_mm, slab_mm, pixel_mm), grey)
+
+        return placed_picture(request, found.document.id, draw)
 
     @router.get("/slices/{plane}", responses=refusals(409, 422, 503))
     def slice_place(
@@ -159,6 +171,11 @@ def _slice(
         low, high, step = reach_mm(volume, plane)
         at_mm = min(high, low + round((high - low) / 2.0 / step) * step)
     return patient_slice(volume, plane, at_mm, slab_mm=slab_mm, pixel_mm=pixel_mm), at_mm
+
+
+def _drawn(one: Slice, at_mm: float | None, grey: Window) -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
+    """The pixels of a slice, and the header that says where they lie."""
+    return shown(one.hu, grey), {SLICE_PLACE: slice_message(one, at_mm=at_mm).model_dump_json()}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -208,7 +225,9 @@ class Oblique:
 
 
 def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
-    @router.get("/oblique.png", response_class=Response, responses={**PNG_ANSWER, **refusals(409, 422, 503)})
+    @router.get(
+        "/oblique.png", response_class=Response, responses={**SLICE_ANSWER, **refusals(409, 422, 503)}
+    )
     def oblique_picture(
         request: Request,
         asked: Annotated[Oblique, Depends()],
@@ -224,7 +243,11 @@ def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
         grey = asked_window(window, level, preset)
         channel = asked.channel
         found = opened.current()
-        return picture(request, found.document.id, lambda: shown(asked.of(found.volume, channel).hu, grey))
+
+        def draw() -> tuple[npt.NDArray[np.uint8], dict[str, str]]:
+            return _drawn(asked.of(found.volume, channel), None, grey)
+
+        return placed_picture(request, found.document.id, draw)
 
     @router.get("/oblique", responses=refusals(409, 422, 503))
     def oblique_place(asked: Annotated[Oblique, Depends()]) -> SliceMessage:

@@ -13,7 +13,8 @@ from server.errors import CaptureError, SetupOrderError
 from server.jobs import JobUnknown
 from server.security import refusals as door
 from server.store import NotStored, OutOfDateError, StoreConflict, StoreError
-from server.stream.errors import CameraUnknown
+from server.stream.errors import CameraUnknown, TooManyViewers
+from server.stream.fitting.sizes import SizeUnknown
 from server.stream.messages import TroubleMessage
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
 
@@ -21,6 +22,8 @@ _log = structlog.get_logger(__name__)
 
 STATUS_OF: dict[type[NavigationError], int] = {
     CameraUnknown: 404,
+    TooManyViewers: 503,
+    SizeUnknown: 422,
     SetupOrderError: 409,
     CaptureError: 503,
     InvalidInput: 422,

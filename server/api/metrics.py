@@ -10,6 +10,8 @@ from prometheus_client.exposition import CONTENT_TYPE_PLAIN_0_0_4
 from prometheus_client.registry import Collector
 
 from server.live import Instant, LiveHub, ProcessState, SourceState
+from server.stream.fitting.pictures import Pictures
+from server.stream.fitting.sizes import Size
 from server.stream.viewers import ViewerKind, Viewers
 from tracker.pose import Seen
 
@@ -23,7 +25,7 @@ class Metrics:
     loses nothing. Stages and markers are counted once for each image that was followed.
     """
 
-    def __init__(self, *, hub: LiveHub, viewers: Viewers) -> None:
+    def __init__(self, *, hub: LiveHub, viewers: Viewers, pictures: Pictures) -> None:
         self.registry = CollectorRegistry()
         self._hub = hub
         self._captured_at_s: float | None = None
@@ -46,7 +48,7 @@ class Metrics:
             ["marker", "reason"],
             registry=self.registry,
         )
-        self.registry.register(_Now(hub, viewers))
+        self.registry.register(_Now(hub, viewers, pictures))
 
     async def follow(self) -> None:
         """Count instants for ever."""
@@ -74,12 +76,21 @@ class Metrics:
 class _Now(Collector):
     """What is read at the moment when it is asked for."""
 
-    def __init__(self, hub: LiveHub, viewers: Viewers) -> None:
+    def __init__(self, hub: LiveHub, viewers: Viewers, pictures: Pictures) -> None:
         self._hub = hub
         self._viewers = viewers
+        self._pictures = pictures
 
     def collect(self) -> Iterable[Metric]:
         yield from _viewer_metrics(self._viewers)
+        encoded = CounterMetricFamily(
+            "coaxial_pictures_encoded",
+            "Pictures encoded for those who watch, by size; full ones count where they were asked for late.",
+            labels=["size"],
+        )
+        for size in Size:
+            encoded.add_metric([size.value], self._pictures.encoded[size])
+        yield encoded
         instant = self._hub.newest
         if instant is not None:
             yield from _instant_metrics(instant, now_s=time.monotonic())

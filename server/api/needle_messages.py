@@ -11,9 +11,11 @@ from pydantic import Field, model_validator
 from server.api.case_messages import MadeBy
 from server.api.registration_messages import LandmarkName, VertebraName
 from server.procedure.registered import Value
+from server.procedure.registration.needle_picture import slice_in_image
 from server.procedure.registration.needle_records import LaidSlice, NeedleOrder, ProposedSlice
 from server.procedure.registration.needles import numbers_of
 from server.stream.messages import Message
+from tracker.plan import Volume
 from tracker.registration.needles import MeasuredView, NeedleSeen, SliceOverlay, Standing, clicked_needle
 
 Pixel: TypeAlias = Annotated[float, Field(ge=-20_000.0, le=20_000.0, allow_inf_nan=False)]
@@ -153,20 +155,33 @@ class DirectionMessage(Message):
     is_weak: bool
 
 
+class SlicePlaceMessage(Message):
+    """Where the plan's picture of the reference slice lies in the image."""
+
+    width_px: int
+    """Of that picture before it is enlarged: the CT's own pixels."""
+    height_px: int
+    image_from_slice: list[list[float]]
+    """3 rows of 3, a homography between pixels whose centres are whole numbers."""
+
+
 class LaidMessage(Message):
     """The slice over the image, and what the needles say."""
 
     vertebra: str
     image_number: int
     overlay: OverlayMessage
+    slice: SlicePlaceMessage | None
+    """Null where needles stand on landmarks, and where nothing but the fit was asked for."""
     needles: list[NeedleMessage]
     directions: list[DirectionMessage]
     """Empty where nothing was fitted."""
     numbers: dict[str, Value]
 
 
-def laid_message(laid: LaidSlice) -> LaidMessage:
-    """The slice over the image, as it is told."""
+def laid_message(laid: LaidSlice, volume: Volume | None = None) -> LaidMessage:
+    """The slice over the image, as it is told; with the CT, where its picture lies, too."""
+    lies = None if volume is None else slice_in_image(laid, volume)
     fit = laid.fit
     fitted = {} if fit is None else {one.name: one for one in fit.residuals}
     beside = {one.name: one for one in laid.residuals}
@@ -196,6 +211,9 @@ def laid_message(laid: LaidSlice) -> LaidMessage:
             scale_px_per_mm=laid.overlay.scale_px_per_mm,
             fade_ratio=laid.overlay.fade_ratio,
         ),
+        slice=None
+        if lies is None
+        else SlicePlaceMessage(width_px=lies[0][0], height_px=lies[0][1], image_from_slice=lies[1].tolist()),
         needles=needles,
         directions=[
             DirectionMessage(

@@ -61,7 +61,9 @@ def needles_router(steps: RegistrationSteps, opened: OpenedCt) -> APIRouter:
     def lay(asked: LaidRequest) -> LaidMessage:
         """Lay the slice over the newest image, and tell how marked needles lie beside its lines."""
         overlay = None if asked.overlay is None else asked.overlay.record
-        return laid_message(step.lay(scene_of(asked), overlay, [one.record for one in asked.marked]))
+        scene = scene_of(asked)
+        laid = step.lay(scene, overlay, [one.record for one in asked.marked])
+        return laid_message(laid, None if scene.reference is None else opened.current().volume)
 
     @router.post("/conclusion", status_code=201, responses=KEPT)
     def conclude(asked: NeedlesConclusion) -> DocumentMessage:

@@ -1,7 +1,7 @@
 """Pictures of the CT: what may be asked of them, and how a browser keeps them until the CT changes."""
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Annotated, TypeAlias
 
 import cv2
@@ -15,6 +15,20 @@ from tracker.plan.slices import WINDOWS, Window
 
 PNG = "image/png"
 PNG_ANSWER: dict[int | str, dict[str, object]] = {200: {"content": {PNG: {}}}}
+# Pixels and their place come in one answer, so that no page can lay one slice's numbers on another's picture.
+SLICE_PLACE = "Slice-Place"
+SLICE_ANSWER: dict[int | str, dict[str, object]] = {
+    200: {
+        "content": {PNG: {}},
+        "headers": {
+            SLICE_PLACE: {
+                "description": "A SliceMessage as JSON: where the pixels lie in the patient.",
+                "required": True,
+                "schema": {"type": "string"},
+            }
+        },
+    }
+}
 # Asked again each time, because the address stays when the CT is replaced.
 KEEP = "private, no-cache"
 HU: TypeAlias = Annotated[float, Query(ge=-40_000.0, le=40_000.0, allow_inf_nan=False)]
@@ -74,11 +88,21 @@ def picture(request: Request, made_from: str, draw: Callable[[], npt.NDArray[np.
         made_from: ids of the documents that it is drawn from.
         draw: gives it: (height, width) grey or (height, width, 3) BGR.
     """
+    return placed_picture(request, made_from, lambda: (draw(), {}))
+
+
+def placed_picture(
+    request: Request,
+    made_from: str,
+    draw: Callable[[], tuple[npt.NDArray[np.uint8], Mapping[str, str]]],
+) -> Response:
+    """The same with headers that say what was drawn; a browser that has the picture has them with it."""
     known_by = hashlib.sha256(f"{made_from} {request.url.path}?{request.url.query}".encode()).hexdigest()
     headers = {"ETag": f'"{known_by[:32]}"', "Cache-Control": KEEP}
     if headers["ETag"] in request.headers.get("if-none-match", ""):
         return Response(status_code=304, headers=headers)
-    encoded, content = cv2.imencode(".png", draw())
+    pixels, told = draw()
+    encoded, content = cv2.imencode(".png", pixels)
     if not encoded:
         raise RuntimeError("a picture could not be encoded")
-    return Response(content.tobytes(), media_type=PNG, headers=headers)
+    return Response(content.tobytes(), media_type=PNG, headers={**headers, **told})

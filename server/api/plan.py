@@ -44,10 +44,10 @@ By: TypeAlias = Annotated[MadeBy, Query(alias="made_by")]
 On: TypeAlias = Annotated[Version | None, Query(alias="expected_version")]
 
 
-def plan_router(step: PlanStep, opened: OpenedCt, home: Home) -> APIRouter:
+def plan_router(step: PlanStep, opened: OpenedCt, home: Home, *, least_landmarks: int) -> APIRouter:
     """Everything under `/api/plan`. Plain functions: they wait for the disk, in threads."""
     router = APIRouter(prefix="/api/plan", tags=["plan"])
-    _add_whole(router, step)
+    _add_whole(router, step, least_landmarks)
     _add_files(router, step, opened, home)
     _add_vertebrae(router, step)
     _add_pedicles(router, step)
@@ -58,7 +58,7 @@ def plan_router(step: PlanStep, opened: OpenedCt, home: Home) -> APIRouter:
     return router
 
 
-def _add_whole(router: APIRouter, step: PlanStep) -> None:
+def _add_whole(router: APIRouter, step: PlanStep, least_landmarks: int) -> None:
     @router.get("", responses=refusals(409, 503))
     def plan() -> PlanMessage:
         """The newest plan of the open case, and whether it still holds."""
@@ -74,9 +74,11 @@ def _add_whole(router: APIRouter, step: PlanStep) -> None:
 
     @router.get("/catalogue")
     def catalogue() -> CatalogueMessage:
-        """The screws of the settings."""
+        """The screws of the settings, and how many landmarks they want."""
         return CatalogueMessage(
-            diameters_mm=list(step.catalogue.diameters_mm), lengths_mm=list(step.catalogue.lengths_mm)
+            diameters_mm=list(step.catalogue.diameters_mm),
+            lengths_mm=list(step.catalogue.lengths_mm),
+            least_landmarks=least_landmarks,
         )
 
 

@@ -157,10 +157,12 @@ class ScrewProposalMessage(Message):
 
 
 class CatalogueMessage(Message):
-    """Which screws there are, every diameter in every length."""
+    """What the settings give for planning: every diameter of screw in every length."""
 
     diameters_mm: list[float]
     lengths_mm: list[float]
+    least_landmarks: int
+    """That a registration by touched points needs."""
 
 
 def plan_message(kept: KeptPlan) -> PlanMessage:

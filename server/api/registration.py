@@ -23,6 +23,7 @@ from server.api.registration_messages import (
     points_message,
     registration_message,
 )
+from server.config import RegistrationConfig
 from server.live import Trouble
 from server.procedure.registration import (
     CheckStep,
@@ -42,20 +43,20 @@ KEPT = refusals(409, 422, 503, 507)
 def registration_router(steps: RegistrationSteps) -> APIRouter:
     """Everything under `/api/registration`. Plain functions: they wait for the disk, in threads."""
     router = APIRouter(prefix="/api/registration", tags=["registration"])
-    _add_whole(router, steps.shelf)
+    _add_whole(router, steps.shelf, steps.points.gate)
     _add_points(router, steps.points)
     _add_check(router, steps.check)
     _add_nudges(router, steps.nudge)
     return router
 
 
-def _add_whole(router: APIRouter, shelf: RegistrationShelf) -> None:
+def _add_whole(router: APIRouter, shelf: RegistrationShelf, gate: RegistrationConfig) -> None:
     @router.get("", responses=refusals(409, 422, 503))
     def registration(
         vertebra: Annotated[VertebraName | None, Query()] = None,
     ) -> RegistrationMessage:
         """The newest registration of a vertebra, by default of the one that is to be drilled."""
-        return registration_message(shelf.newest(vertebra))
+        return registration_message(shelf.newest(vertebra), gate)
 
 
 def _add_points(router: APIRouter, step: PointsStep) -> None:
@@ -144,7 +145,7 @@ def _add_nudges(router: APIRouter, step: NudgeStep) -> None:
 
 def _points(step: PointsStep) -> PointsMessage:
     status = step.session.status
-    return points_message(status, [_told(error) for error in step.failures(status)])
+    return points_message(status, [_told(error) for error in step.failures(status)], step.gate)
 
 
 def _told(error: RegistrationError) -> TroubleMessage:

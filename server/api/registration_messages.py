@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from server.api.case_messages import HeadingMessage, MadeBy, heading_message
-from server.config import Name
+from server.config import Name, RegistrationConfig
 from server.procedure.registered import KeptCheck, KeptNudge, KeptRegistration, Value
 from server.procedure.registration import (
     CheckStatus,
@@ -142,6 +142,18 @@ class RemarkMessage(Message):
     remedy: str
 
 
+class PointLimitsMessage(Message):
+    """What points must reach."""
+
+    least_points: int
+    most_spread_mm: float
+    """Standard deviation of the tip held on a landmark, along its worst axis."""
+    most_fre_mm: float
+    most_left_out_mm: float
+    most_tre_mm: float
+    """Stated error (3-D RMS) at the entry points."""
+
+
 class PointsMessage(Message):
     """How far registration by points has come."""
 
@@ -154,6 +166,7 @@ class PointsMessage(Message):
     fre_rms_mm: float | None
     targets: list[TargetMessage]
     """Along every channel of the vertebra."""
+    limits: PointLimitsMessage
     remarks: list[RemarkMessage]
     missing: list[TroubleMessage]
     """What keeps it from being concluded; empty when it passes its gate."""
@@ -165,8 +178,21 @@ class CheckMessage(Message):
     vertebra: str
     tool: str
     capture: TouchMessage
+    most_mm: float
+    """How far the tip may be from where the plan has the landmark."""
+    most_spread_mm: float
+    """Standard deviation of the tip held on it, along its worst axis."""
     outcome: KeptCheck | None
     """What would be kept; null until the tip was captured."""
+
+
+class CheckRuleMessage(Message):
+    """What a check must reach, and how long it lasts."""
+
+    required: bool
+    most_mm: float
+    again_after_min: float
+    """From then on it is asked for again; navigation goes on."""
 
 
 class RegistrationMessage(Message):
@@ -183,9 +209,12 @@ class RegistrationMessage(Message):
     """6 rows of 6 [mm, rad], translation first."""
     numbers: dict[str, Value]
     made_from: dict[str, object]
+    check: CheckRuleMessage
 
 
-def points_message(status: PointsStatus, missing: list[TroubleMessage]) -> PointsMessage:
+def points_message(
+    status: PointsStatus, missing: list[TroubleMessage], gate: RegistrationConfig
+) -> PointsMessage:
     """The points so far, as they are told."""
     fit = status.fit
     off = residuals_mm(status)
@@ -223,6 +252,13 @@ def points_message(status: PointsStatus, missing: list[TroubleMessage]) -> Point
             )
             for error in target_errors(status.ground, fit)
         ],
+        limits=PointLimitsMessage(
+            least_points=gate.least_points,
+            most_spread_mm=gate.most_capture_sd_mm,
+            most_fre_mm=gate.most_fre_mm,
+            most_left_out_mm=gate.most_left_out_mm,
+            most_tre_mm=gate.most_tre_mm,
+        ),
         remarks=[] if fit is None else [remark_message(remark) for remark in fit.remarks],
         missing=missing,
     )
@@ -251,6 +287,8 @@ def check_message(status: CheckStatus) -> CheckMessage:
         vertebra=status.vertebra,
         tool=status.tool,
         capture=touch_message(status.capture),
+        most_mm=status.most_mm,
+        most_spread_mm=status.most_spread_mm,
         outcome=status.outcome,
     )
 
@@ -268,7 +306,7 @@ def nudges_message(status: NudgesStatus) -> NudgesMessage:
     )
 
 
-def registration_message(shelved: ShelvedRegistration) -> RegistrationMessage:
+def registration_message(shelved: ShelvedRegistration, gate: RegistrationConfig) -> RegistrationMessage:
     """A registration, as it is told."""
     kept: KeptRegistration = shelved.kept
     return RegistrationMessage(
@@ -281,4 +319,9 @@ def registration_message(shelved: ShelvedRegistration) -> RegistrationMessage:
         covariance=[list(row) for row in kept.covariance],
         numbers=dict(kept.numbers),
         made_from=dict(kept.made_from),
+        check=CheckRuleMessage(
+            required=gate.check_required,
+            most_mm=gate.most_check_mm,
+            again_after_min=gate.check_again_after_min,
+        ),
     )

@@ -4,29 +4,33 @@ from fastapi import APIRouter, WebSocket
 from starlette.responses import Response
 
 from server.api.errors import refusals
-from server.live import LiveHub
-from server.stream.errors import CameraUnknown
+from server.stream.errors import CameraUnknown, TooManyViewers
+from server.stream.fitting.sizes import Choice, choice_from_text
 from server.stream.live_socket import watch_live
 from server.stream.mjpeg import Video
-from server.stream.view_socket import watch_view
-from server.stream.viewers import Viewers
+from server.stream.socket import REFUSED, TRY_LATER
+from server.stream.view_socket import View, watch_view
+from tracker.errors import NavigationError
 
-UNKNOWN_CAMERA = 1008
+LONGEST_REASON = 120
 
 SOCKETS_IN_WORDS = """
 `WS /ws/live`: one `LiveMessage` as JSON text for each instant, the newest at once. A slow client skips
 instants (gaps in `sequence`); one that takes nothing for 2 s is cut off. The client sends nothing.
 
-`WS /ws/view?camera=main`: the client sends `{"next": true}` and gets one binary message: 4 bytes length of
-the header (unsigned, little endian), the header (a `LiveMessage` as JSON), and the JPEG of that same instant,
-empty when there is no image. Then it may ask again: one image is on the way at a time.
+`WS /ws/view?camera=main&size=auto`: the client sends `{"next": true}` and gets one binary message: 4 bytes
+length of the header (unsigned, little endian), the header (a `LiveMessage` as JSON), and the JPEG of that
+same instant, empty when there is no image. Then it may ask again: one image is on the way at a time. The
+size is full, half or quarter, or auto for the one that the line carries; `{"size": "half"}` changes it while
+the line stands, and `shown_scale_ratio` in the header says in which one the picture came.
 
 Both are open to pages of this server and to programs that send no Origin. A client that sends anything else
-is closed with code 1008 or 1009 and the reason in words.
+is closed with code 1008 or 1009 and the reason in words; one that is too many (`video.most_viewers`), with
+1013.
 """
 
 
-def streams_router(*, camera_name: str, video: Video, hub: LiveHub, viewers: Viewers) -> APIRouter:
+def streams_router(*, camera_name: str, video: Video, view: View) -> APIRouter:
     """`GET /video/{camera}.mjpg`, `WS /ws/live` and `WS /ws/view`."""
     router = APIRouter(tags=["streams"])
 
@@ -38,32 +42,49 @@ def streams_router(*, camera_name: str, video: Video, hub: LiveHub, viewers: Vie
                 "content": {"multipart/x-mixed-replace": {}},
                 "description": "JPEG after JPEG, without end.",
             },
-            **refusals(404, 422),
+            **refusals(404, 422, 503),
         },
     )
-    async def video_of(camera: str) -> Response:
+    async def video_of(camera: str, size: Choice = Choice.AUTO) -> Response:
         """The camera's picture with the overlay burned in, as MJPEG.
 
-        Always the newest image; a slow viewer gets fewer. When there is none, or it is too old, a picture
+        Always the newest image; a slow viewer gets fewer, and with `size=auto` smaller ones. When
+        there is none, or it is too old, a picture
         that says NO VIDEO with the reason and the time, once a second. Each JPEG has a comment with
-        `image_number` (null for that picture), `captured_at_s` (monotonic clock of the server) and `age_ms`
-        (at sending) as JSON.
+        `image_number` (null for that picture), `captured_at_s` (monotonic clock of the server), `age_ms`
+        (at sending) and `shown_scale_ratio` (1, 0.5 or 0.25) as JSON.
         """
         if camera != camera_name:
             raise CameraUnknown(camera, [camera_name])
-        return video.response()
+        return video.response(size)
 
     @router.websocket("/ws/live")
     async def live(websocket: WebSocket) -> None:
-        await watch_live(websocket, hub=hub, viewers=viewers)
+        try:
+            view.viewers.make_room()
+        except TooManyViewers as error:
+            await _refuse(websocket, error)
+            return
+        await watch_live(websocket, hub=view.hub, viewers=view.viewers, texts=view.texts)
 
     @router.websocket("/ws/view")
-    async def view(websocket: WebSocket) -> None:
+    async def watched(websocket: WebSocket) -> None:
         asked = websocket.query_params.get("camera", camera_name)
-        if asked != camera_name:
-            await websocket.accept()
-            await websocket.close(UNKNOWN_CAMERA, CameraUnknown(asked, [camera_name]).message[:120])
+        try:
+            if asked != camera_name:
+                raise CameraUnknown(asked, [camera_name])
+            choice = choice_from_text(websocket.query_params.get("size", Choice.AUTO))
+            view.viewers.make_room()
+        except NavigationError as error:
+            await _refuse(websocket, error)
             return
-        await watch_view(websocket, hub=hub, viewers=viewers)
+        await watch_view(websocket, view, choice=choice)
 
     return router
+
+
+async def _refuse(websocket: WebSocket, error: NavigationError) -> None:
+    """Say why, which a browser shows to no page before the socket is accepted."""
+    await websocket.accept()
+    code = TRY_LATER if isinstance(error, TooManyViewers) else REFUSED
+    await websocket.close(code, error.message[:LONGEST_REASON])

@@ -9,7 +9,7 @@ from server.api.case_messages import DocumentMessage, MadeBy, document_message
 from server.api.errors import refusals
 from server.config import Name, Point
 from server.live import Trouble
-from server.procedure.tool import ToolStep
+from server.procedure.tool import KnownTool, ToolStep
 from server.procedure.tool_collection import GatheringStatus
 from server.store import Current
 from server.stream.messages import Message, TroubleMessage, trouble_message
@@ -25,6 +25,29 @@ class GatheringRequest(Message):
     purpose: Purpose
     marker: Name | None = None
     """That it carries; left out where the case or the settings know it, or where there is but one."""
+
+
+class KnownToolMessage(Message):
+    """A tool that the settings describe or that the open case keeps."""
+
+    name: str
+    of_settings: bool
+    """Whether the settings describe it; what the case keeps counts before them."""
+    marker: str | None
+    radius_mm: float | None
+    length_mm: float | None
+    kept: DocumentMessage | None
+    """Its newest calibration in the open case, whether or not it holds."""
+    check: DocumentMessage | None
+    """The newest check of its tip."""
+
+
+class KnownToolsMessage(Message):
+    """All tools, by name."""
+
+    collecting: bool
+    """Whether poses of one are gathered: see `/api/tools/collection`."""
+    tools: list[KnownToolMessage]
 
 
 class MissingMessage(Message):
@@ -88,6 +111,13 @@ def tools_router(step: ToolStep) -> APIRouter:
     """Everything under `/api/tools`."""
     router = APIRouter(prefix="/api/tools", tags=["tools"])
 
+    @router.get("", responses=refusals(503))
+    def tools() -> KnownToolsMessage:
+        """The tools that are known, with their newest calibrations."""
+        return KnownToolsMessage(
+            collecting=step.is_collecting, tools=[_known(one, step) for one in step.all()]
+        )
+
     @router.post("/collection", status_code=201, responses=refusals(409, 422, 503))
     def begin(asked: GatheringRequest) -> GatheringMessage:
         """Gather poses of a tool from the live images: to pivot it, to spin it, or to check its tip.
@@ -119,6 +149,19 @@ def tools_router(step: ToolStep) -> APIRouter:
         return document_message(document, Current())
 
     return router
+
+
+def _known(tool: KnownTool, step: ToolStep) -> KnownToolMessage:
+    settled, document = tool.settled, tool.document
+    return KnownToolMessage(
+        name=tool.name,
+        of_settings=settled is not None,
+        marker=None if settled is None else settled.marker,
+        radius_mm=None if settled is None else settled.radius_mm,
+        length_mm=None if settled is None else settled.length_mm,
+        kept=None if document is None else document_message(document, step.standing(document)),
+        check=None if tool.check is None else document_message(tool.check, step.standing(tool.check)),
+    )
 
 
 def _message(status: GatheringStatus) -> GatheringMessage:

@@ -5,7 +5,6 @@ import socket
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
-from functools import partial
 from typing import TYPE_CHECKING
 
 import structlog
@@ -71,7 +70,7 @@ def _serve(
         from server.app import AppParts, create_app  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.loop.publisher import Picture  # noqa: PLC0415
-        from server.overlay import draw_overlay, encode_jpeg  # noqa: PLC0415
+        from server.overlay import draw_overlay  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
         alarm_log = StoredAlarmLog(kept.store)
@@ -83,9 +82,10 @@ def _serve(
             store=kept.store,
             jobs=kept.jobs,
             config=config,
-            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            markers=preparation.models,
             adopt=tracked.adopt,
             know=alarms.know,
+            tracked_from_s=lambda: tracked.tracks_from_s,
         )
         app = create_app(
             AppParts(
@@ -101,7 +101,8 @@ def _serve(
                 rehearsed=_rehearsed(config, preparation, tracked),
             )
         )
-        picture = Picture(draw=draw_overlay, encode=partial(encode_jpeg, quality=config.video.jpeg_quality))
+        pictures = app.state.pictures
+        picture = Picture(draw=draw_overlay, encode=pictures.encode, wanted=pictures.wants_full)
         tracked.publish(picture, look=alarms.look)
         serve_until(app, listener, stopping, on_ready=lambda: _greet(listener, door.words), tls=door.tls)
 

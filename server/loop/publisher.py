@@ -40,10 +40,12 @@ class Picture:
     Attributes:
         draw: a new image with the overlay of a snapshot and of its alarms.
         encode: JPEG of an image.
+        wanted: whether anybody watches that JPEG; without one, it is not made.
     """
 
     draw: Callable[[Image, NavigationSnapshot, AlarmPicture], Image]
     encode: Callable[[Image], bytes]
+    wanted: Callable[[], bool] = lambda: True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,6 +55,7 @@ class Shown:
     snapshot: NavigationSnapshot | None = None
     image: Image | None = None
     jpeg: bytes = b""
+    drawn: Image | None = None
     server_ms: dict[str, float] = field(default_factory=dict)
 
 
@@ -174,6 +177,7 @@ class Publisher:
             process=self._status(process),
             snapshot=shown.snapshot,
             jpeg=shown.jpeg,
+            drawn=shown.drawn,
             image=shown.image,
             server_ms=shown.server_ms,
             alarms=self._alarms,
@@ -189,13 +193,15 @@ class Publisher:
         try:
             drawn = self._picture.draw(image, snapshot, self._alarms)
             drawn_s = time.monotonic()
-            jpeg = self._picture.encode(drawn)
+            jpeg = self._picture.encode(drawn) if self._picture.wanted() else b""
         except Exception as error:  # noqa: BLE001  told once below, and shown on the page
             self._tell_failed(error, code="OVERLAY_FAILED", what="the overlay cannot be drawn")
             return Shown()
         done_s = time.monotonic()
-        server_ms = {"overlay": (drawn_s - started_s) * 1e3, "encode": (done_s - drawn_s) * 1e3}
-        return Shown(snapshot=snapshot, image=image, jpeg=jpeg, server_ms=server_ms)
+        server_ms = {"overlay": (drawn_s - started_s) * 1e3}
+        if jpeg:
+            server_ms["encode"] = (done_s - drawn_s) * 1e3
+        return Shown(snapshot=snapshot, image=image, jpeg=jpeg, drawn=drawn, server_ms=server_ms)
 
     def _tell_failed(self, error: Exception, *, code: str, what: str, remedy: str = "") -> None:
         sentence = f"{type(error).__name__}: {error}"

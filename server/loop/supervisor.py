@@ -5,6 +5,7 @@ untouched screen in theatre has to come back by itself.
 """
 
 import contextlib
+import math
 import multiprocessing
 import signal
 import threading
@@ -76,6 +77,7 @@ class Supervisor:
         self._pid: int | None = None
         self._orders_lock = threading.Lock()
         self._orders: Connection | None = None
+        self._tracks_from_s = -math.inf
         self._thread = threading.Thread(target=self._run, name="supervisor", daemon=True)
 
     @property
@@ -88,11 +90,17 @@ class Supervisor:
         forking_context()
         self._thread.start()
 
+    @property
+    def tracks_from_s(self) -> float:
+        """Since when this tracking process runs, monotonic: it saw nothing before; -inf at first."""
+        with self._orders_lock:
+            return self._tracks_from_s
+
     def adopt(self, case: CaseSetup) -> None:
         """Have the tracking process, and every later one, work with what this case knows. From any thread."""
         with self._orders_lock:
             self._order = replace(self._order, case=case)
-            self._tell(case)
+            self._tell(case.tracked_from(self._tracks_from_s))
 
     def play(self, scene: SceneOrder) -> None:
         """Have the tracking process, and every later one, rehearse this scene. From any thread."""
@@ -131,6 +139,7 @@ class Supervisor:
         heard, orders = self._context.Pipe(duplex=False)
         link = WorkerLink(ring=ring, notice=self._board.notice, orders=heard)
         with self._orders_lock:
+            self._tracks_from_s = time.monotonic()
             order, self._orders = self._next_order(), orders
         process = self._context.Process(target=self._target, args=(order, link), name="tracking", daemon=True)
         started_s = time.monotonic()
@@ -191,7 +200,11 @@ class Supervisor:
         if scene is not None and begun is not None and begun.scene_number == scene.number:
             scene = replace(scene, first_number=begun.first_number)
         return replace(
-            self._order, first_number=source.images, skipped_before=source.skipped_images, scene=scene
+            self._order,
+            case=self._order.case.tracked_from(self._tracks_from_s),
+            first_number=source.images,
+            skipped_before=source.skipped_images,
+            scene=scene,
         )
 
     def _wait_until_allowed(self, trouble: Trouble) -> None:

@@ -47,6 +47,11 @@ class Tracked:
         """Work with what this case knows, from the next image on and over restarts. From any thread."""
         self._supervisor.adopt(case)
 
+    @property
+    def tracks_from_s(self) -> float:
+        """Since when the tracking process of now runs, monotonic; -inf before the first."""
+        return self._supervisor.tracks_from_s
+
     def play(self, scene: SceneOrder) -> None:
         """Rehearse this scene, as soon as it is ready and over restarts. From any thread."""
         self._supervisor.play(scene)

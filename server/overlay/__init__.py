@@ -8,8 +8,9 @@ draw.py     all of it in order
 card.py     the picture that says that there is no picture
 """
 
+from server.overlay.bullseye import reach_of
 from server.overlay.card import draw_card
 from server.overlay.draw import draw_overlay, encode_jpeg
 from server.overlay.words import Panel, Reading, panel_of
 
-__all__ = ["Panel", "Reading", "draw_card", "draw_overlay", "encode_jpeg", "panel_of"]
+__all__ = ["Panel", "Reading", "draw_card", "draw_overlay", "encode_jpeg", "panel_of", "reach_of"]

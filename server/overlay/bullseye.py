@@ -19,20 +19,24 @@ from server.overlay.ink import (
     text_width_px,
 )
 from tracker.geometry import Array
-from tracker.navigation import AlongChannel
+from tracker.navigation import AlongChannel, half_axes_95_mm
+from tracker.plan import Channel
 
 # From the middle to the border: this, or twice the channel; what lies beyond is an arrow at the border.
 LEAST_REACH_MM = 7.0
 CROSS_MM, SQUARE_MM = 0.8, 0.45
 LETTER_PX = 17.0
 LETTER_ROOM_PX = 18.0
-# Two degrees of freedom: chi-square of 95 in 100.
-CHI_SQUARE_95 = 5.991
 # BGR; a border that nobody needs to read.
 DIM = (120, 120, 120)
 TURN = np.linspace(0.0, 2.0 * np.pi, 49)
 CIRCLE = np.stack([np.cos(TURN), np.sin(TURN)], axis=1)
 SQUARE = SQUARE_MM * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]])
+
+
+def reach_of(channel: Channel) -> float:
+    """How many mm a bull's-eye shows from its middle to its border, burned in or drawn by the page."""
+    return max(LEAST_REACH_MM, 2.0 * channel.radius_mm)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,7 +106,7 @@ def draw_bullseye(image: Image, inset: Inset, target: Target) -> None:
     if float(np.hypot(*seen.at_target_mm)) <= reach_mm:
         stroke(image, [inset.px(seen.at_target_mm + SQUARE)], DRILL_ORANGE, width_px=2.0 * scale)
     if target.tip_covariance_mm2 is not None:
-        ring = _ellipse_mm(target.tip_covariance_mm2)
+        ring = CIRCLE @ half_axes_95_mm(target.tip_covariance_mm2)
         stroke(image, [inset.px(_inside(seen.tip_mm + ring, reach_mm))], WHITE, width_px=1.0 * scale)
     stroke(
         image, [inset.px(seen.tip_mm + target.drill_radius_mm * CIRCLE)], DRILL_ORANGE, width_px=2.6 * scale
@@ -126,11 +130,6 @@ def _inside(ring_mm: Array, reach_mm: float) -> Array:
     """A ring with what lies beyond reach put onto the border."""
     away = np.linalg.norm(ring_mm, axis=1, keepdims=True)
     return np.asarray(ring_mm * np.minimum(1.0, reach_mm / np.maximum(away, 1e-9)))
-
-
-def _ellipse_mm(covariance_mm2: Array) -> Array:
-    values, vectors = np.linalg.eigh(covariance_mm2)
-    return np.asarray((CIRCLE * np.sqrt(np.maximum(values, 0.0) * CHI_SQUARE_95)) @ vectors.T)
 
 
 def _arrow(image: Image, inset: Inset, tip_mm: Array) -> None:

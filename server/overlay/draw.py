@@ -5,7 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from server.overlay.alarm_band import draw_alarm_band
-from server.overlay.bullseye import LEAST_REACH_MM, Inset, Target, draw_bullseye
+from server.overlay.bullseye import Inset, Target, draw_bullseye, reach_of
 from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
 from server.overlay.ink import Image
@@ -101,7 +101,7 @@ def _draw_inset(
             left_px=MARGIN_PX * scale,
             top_px=top_px,
             side_px=side,
-            reach_mm=max(LEAST_REACH_MM, 2.0 * channel.radius_mm),
+            reach_mm=reach_of(channel),
             scale=scale,
         ),
         Target(

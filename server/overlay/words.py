@@ -31,6 +31,8 @@ STATE_WORDS = {
     AbsentReason.REFERENCE_MOVED: "PATIENT MOVED",
     AbsentReason.POSE_JUMPED: "POSE JUMPED",
     AbsentReason.NOT_CHECKED: "NOT CHECKED",
+    AbsentReason.NOT_CONFIRMED: "NAVIGATION STOPPED",
+    AbsentReason.NOT_COSIGNED: "NOT CO-SIGNED",
 }
 STATE_DETAILS = {
     AbsentReason.MARKER_UNSEEN: "marker not seen",
@@ -44,6 +46,8 @@ STATE_DETAILS = {
     AbsentReason.REFERENCE_MOVED: "or the marker on the patient: check on a landmark",
     AbsentReason.POSE_JUMPED: "farther than a hand moves between two images",
     AbsentReason.NOT_CHECKED: "touch a landmark to check the registration",
+    AbsentReason.NOT_CONFIRMED: "started again: look, then confirm",
+    AbsentReason.NOT_COSIGNED: "a second person signs plan and registration",
 }
 VERDICT_WORDS = {
     Verdict.ON: "ON PATH",

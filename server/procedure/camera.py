@@ -11,7 +11,7 @@ from server.live import LiveHub
 from server.procedure.board_collection import BoardCollection, TakenView
 from server.procedure.held import Held
 from server.procedure.opened import opened_case
-from server.store import Case, CaseStore, Document, DocumentKind
+from server.store import Case, CaseStore, Document, DocumentKind, Standing
 from tracker.camera import Board, CameraModel
 from tracker.camera.accuracy import accuracy_of_grid
 from tracker.camera.calibration import calibrate, with_board_judged
@@ -59,6 +59,11 @@ class CameraStep:
             SetupOrderError: COLLECTION_MISSING.
         """
         return self._held.get()
+
+    @property
+    def is_collecting(self) -> bool:
+        """Whether views are held."""
+        return self._held.is_there
 
     def end(self) -> None:
         """Collect no more, and throw away what was collected."""
@@ -137,6 +142,12 @@ class CameraStep:
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE.
         """
         return self._store.current(opened_case(self._store).id, DocumentKind.CAMERA, MAIN_CAMERA)
+
+    def newest(self, kind: DocumentKind, name: str) -> tuple[Document, Standing] | None:
+        """A document of the open case with whether it holds; None where there is none."""
+        case = self._store.opened()
+        document = None if case is None else self._store.latest(case.id, kind, name)
+        return None if document is None else (document, self._store.standing(document))
 
     def _keep(
         self, case: Case, report: Mapping[str, Any], plots: Mapping[str, str], made_by: str

@@ -50,6 +50,12 @@ class Held(Generic[Collection]):
                 raise SetupOrderError("COLLECTION_MISSING", f"no {self._what} being collected", self._remedy)
             return self._collection
 
+    @property
+    def is_there(self) -> bool:
+        """Whether one is held."""
+        with self._lock:
+            return self._collection is not None
+
     def end(self) -> None:
         """Collect no more, and throw away what was collected."""
         with self._lock:

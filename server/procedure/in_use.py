@@ -9,8 +9,10 @@ import structlog
 
 from server.alarms import ProcedureFacts
 from server.procedure.camera import MAIN_CAMERA, kept_camera
+from server.procedure.confirmed import confirmation_name
 from server.procedure.facts import facts_of
 from server.procedure.guiding import Guiding
+from server.procedure.markers import MarkerStep
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.registered import (
     KeptCheck,
@@ -38,7 +40,7 @@ class CaseInUse:
 
     What is out of date, withdrawn, unreadable or of another camera is not used: it is then unknown. Of the
     registrations the one of the vertebra that is to be drilled counts, and numbers against it are withheld
-    until it was checked.
+    until it was checked, and after a start until a person has confirmed it.
 
     Args:
         store: where cases are kept.
@@ -47,6 +49,7 @@ class CaseInUse:
         guiding: what the drill is held against.
         brought: by the settings: a calibration of another camera's source, or what is fixed to another
             reference, is not used.
+        markers: reads the markers that the case keeps.
         know: told what the alarms shall know of the procedure, whenever the case has changed.
     """
 
@@ -58,6 +61,7 @@ class CaseInUse:
         procedure: Procedure,
         guiding: Guiding,
         brought: Brought,
+        markers: MarkerStep,
         know: Callable[[ProcedureFacts], None],
     ) -> None:
         self._store = store
@@ -66,6 +70,7 @@ class CaseInUse:
         self._brought = brought
         self._lock = threading.Lock()
         self._guiding = guiding
+        self._markers = markers
         self._know = know
         self._in_use: tuple[tuple[str, ...], Guide | None] = ((), None)
         guiding.tell = self.refresh
@@ -87,7 +92,7 @@ class CaseInUse:
         case = self._store.opened()
         if case is None:
             return []
-        kinds = (DocumentKind.CAMERA, DocumentKind.TOOL)
+        kinds = (DocumentKind.CAMERA, DocumentKind.MARKER, DocumentKind.TOOL)
         newest = [document for kind in kinds for document in self._store.all(case.id, kind)]
         active = self._store.latest(case.id, DocumentKind.PLAN, ACTIVE_CHANNEL)
         vertebra = self._procedure.active_vertebra(case.id)
@@ -97,9 +102,11 @@ class CaseInUse:
             else [
                 self._store.latest(case.id, DocumentKind.REGISTRATION, vertebra),
                 self._store.latest(case.id, DocumentKind.CHECK, check_name(vertebra)),
+                self._store.latest(case.id, DocumentKind.CONFIRMATION, confirmation_name(vertebra)),
             ]
         )
         newest += [document for document in (active, *registered) if document is not None]
+        newest += self._store.all(case.id, DocumentKind.SIGNATURE)
         return [document for document in newest if isinstance(self._store.standing(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
@@ -112,25 +119,40 @@ class CaseInUse:
             try:
                 if document.kind is DocumentKind.CAMERA:
                     cameras[document.name] = kept_camera(document, source=self._brought.source)
+                elif document.kind is DocumentKind.MARKER:
+                    # Read all together: no two of them may look the same.
+                    continue
                 elif document.kind is DocumentKind.PLAN:
                     channel = kept_channel(document).channel
                 elif document.kind is DocumentKind.REGISTRATION:
                     registered = kept_registration(document, reference=self._brought.reference)
                 elif document.kind is DocumentKind.CHECK:
                     check = kept_check(document)
-                else:
+                elif document.kind is DocumentKind.TOOL:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
-        is_withheld = registered is not None and self._procedure.state().waits_for_check
         return CaseSetup(
             camera=cameras.get(MAIN_CAMERA),
+            models=self._markers.of_case,
             tools=tools,
             channel=channel,
             registration=None if registered is None else registered.registration,
             registered_from_s=None if registered is None else self._from_s(registered, check),
-            withheld=AbsentReason.NOT_CHECKED if is_withheld else None,
+            withheld=None if registered is None else self._withheld(),
+            believed_from_s=None
+            if registered is None
+            else self._procedure.believed_from_s(registered, documents[0].case_id),
         )
+
+    def _withheld(self) -> AbsentReason | None:
+        """Why no number is given although the vertebra is registered."""
+        state = self._procedure.state()
+        if state.waits_for_check:
+            return AbsentReason.NOT_CHECKED
+        if state.unsigned is not None:
+            return AbsentReason.NOT_COSIGNED
+        return None if state.confirmation is None else AbsentReason.NOT_CONFIRMED
 
     def _from_s(self, registered: KeptRegistration, check: KeptCheck | None) -> float | None:
         """Since when it stands, by the images' clock: touched, or checked since; None before this run."""

@@ -1,7 +1,8 @@
 """All steps of the set-up, made for one server."""
 
+import math
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from server.alarms import ProcedureFacts
@@ -10,9 +11,11 @@ from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
 from server.procedure.camera import CameraStep
+from server.procedure.confirm import ConfirmStep
 from server.procedure.ct import CtStep, OpenedCt
 from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
+from server.procedure.markers import MarkerStep
 from server.procedure.plan import PlanStep
 from server.procedure.registration import RegistrationSteps
 from server.procedure.state import Brought, Procedure
@@ -20,6 +23,7 @@ from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
 from server.store import CaseStore
+from tracker.marker import MarkerModel
 from tracker.pose.tool import ToolGate
 
 # As the rehearsal's theatre calls them; to load the theatre for a name takes time.
@@ -32,6 +36,7 @@ class Steps:
 
     Attributes:
         camera: calibrates the camera.
+        markers: takes pictures of markers in.
         tool: calibrates tools.
         ct: takes a CT in.
         opened_ct: the CT that the others look at and plan on.
@@ -39,9 +44,11 @@ class Steps:
         surface: makes the surface of the bone.
         procedure: what may follow what.
         registration: finds the vertebra on the patient.
+        confirm: takes a person's word after a start.
     """
 
     camera: CameraStep
+    markers: MarkerStep
     tool: ToolStep
     ct: CtStep
     opened_ct: OpenedCt
@@ -49,6 +56,7 @@ class Steps:
     surface: SurfaceStep
     procedure: Procedure
     registration: RegistrationSteps
+    confirm: ConfirmStep
 
     @classmethod
     def of(
@@ -58,9 +66,10 @@ class Steps:
         store: CaseStore,
         jobs: Jobs,
         config: Config,
-        side_mm_from_marker: Mapping[str, float],
+        markers: Sequence[MarkerModel],
         adopt: Callable[[CaseSetup], None],
         know: Callable[[ProcedureFacts], None] = lambda _: None,
+        tracked_from_s: Callable[[], float] = lambda: -math.inf,
     ) -> "Steps":
         """The steps; from here on `adopt` is told whenever the open case knows something else.
 
@@ -69,23 +78,32 @@ class Steps:
             store: where results are kept.
             jobs: where long work is done.
             config: the gates, and the tools as the settings have them.
-            side_mm_from_marker: the markers that are looked for.
+            markers: that are looked for whatever the case has.
             adopt: has the tracking process work with what a case knows.
             know: told what the alarms shall know of the procedure.
+            tracked_from_s: since when the tracking process of now runs, by the images' clock.
         """
         brought = brought_by(config)
-        procedure = Procedure(store, brought=brought, gate=config.registration, run=new_run())
-        _keep_in_use(
-            CaseInUse(
-                store,
-                adopt,
-                procedure=procedure,
-                guiding=Guiding(store=store, jobs=jobs),
-                brought=brought,
-                know=know,
-            ),
+        marker_step = MarkerStep(store=store, brought=markers)
+        gate, cosign = config.registration, config.supervision.cosign
+        procedure = Procedure(
             store,
+            brought=brought,
+            gate=gate,
+            run=new_run(),
+            cosign=cosign,
+            tracked_from_s=tracked_from_s,
         )
+        in_use = CaseInUse(
+            store,
+            adopt,
+            procedure=procedure,
+            guiding=Guiding(store=store, jobs=jobs),
+            brought=brought,
+            markers=marker_step,
+            know=know,
+        )
+        _keep_in_use(in_use, store)
         opened_ct = OpenedCt(store)
         surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
@@ -93,7 +111,8 @@ class Steps:
             camera=CameraStep(
                 hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source
             ),
-            tool=_tool_step(hub, store, config, side_mm_from_marker),
+            markers=marker_step,
+            tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
             opened_ct=opened_ct,
             plan=plan,
@@ -106,8 +125,9 @@ class Steps:
                 surfaces=surface,
                 procedure=procedure,
                 brought=brought,
-                gate=config.registration,
+                gate=gate,
             ),
+            confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
         )
 
     def close(self) -> None:
@@ -117,14 +137,12 @@ class Steps:
         self.registration.close()
 
 
-def _tool_step(
-    hub: LiveHub, store: CaseStore, config: Config, side_mm_from_marker: Mapping[str, float]
-) -> ToolStep:
+def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:
     return ToolStep(
         hub=hub,
         store=store,
         gate=ToolGate(**config.tool_calibration.model_dump()),
-        side_mm_from_marker=side_mm_from_marker,
+        markers=markers,
         tools=config.tools,
     )
 

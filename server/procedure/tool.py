@@ -1,6 +1,7 @@
 """The step in which a tool is calibrated: its tip by pivoting, its axis by spinning, the tip checked."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -10,10 +11,11 @@ from server.config import Point, ToolConfig
 from server.live import LiveHub
 from server.procedure.camera import MAIN_CAMERA
 from server.procedure.held import Held
+from server.procedure.markers import MarkerStep
 from server.procedure.opened import opened_case
 from server.procedure.read import read_document
 from server.procedure.tool_collection import ToolCollection
-from server.store import CaseStore, Current, Document, DocumentKind
+from server.store import CaseStore, Current, Document, DocumentKind, Standing
 from server.tool_file import ToolFile, pivot_part, spin_part
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.pose import ToolModel
@@ -46,6 +48,23 @@ class KeptTool(ToolFile):
         )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KnownTool:
+    """A tool that somebody has described or calibrated.
+
+    Attributes:
+        name: of the tool.
+        settled: as the settings have it; None where they do not.
+        document: as the open case keeps it, whether or not it holds; None where it does not.
+        check: the newest check of its tip there.
+    """
+
+    name: str
+    settled: ToolConfig | None
+    document: Document | None
+    check: Document | None
+
+
 def kept_tool(document: Document) -> KeptTool:
     """The tool in a document of a case.
 
@@ -62,7 +81,7 @@ class ToolStep:
         hub: the live images.
         store: where the results are kept.
         gate: what they must reach.
-        side_mm_from_marker: the markers that are looked for.
+        markers: that are looked for.
         tools: as the settings have them, for radius, length and axis.
     """
 
@@ -72,13 +91,13 @@ class ToolStep:
         hub: LiveHub,
         store: CaseStore,
         gate: ToolGate,
-        side_mm_from_marker: Mapping[str, float],
+        markers: MarkerStep,
         tools: Mapping[str, ToolConfig],
     ) -> None:
         self._hub = hub
         self._store = store
         self._gate = gate
-        self._side_mm = side_mm_from_marker
+        self._markers = markers
         self._tools = tools
         self._held: Held[ToolCollection] = Held(
             "poses of a tool are",
@@ -94,12 +113,13 @@ class ToolStep:
             CalibrationError: TOOL_TIP_MISSING, a tip check or spin before the pivot.
         """
         kept = self._kept(tool)
-        marker = marker or (kept.marker if kept else None) or self._marker_in_settings(tool)
-        if marker not in self._side_mm:
+        known = {one.model.name: one.document for one in self._markers.known()}
+        marker = marker or (kept.marker if kept else None) or self._marker_in_settings(tool, sorted(known))
+        if marker not in known:
             raise InvalidInput(
                 "MARKER_UNKNOWN",
                 f"the marker '{marker}' is not looked for",
-                f"Known are: {', '.join(sorted(self._side_mm)) or 'none'}; name it under markers.",
+                f"Known are: {', '.join(sorted(known)) or 'none'}; send its picture on the camera's page.",
                 {"marker": marker},
             )
         if purpose is not Purpose.PIVOT and kept is None:
@@ -109,12 +129,40 @@ class ToolStep:
                 "Calibrate the tip by pivoting first.",
                 {"tool": tool},
             )
+        document = known[marker]
         tip = None if kept is None or purpose is Purpose.PIVOT else np.array(kept.pivot.tip_in_marker_mm)
         return self._held.begin(
             lambda: ToolCollection(
-                self._hub, tool=tool, marker=marker, purpose=purpose, tip_in_marker_mm=tip, gate=self._gate
+                self._hub,
+                tool=tool,
+                marker=marker,
+                marker_document_id="" if document is None else document.id,
+                purpose=purpose,
+                tip_in_marker_mm=tip,
+                gate=self._gate,
             )
         )
+
+    def all(self) -> "tuple[KnownTool, ...]":
+        """The tools that the settings describe and that the open case keeps, by name."""
+        case = self._store.opened()
+        kept = () if case is None else self._store.all(case.id, DocumentKind.TOOL)
+        document_from_name = {document.name: document for document in kept}
+        checks = () if case is None else self._store.all(case.id, DocumentKind.CHECK)
+        check_from_name = {document.name: document for document in checks}
+        return tuple(
+            KnownTool(
+                name=name,
+                settled=self._tools.get(name),
+                document=document_from_name.get(name),
+                check=check_from_name.get(tip_check_name(name)),
+            )
+            for name in sorted({*self._tools, *document_from_name})
+        )
+
+    def standing(self, document: Document) -> Standing:
+        """Whether a tool's calibration holds."""
+        return self._store.standing(document)
 
     @property
     def collection(self) -> ToolCollection:
@@ -124,6 +172,11 @@ class ToolStep:
             SetupOrderError: COLLECTION_MISSING.
         """
         return self._held.get()
+
+    @property
+    def is_collecting(self) -> bool:
+        """Whether poses are held."""
+        return self._held.is_there
 
     def end(self) -> None:
         """Gather no more, and throw away what was gathered."""
@@ -171,7 +224,7 @@ class ToolStep:
             return self._store.put(
                 case.id,
                 DocumentKind.CHECK,
-                f"tip of {tool}",
+                tip_check_name(tool),
                 {"tool": tool, **check_values(outcome)},
                 made_by=made_by,
                 stands_on=[] if before is None else [before.id],
@@ -192,7 +245,11 @@ class ToolStep:
             tool,
             whole.model_dump(mode="json"),
             made_by=made_by,
-            stands_on=[] if camera is None else [camera.id],
+            # The marker as it was at the first pose: behind one that was changed since it does not hold.
+            stands_on=[
+                *([] if camera is None else [camera.id]),
+                *([collection.marker_document_id] if collection.marker_document_id else []),
+            ],
         )
 
     def _pivoted(
@@ -217,7 +274,7 @@ class ToolStep:
         same_marker = kept is not None and kept.marker == collection.marker
         return KeptTool(
             marker=collection.marker,
-            side_mm=self._side_mm[collection.marker],
+            side_mm=self._markers.one(collection.marker).model.side_mm,
             pivot=pivot_part(outcome),
             # The axis does not move when the tip is found anew, as long as the marker is the same.
             spin=kept.spin if kept is not None and same_marker else None,
@@ -234,17 +291,22 @@ class ToolStep:
             return None
         return kept_tool(document)
 
-    def _marker_in_settings(self, tool: str) -> str:
+    def _marker_in_settings(self, tool: str, known: Sequence[str]) -> str:
         if tool in self._tools:
             return self._tools[tool].marker
-        if len(self._side_mm) == 1:
-            return next(iter(self._side_mm))
+        if len(known) == 1:
+            return known[0]
         raise InvalidInput(
             "TOOL_MARKER_UNKNOWN",
             f"nobody said which marker the tool '{tool}' carries",
-            f"Name it; known are: {', '.join(sorted(self._side_mm)) or 'none'}.",
+            f"Name it; known are: {', '.join(known) or 'none'}.",
             {"tool": tool},
         )
+
+
+def tip_check_name(tool: str) -> str:
+    """The name of the document that keeps the check of a tool's tip."""
+    return f"tip of {tool}"
 
 
 def check_values(check: TipCheck) -> dict[str, object]:

@@ -41,6 +41,7 @@ class ToolCollection:
         hub: the live images.
         tool: name of the tool.
         marker: that it carries.
+        marker_document_id: what keeps that marker in the case; empty for one of the settings.
         purpose: what is calibrated or checked.
         tip_in_marker_mm: (3,) of the tool, if it is known.
         gate: what must be reached.
@@ -52,11 +53,13 @@ class ToolCollection:
         *,
         tool: str,
         marker: str,
+        marker_document_id: str = "",
         purpose: Purpose,
         tip_in_marker_mm: Array | None,
         gate: ToolGate,
     ) -> None:
         self.tool, self.marker, self.purpose = tool, marker, purpose
+        self.marker_document_id = marker_document_id
         self._lock = threading.Lock()
         self._collector = PoseCollector(purpose, tip_in_marker_mm=tip_in_marker_mm, gate=gate)
         self._newest = Taking.NO_PICTURE

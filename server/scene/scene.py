@@ -3,7 +3,8 @@
 import asyncio
 import contextlib
 import time
-from typing import Any, Protocol
+from collections.abc import Callable, MutableMapping
+from typing import Any, Protocol, TypeAlias
 
 import structlog
 from starlette.requests import Request
@@ -35,6 +36,9 @@ GOING_AWAY, REFUSED, CROWDED = 1001, 1008, 1013
 _log = structlog.get_logger(__name__)
 
 
+Cut: TypeAlias = Callable[[MutableMapping[str, Any]], None]
+
+
 class Application(Protocol):
     """What is needed of the application: a Starlette or FastAPI object."""
 
@@ -59,8 +63,12 @@ class Scene:
         setup: Setup | None = None,
         surface: Surface | None = None,
         stale_after_ms: float = 500.0,
+        most_viewers: int = MOST_VIEWERS,
+        cut: Cut | None = None,
     ) -> None:
         self._hub = hub
+        self._most_viewers = most_viewers
+        self._cut = cut
         self._setup = setup
         self._surface = surface
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -171,7 +179,7 @@ class Scene:
             return "from another page"
         if SUBPROTOCOL not in websocket.scope.get("subprotocols", []):
             return f"does not speak {SUBPROTOCOL}"
-        return "crowded" if self.viewers >= MOST_VIEWERS else None
+        return "crowded" if self.viewers >= self._most_viewers else None
 
     async def _speak(self, door: Door, websocket: WebSocket) -> int | None:
         """Send the scene; the close code, or None when there is nobody left to close."""
@@ -188,6 +196,9 @@ class Scene:
         except TimeoutError:
             self.slow_viewers += 1
             _log.info("scene_viewer_dropped", blocked_s=SEND_TIMEOUT_S)
+            if self._cut is not None:
+                # Closing would wait for ever behind what the viewer does not take.
+                self._cut(websocket.scope)
             return None
         except WebSocketDisconnect:
             return None
@@ -219,12 +230,22 @@ def mount_scene(
     setup: Setup | None,
     surface: Surface | None,
     stale_after_ms: float = 500.0,
+    most_viewers: int = MOST_VIEWERS,
+    cut: Cut | None = None,
 ) -> None:
     """Add `GET /scene/` and `WS /scene`, and put the scene at `app.state.scene`.
 
     The application's lifespan calls `app.state.scene.start()` and `.stop()`. The routes go first, so that a
-    catch-all for the page's own addresses does not hide them.
+    catch-all for the page's own addresses does not hide them. `cut` ends the connection of a viewer that is
+    stalled.
     """
-    scene = Scene(hub=hub, setup=setup, surface=surface, stale_after_ms=stale_after_ms)
+    scene = Scene(
+        hub=hub,
+        setup=setup,
+        surface=surface,
+        stale_after_ms=stale_after_ms,
+        most_viewers=most_viewers,
+        cut=cut,
+    )
     app.state.scene = scene
     app.router.routes[:0] = scene.routes

@@ -66,13 +66,17 @@
     window.cancelAnimationFrame = (which) => due.delete(which);
   }
 
-  // viser's WebSocket lives in a worker, whose messages tell how the line is.
+  // viser's WebSocket lives in a worker, whose messages tell how the line is. Every second without a line viser
+  // tries anew and gives up the attempt before: a server that is just starting would never be reached.
+  const answerWithinMs = 3000;
+  let triedAt = -Infinity;
   const OwnWorker = window.Worker;
   window.Worker = class extends OwnWorker {
     constructor(...options) {
       super(...options);
       this.addEventListener("message", (event) => {
         const type = event.data && event.data.type;
+        if (type === "connected" || type === "closed") triedAt = -Infinity;
         if (type === "message_batch") {
           line = this;
           heardAt = now();
@@ -87,7 +91,21 @@
         }
       });
     }
+
+    postMessage(message, ...rest) {
+      if (message && message.type === "retry") {
+        if (now() - triedAt < answerWithinMs) return;
+        triedAt = now();
+      }
+      super.postMessage(message, ...rest);
+    }
   };
+
+  // The page around it has the server again: do not wait for viser's next try.
+  addEventListener("message", (event) => {
+    if (event.origin !== location.origin || !event.data || event.data.kind !== "coaxial-server") return;
+    if (!connected && line !== null) line.postMessage({ type: "retry" });
+  });
 
   addEventListener("webglcontextlost", () => { contextLost = true; drawn = null; tell(); }, true);
   addEventListener("webglcontextrestored", () => { contextLost = false; tell(); }, true);

@@ -33,6 +33,9 @@ GET     /api/alarms
 GET     /api/alarms/sound/{priority}.wav
 GET     /api/procedure
 GET     /video/{camera}.mjpg
+GET     /api/supervision/room
+GET     /api/supervision/signatures
+WS      /ws/room
 WS      /ws/live
 WS      /ws/view
 GET     /scene
@@ -61,8 +64,13 @@ GET     /api/cases/{case_id}/files/{file_id}
 GET     /api/cases/{case_id}/archive
 GET     /api/jobs
 GET     /api/jobs/{job_id}
+GET     /api/gates
+GET     /api/camera
 GET     /api/camera/collection
 GET     /api/camera/calibration
+GET     /api/markers
+GET     /api/markers/{name}/picture
+GET     /api/tools
 GET     /api/tools/collection
 GET     /api/ct
 GET     /api/ct/uploads/{upload_id}/preview.png
@@ -94,10 +102,12 @@ POST    /api/alarms/resumption
 POST    /api/alarms/screens
 """
 
-# A colleague far away asks to hold, and takes that back. Nothing moves by it.
+# A colleague far away asks to hold, takes that back, and signs what was checked. Nothing moves by it.
 DONE_BY_OVERSEERS = """
 POST    /api/alarms/hold
 POST    /api/alarms/release
+POST    /api/supervision/signatures
+DELETE  /api/supervision/signatures/{signature_id}
 """
 
 DONE_BY_OPERATORS = """
@@ -105,6 +115,7 @@ POST    /api/people/invitations
 DELETE  /api/people/invitations/{invitation_id}
 DELETE  /api/people/sessions/{session_id}
 PUT     /api/rehearsal
+POST    /api/procedure/confirmation
 POST    /api/cases
 POST    /api/cases/archive
 PATCH   /api/cases/{case_id}
@@ -120,6 +131,8 @@ POST    /api/camera/collection/images
 POST    /api/camera/calibration
 POST    /api/camera/accuracy
 POST    /api/camera/board
+POST    /api/markers
+DELETE  /api/markers/{name}
 POST    /api/tools/collection
 DELETE  /api/tools/collection
 POST    /api/tools/collection/conclusion

@@ -9,9 +9,11 @@ NavigationError
 """
 
 import errno
+import math
+import shutil
 import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from sqlalchemy.exc import DBAPIError
@@ -26,7 +28,7 @@ READ_ONLY, BUSY, DAMAGED, FAILED = (
     "STORE_FAILED",
 )
 WHAT = {
-    FULL: "there is no room left on the disk under {folder}",
+    FULL: "there is no room left on the disk under {folder}: {free_mb:.1f} MB are free",
     READ_ONLY: "the folder {folder} cannot be written",
     BUSY: "another program keeps the database in {folder} locked",
     DAMAGED: "the database in {folder} is damaged",
@@ -109,6 +111,10 @@ def _code_of(error: BaseException | None) -> str:
 
 def _store_error(folder: Path, code: str, error: BaseException | None) -> StoreError:
     why = getattr(error, "strerror", None) or str(error)
-    return StoreError(
-        code, WHAT[code].format(folder=folder, why=why), REMEDY[code], {"folder": str(folder), "why": why}
-    )
+    context: dict[str, object] = {"folder": str(folder), "why": why}
+    free_mb = math.nan
+    if code == FULL:
+        with suppress(OSError):
+            free_mb = shutil.disk_usage(folder).free / 1e6
+            context["free_mb"] = free_mb
+    return StoreError(code, WHAT[code].format(folder=folder, why=why, free_mb=free_mb), REMEDY[code], context)

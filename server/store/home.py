@@ -1,5 +1,6 @@
 """The folder in which everything is kept, used by one server at a time."""
 
+import errno
 import fcntl
 import os
 import secrets
@@ -19,6 +20,8 @@ FOLDER_VARIABLE = "COAXIAL_HOME"
 # Patients' pictures are for the one who runs the server.
 PRIVATE = 0o700
 RESERVE_BYTES = 2**20
+# What disks say that know no locks, as some network disks and those of some containers.
+WITHOUT_LOCKS = frozenset({errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP})
 # On macOS a plain sync leaves things in the disk's own memory.
 FULL_SYNC: int | None = getattr(fcntl, "F_FULLFSYNC", None)
 
@@ -41,7 +44,7 @@ class Home:
         reserve: room on the disk that is given up when a case is to be deleted because the disk is full.
 
     Raises:
-        StoreError: HOME_IN_USE, STORE_READ_ONLY, STORE_FULL or STORE_FAILED.
+        StoreError: HOME_IN_USE, HOME_NOT_LOCKABLE, STORE_READ_ONLY, STORE_FULL or STORE_FAILED.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -58,6 +61,10 @@ class Home:
                 self._lock.acquire(timeout=0)
             except filelock.Timeout:
                 raise _in_use(folder) from None
+            except (OSError, NotImplementedError) as error:
+                if isinstance(error, OSError) and error.errno not in WITHOUT_LOCKS:
+                    raise
+                raise _without_locks(folder) from error
             try:
                 shutil.rmtree(self.temporary, ignore_errors=True)
                 for room in (self.backups, self.cases, self.temporary):
@@ -120,6 +127,16 @@ def sync_file(descriptor: int) -> None:
     if FULL_SYNC is not None:
         with suppress(OSError):
             fcntl.fcntl(descriptor, FULL_SYNC)
+
+
+def _without_locks(folder: Path) -> StoreError:
+    return StoreError(
+        "HOME_NOT_LOCKABLE",
+        f"the disk of the folder {folder} gives no locks (some network disks do not), so that another "
+        "Coaxial could write into it at the same time",
+        "Name a folder on a disk of this computer with COAXIAL_HOME.",
+        {"folder": str(folder)},
+    )
 
 
 def _in_use(folder: Path) -> StoreError:

@@ -104,7 +104,9 @@ class CertainMessage(Message):
     """The drill's line is within this of where it is shown, in 95 %; null when it is across the channel."""
     isthmus_95_mm: float | None
     room_mm: float
-    """What the pedicle leaves."""
+    """What the pedicle leaves to an offset at the entry, for a drill that runs along the channel."""
+    room_deg: float
+    """What it leaves to an angle, for a drill that comes in on the axis."""
 
 
 class JudgementMessage(Message):
@@ -197,6 +199,7 @@ def _certain(certain: Certain) -> CertainMessage:
         entry_95_mm=_finite(certain.entry_95_mm),
         isthmus_95_mm=_finite(certain.isthmus_95_mm),
         room_mm=certain.room_mm,
+        room_deg=certain.room_deg,
     )
 
 

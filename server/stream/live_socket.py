@@ -6,12 +6,12 @@ from starlette.websockets import WebSocket
 
 from server.live import LiveHub
 from server.stream.connection import line_of
-from server.stream.messages import live_message
+from server.stream.fitting.texts import Texts
 from server.stream.socket import REFUSED, Misbehaviour, converse
 from server.stream.viewers import ViewerKind, Viewers
 
 
-async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) -> None:
+async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers, texts: Texts) -> None:
     """Send a `LiveMessage` as text for each instant, the newest at once, until the client goes.
 
     Newest wins: a slow client skips instants, and sees how many by the gaps in `sequence`. One that takes
@@ -26,8 +26,8 @@ async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) ->
             while True:
                 instant = await hub.next_after(viewer.sequence)
                 viewer.took(instant.sequence)
-                message = live_message(instant, now_s=time.monotonic())
-                await viewers.send(websocket.send_text(message.model_dump_json()), line)
+                text = texts.of(instant, now_s=time.monotonic())
+                await viewers.send(websocket.send_text(text), line)
 
         await converse(websocket, viewers, speak=speak, hear=_hear_nothing)
 

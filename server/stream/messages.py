@@ -46,6 +46,9 @@ class LiveMessage(Message):
     """Grows by one with each instant; a gap is what this reader skipped."""
     sent_at_s: float
     """Monotonic clock of the server."""
+    shown_scale_ratio: float
+    """Width and height of the picture that comes with this message, of those of the camera's image: 1, 0.5 or
+    0.25. All pixels in the message are those of the camera's image."""
     source: SourceMessage
     process: ProcessMessage
     snapshot: SnapshotMessage | None
@@ -54,11 +57,12 @@ class LiveMessage(Message):
     """With this image looked at."""
 
 
-def live_message(instant: Instant, *, now_s: float) -> LiveMessage:
-    """The message of an instant, as sent at monotonic time `now_s`."""
+def live_message(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1.0) -> LiveMessage:
+    """The message of an instant, as sent at monotonic time `now_s` with a picture of this scale."""
     return LiveMessage(
         sequence=instant.sequence,
         sent_at_s=now_s,
+        shown_scale_ratio=shown_scale_ratio,
         source=source_message(instant.source),
         process=process_message(instant.process),
         snapshot=None

@@ -12,6 +12,8 @@ from starlette.types import Receive, Scope, Send
 
 from server.live import Instant, LiveHub
 from server.stream.connection import Line, line_of
+from server.stream.fitting.pictures import Pictures
+from server.stream.fitting.sizes import Choice, Size
 from server.stream.no_video import NoVideoCard
 from server.stream.race import until_one_ends
 from server.stream.viewers import Viewer, ViewerKind, Viewers
@@ -40,15 +42,26 @@ def with_comment(jpeg: bytes, facts: Mapping[str, object]) -> bytes:
 class Video:
     """The pictures of the one camera, for any number of MJPEG viewers."""
 
-    def __init__(self, *, hub: LiveHub, viewers: Viewers, stale_after_ms: float) -> None:
+    def __init__(self, *, hub: LiveHub, viewers: Viewers, pictures: Pictures, stale_after_ms: float) -> None:
         self._hub = hub
         self._viewers = viewers
+        self._pictures = pictures
         self._stale_after_s = stale_after_ms / 1000.0
         self._card = NoVideoCard()
 
-    def response(self) -> Response:
-        """The answer that shows the video for as long as the viewer stays."""
-        return MjpegResponse(self, self._viewers)
+    def response(self, choice: Choice = Choice.AUTO) -> Response:
+        """The answer that shows the video for as long as the viewer stays.
+
+        Raises:
+            TooManyViewers: as many watch as are allowed.
+        """
+        self._viewers.make_room()
+        return MjpegResponse(self, self._viewers, choice)
+
+    def missed(self, viewer: Viewer) -> int:
+        """How many images came since the one that the viewer took, beside the newest."""
+        newest = self._hub.newest
+        return 0 if newest is None else max(0, newest.sequence - viewer.sequence - 1)
 
     async def pictures(self, viewer: Viewer) -> AsyncIterator[bytes]:
         """The newest picture, and again whenever there is a newer one; a card when there is none.
@@ -66,7 +79,9 @@ class Video:
                 viewer.took(instant.sequence)
             if instant is not None and self._is_live(instant, now_s=now_s):
                 patience_s = self._stale_after_s
-                yield _with_facts(instant, now_s=now_s)
+                size = viewer.pace.size
+                jpeg = await self._pictures.of(instant, size)
+                yield _with_facts(instant, jpeg, size)
             else:
                 patience_s = CARD_AGAIN_S
                 clock = datetime.now().astimezone()
@@ -77,18 +92,22 @@ class Video:
         snapshot = instant.snapshot
         return (
             snapshot is not None
-            and bool(instant.jpeg)
+            and instant.has_picture
             and now_s - snapshot.captured_at_s <= self._stale_after_s
         )
 
 
-def _with_facts(instant: Instant, *, now_s: float) -> bytes:
-    if instant.snapshot is None:
-        return instant.jpeg
+def _with_facts(instant: Instant, jpeg: bytes, size: Size) -> bytes:
+    if instant.snapshot is None or not jpeg:
+        return jpeg
     number, captured_at_s = instant.snapshot.image_number, instant.snapshot.captured_at_s
-    age_ms = round((now_s - captured_at_s) * 1000.0, 1)
-    facts = {"image_number": number, "captured_at_s": round(captured_at_s, 6), "age_ms": age_ms}
-    return with_comment(instant.jpeg, facts)
+    facts = {
+        "image_number": number,
+        "captured_at_s": round(captured_at_s, 6),
+        "age_ms": round((time.monotonic() - captured_at_s) * 1000.0, 1),
+        "shown_scale_ratio": size.scale_ratio,
+    }
+    return with_comment(jpeg, facts)
 
 
 class MjpegResponse(Response):
@@ -96,7 +115,7 @@ class MjpegResponse(Response):
 
     media_type = MEDIA_TYPE
 
-    def __init__(self, video: Video, viewers: Viewers) -> None:
+    def __init__(self, video: Video, viewers: Viewers, choice: Choice) -> None:
         self.status_code = 200
         self.background = None
         self.body = b""
@@ -106,6 +125,7 @@ class MjpegResponse(Response):
         del self.headers["content-length"]
         self._video = video
         self._viewers = viewers
+        self._choice = choice
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Send until the viewer goes, or until nothing could be sent for too long."""
@@ -119,12 +139,14 @@ class MjpegResponse(Response):
                 line.cut()
 
     async def _feed(self, send: Send, line: Line | None) -> None:
-        with self._viewers.watching(ViewerKind.MJPEG) as viewer:
+        with self._viewers.watching(ViewerKind.MJPEG, self._choice) as viewer:
             start = {"type": "http.response.start", "status": 200, "headers": self.raw_headers}
             await self._viewers.send(send(start), line)
             await self._viewers.send(send(_body(PART_HEAD)), line)
             async for picture in self._video.pictures(viewer):
+                began_s = time.monotonic()
                 await self._viewers.send(send(_body(picture + PART_END)), line)
+                viewer.pace.sent(began_s=began_s, ended_s=time.monotonic(), missed=self._video.missed(viewer))
 
 
 def _body(content: bytes) -> dict[str, object]:

@@ -5,6 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from server.stream.along_messages import AlongMessage, along_message
 from server.stream.judgement_messages import (
     DeviationMessage,
     JudgementMessage,
@@ -21,7 +22,14 @@ from server.stream.place_messages import (
     tool_message,
     vertebra_message,
 )
-from tracker.navigation import Absent, MovesSeen, NavigationSnapshot, Watched, moves_seen_by
+from tracker.navigation import (
+    Absent,
+    AbsentReason,
+    MovesSeen,
+    NavigationSnapshot,
+    Watched,
+    moves_seen_by,
+)
 from tracker.navigation.watch import NeverSeen, SceneState
 from tracker.registration import AnchoredTo, Method
 
@@ -34,6 +42,8 @@ class ToolStateMessage(Message):
     pose: Annotated[ToolMessage | AbsentMessage, Field(discriminator="kind")]
     deviation: Annotated[DeviationMessage | AbsentMessage, Field(discriminator="kind")]
     judgement: Annotated[JudgementMessage | AbsentMessage, Field(discriminator="kind")]
+    along: AlongMessage | None
+    """The drill in the view along the channel; null where there is no deviation."""
 
 
 class WatchMessage(Message):
@@ -67,6 +77,8 @@ class SnapshotMessage(Message):
     reference: str | None
     """The marker on the patient; null where there is none."""
     channel_name: str | None
+    withheld: AbsentReason | None
+    """Why no number is given although all is known, as NOT_CONFIRMED after a start; null otherwise."""
     vertebra: Annotated[VertebraMessage | AbsentMessage, Field(discriminator="kind")]
     watched: WatchMessage
     markers: list[MarkerMessage]
@@ -92,6 +104,7 @@ def snapshot_message(
         anchored_to=None if isinstance(registration, Absent) else registration.anchored_to,
         reference=setup.reference or None,
         channel_name=None if isinstance(setup.channel, Absent) else setup.channel.name,
+        withheld=setup.withheld,
         vertebra=vertebra_message(snapshot.vertebra),
         watched=_watched(snapshot),
         markers=[
@@ -116,6 +129,7 @@ def _tool_state(snapshot: NavigationSnapshot, name: str) -> ToolStateMessage:
         pose=tool_message(snapshot.tools[name]),
         deviation=deviation_message(snapshot.deviations[name]),
         judgement=judgement_message(snapshot.judgements[name]),
+        along=along_message(snapshot, name),
     )
 
 

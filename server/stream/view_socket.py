@@ -7,61 +7,111 @@ The client sends `{"next": true}` and gets one binary message:
     the rest   the JPEG of that same instant; empty when there is no image
 
 Then it may ask again. So one image is on the way at a time, and a thin line carries fewer images instead of
-older ones. A second `{"next": true}` before the answer changes nothing.
+older ones. A second `{"next": true}` before the answer changes nothing. `{"size": "half"}` asks for another
+size from the next image on: full, half, quarter, or auto for the one that the line carries.
 """
 
 import asyncio
 import json
 import struct
 import time
+from dataclasses import dataclass
 
 from starlette.websockets import WebSocket
 
 from server.live import Instant, LiveHub
 from server.stream.connection import line_of
-from server.stream.messages import live_message
+from server.stream.fitting.pictures import Pictures
+from server.stream.fitting.sizes import Choice
+from server.stream.fitting.texts import Texts
 from server.stream.socket import REFUSED, Misbehaviour, converse
-from server.stream.viewers import ViewerKind, Viewers
+from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 HEADER_LENGTH = struct.Struct("<I")
 GRANT = {"next": True}
+UNDERSTOOD = 'only {"next": true} and {"size": "auto" | "full" | "half" | "quarter"} are understood'
 
 
-def view_message(instant: Instant, *, now_s: float) -> bytes:
-    """Header length, header and JPEG of one instant, as sent at monotonic time `now_s`."""
-    header = live_message(instant, now_s=now_s).model_dump_json().encode()
-    return b"".join((HEADER_LENGTH.pack(len(header)), header, instant.jpeg))
+@dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    """What all who watch in this way have in common.
+
+    Attributes:
+        hub: where the newest instant is.
+        viewers: who watches.
+        pictures, texts: of each instant, made once for all.
+    """
+
+    hub: LiveHub
+    viewers: Viewers
+    pictures: Pictures
+    texts: Texts
 
 
-async def watch_view(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers) -> None:
+class Granting:
+    """What the client allows and wants.
+
+    Attributes:
+        granted: whether the next image may be sent.
+        at_s: when that was said last; monotonic.
+    """
+
+    def __init__(self, viewer: Viewer) -> None:
+        self._viewer = viewer
+        self.granted = asyncio.Event()
+        self.at_s = 0.0
+
+    def hear(self, text: str) -> None:
+        """One message of the client.
+
+        Raises:
+            Misbehaviour: it is not understood.
+        """
+        try:
+            said = json.loads(text)
+        except (ValueError, RecursionError):
+            said = None
+        if said == GRANT:
+            self.at_s = time.monotonic()
+            self.granted.set()
+        elif isinstance(said, dict) and list(said) == ["size"] and said["size"] in list(Choice):
+            self._viewer.pace.choose(Choice(said["size"]))
+        else:
+            raise Misbehaviour(REFUSED, UNDERSTOOD)
+
+
+async def view_message(view: View, instant: Instant, viewer: Viewer) -> bytes:
+    """Header length, header and JPEG of one instant, in the size that this viewer has now."""
+    size = viewer.pace.size
+    jpeg = await view.pictures.of(instant, size)
+    header = view.texts.of(instant, size=size, now_s=time.monotonic()).encode()
+    return b"".join((HEADER_LENGTH.pack(len(header)), header, jpeg))
+
+
+async def watch_view(websocket: WebSocket, view: View, *, choice: Choice = Choice.AUTO) -> None:
     """Answer each grant of the client with the newest instant that it has not had, until it goes.
 
     One that grants but takes nothing for 2 s is cut off; one that sends anything else is closed with 1008.
     """
     await websocket.accept()
     line = line_of(websocket.scope)
-    granted = asyncio.Event()
-    with viewers.watching(ViewerKind.VIEW) as viewer:
+    with view.viewers.watching(ViewerKind.VIEW, choice) as viewer:
+        granting = Granting(viewer)
 
         async def speak() -> None:
+            began_s: float | None = None
             while True:
-                await granted.wait()
-                instant = await hub.next_after(viewer.sequence)
-                granted.clear()
+                await granting.granted.wait()
+                newest = view.hub.newest
+                if began_s is not None and newest is not None:
+                    # Until the client asks again: what it needs to show an image holds the next one up too.
+                    missed = max(0, newest.sequence - viewer.sequence - 1)
+                    viewer.pace.sent(began_s=began_s, ended_s=granting.at_s, missed=missed)
+                instant = await view.hub.next_after(viewer.sequence)
+                granting.granted.clear()
                 viewer.took(instant.sequence)
-                content = view_message(instant, now_s=time.monotonic())
-                await viewers.send(websocket.send_bytes(content), line)
+                content = await view_message(view, instant, viewer)
+                began_s = time.monotonic()
+                await view.viewers.send(websocket.send_bytes(content), line)
 
-        def hear(text: str) -> None:
-            if not _is_grant(text):
-                raise Misbehaviour(REFUSED, 'only {"next": true} is understood')
-            granted.set()
-
-        await converse(websocket, viewers, speak=speak, hear=hear)
-
-
-def _is_grant(text: str) -> bool:
-    try:
-        return bool(json.loads(text) == GRANT)
-    except (ValueError, RecursionError):
-        return False
+        await converse(websocket, view.viewers, speak=speak, hear=granting.hear)

@@ -3,12 +3,15 @@
 import asyncio
 from collections.abc import Awaitable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import structlog
 
 from server.stream.connection import Line
+from server.stream.errors import TooManyViewers
+from server.stream.fitting.pace import Pace
+from server.stream.fitting.sizes import Choice
 
 _log = structlog.get_logger(__name__)
 
@@ -19,6 +22,7 @@ class ViewerKind(StrEnum):
     MJPEG = "mjpeg"
     LIVE = "live"
     VIEW = "view"
+    ROOM = "room"
 
 
 @dataclass(slots=True)
@@ -29,11 +33,13 @@ class Viewer:
         kind: by which way.
         sequence: of the last instant taken, -1 before the first.
         dropped: how many instants it skipped, because it was slower than they came.
+        pace: in which size its pictures go out.
     """
 
     kind: ViewerKind
     sequence: int = -1
     dropped: int = 0
+    pace: Pace = field(default_factory=Pace)
 
     def took(self, sequence: int) -> None:
         """Note that this instant goes to the viewer now."""
@@ -49,16 +55,27 @@ class Stalled(Exception):
 class Viewers:
     """All who watch now, and sums over those who went. Used in one event loop only."""
 
-    def __init__(self, *, send_timeout_s: float = 2.0) -> None:
+    def __init__(self, *, most: int = 64, send_timeout_s: float = 2.0) -> None:
         self.send_timeout_s = send_timeout_s
+        self._most = most
         self._watching: list[Viewer] = []
         self._dropped_by_gone = dict.fromkeys(ViewerKind, 0)
         self._let_go = dict.fromkeys(ViewerKind, 0)
 
+    def make_room(self) -> None:
+        """Nothing, where one more may watch.
+
+        Raises:
+            TooManyViewers: as many watch as are allowed.
+        """
+        if len(self._watching) >= self._most:
+            _log.warning("viewer_refused", watching=len(self._watching), most=self._most)
+            raise TooManyViewers(len(self._watching), self._most)
+
     @contextmanager
-    def watching(self, kind: ViewerKind) -> Iterator[Viewer]:
+    def watching(self, kind: ViewerKind, choice: Choice = Choice.AUTO) -> Iterator[Viewer]:
         """One more watches, for the time of the block; a stall ends it quietly, and is counted."""
-        viewer = Viewer(kind)
+        viewer = Viewer(kind, pace=Pace(choice))
         self._watching.append(viewer)
         try:
             yield viewer
@@ -73,13 +90,13 @@ class Viewers:
         """Send something, and wait until the line has taken it, for as long as one sending may take.
 
         Raises:
-            Stalled: it took longer.
+            Stalled: nothing went for that long, or the whole needed several times as long.
         """
         try:
             async with asyncio.timeout(self.send_timeout_s):
                 await sending
-                if line is not None:
-                    await line.drained()
+            if line is not None:
+                await line.drained(patience_s=self.send_timeout_s)
         except TimeoutError as error:
             raise Stalled from error
 

@@ -37,6 +37,7 @@ def main(arguments: list[str] | None = None) -> None:
         images=given.n,
         seed=given.seed,
         runs=given.runs,
+        viewers=given.viewers,
     )
     written = read_figures()
     for name in SECTIONS if given.what == "all" else (given.what,):
@@ -45,9 +46,12 @@ def main(arguments: list[str] | None = None) -> None:
         except NavigationError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(2)
-        said = {"limits": asked.said_of_limits, "tools": asked.said_of_tools, **ALONE}.get(
-            name, asked.said_of_theatres
-        )
+        said = {
+            "limits": asked.said_of_limits,
+            "tools": asked.said_of_tools,
+            "load": asked.said_of_load,
+            **ALONE,
+        }.get(name, asked.said_of_theatres)
         content = "\n".join([f"{machine_line()} {said}\n", *(table.markdown for table in measured.tables)])
         sys.stdout.write(f"## {name}\n\n{content}\n{_compared(written.get(name, {}), measured)}\n")
         sys.stdout.flush()
@@ -72,6 +76,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--seed", type=int, default=default.seed, help="of the first scene of the limits")
     parser.add_argument("--runs", type=int, default=default.runs, help="calibrations of each kind of tool")
+    parser.add_argument("--viewers", type=_seeds, default=default.viewers, help="of the load, as 1,10,30")
     parser.add_argument("--write", action="store_true", help="write the tables into the README")
     return parser
 

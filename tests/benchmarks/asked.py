@@ -20,6 +20,7 @@ class Asked:
         images: of each condition of the limits.
         seed: of their first image.
         runs: simulated calibrations of each kind of tool.
+        viewers: how many watch at once, one stretch after the other.
     """
 
     seeds: tuple[int, ...] = (1, 2, 3)
@@ -35,6 +36,7 @@ class Asked:
     images: int = 18
     seed: int = 0
     runs: int = 200
+    viewers: tuple[int, ...] = (1, 10, 30)
 
     @property
     def is_usual_theatre(self) -> bool:
@@ -61,6 +63,11 @@ class Asked:
     def said_of_tools(self) -> str:
         """Which calibrations are measured, in a sentence."""
         return f"{self.runs} simulated calibrations of each kind, of 60 poses where nothing else is said."
+
+    @property
+    def said_of_load(self) -> str:
+        """How many viewers watch what, in a sentence."""
+        return f"Viewers {', '.join(map(str, self.viewers))}; 1280x720 px at 30 Hz, theatre {self.seeds[0]}."
 
     def settings_of(self, seed: int, size_wh_px: tuple[int, int] = (1280, 720)) -> TheatreSettings:
         """The theatre of a seed, as hard as was asked."""

@@ -15,6 +15,7 @@ from tests.benchmarks.limits.limit_figures import limit_figures
 from tests.benchmarks.limits.limit_plots import limit_plots
 from tests.benchmarks.limits.pace_tables import pace_tables
 from tests.benchmarks.limits.run import measure, one_thread
+from tests.benchmarks.load.load_tables import measure_load
 from tests.benchmarks.measured import Measured
 from tests.benchmarks.offline import Offline, measure_offline, times_s
 from tests.benchmarks.overlay import measure_overlay
@@ -147,6 +148,7 @@ SECTIONS: dict[str, Callable[[Asked], Measured]] = {
     "rehearsal": measure_rehearsal,
     "overlay": measure_drawing,
     "server": measure_server,
+    "load": measure_load,
     "tools": measure_tools,
     "alarms": measure_alarms,
     "ct": measure_ct,

@@ -1,6 +1,7 @@
 """A server with a store, jobs and the steps of the set-up, and images that a test shows to it."""
 
 import dataclasses
+import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
@@ -38,6 +39,7 @@ class Server:
     jobs: Jobs
     preparation: Preparation
     adopted: list[CaseSetup]
+    tracked_from_s: list[float]
     number: int = field(default=0)
 
     def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
@@ -102,7 +104,7 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
     # Few images to a capture: a test has no half second for each landmark.
     few = {"rehearsal": {"brings_setup": False}, "registration": {"capture_images": 4, "capture_s": 0.06}}
     config = Config.model_validate({**few, **(settings or {})})
-    hub, adopted = LiveHub(), list[CaseSetup]()
+    hub, adopted, tracked_from_s = LiveHub(), list[CaseSetup](), [-math.inf]
     jobs = Jobs(log=LogSettings(as_json=True))
     preparation = build_setup(config)
     with Home(home_folder) as home, CaseStore(home) as store:
@@ -111,12 +113,21 @@ def serving(home_folder: Path, settings: Mapping[str, object] | None = None) -> 
             store=store,
             jobs=jobs,
             config=config,
-            side_mm_from_marker={model.name: model.side_mm for model in preparation.models},
+            markers=preparation.models,
             adopt=adopted.append,
+            tracked_from_s=lambda: tracked_from_s[-1],
         )
         app = create_app(AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps))
         with TestClient(app, base_url="http://127.0.0.1:8000", raise_server_exceptions=False) as door:
-            yield Server(door=door, hub=hub, store=store, jobs=jobs, preparation=preparation, adopted=adopted)
+            yield Server(
+                door=door,
+                hub=hub,
+                store=store,
+                jobs=jobs,
+                preparation=preparation,
+                adopted=adopted,
+                tracked_from_s=tracked_from_s,
+            )
         jobs.close()
 
 

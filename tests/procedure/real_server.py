@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import httpx2
 import yaml
@@ -85,17 +85,9 @@ def _message(text: str | bytes) -> dict[str, Any]:
 @contextmanager
 def real_server(folder: Path, settings: Mapping[str, object]) -> Iterator[RealServer]:
     """`coaxial run` with these settings and its cases in this folder, ended by its own number."""
-    folder.mkdir(exist_ok=True)
-    (folder / "config.yaml").write_text(yaml.safe_dump({**OPEN_DOOR, **settings}), encoding="utf-8")
-    with subprocess.Popen(
-        [sys.executable, "-m", "server", "run", "--port", "0"],
-        cwd=folder,
-        env={**os.environ, "PYTHONPATH": str(CHECKOUT), "COAXIAL_HOME": str(folder / "home")},
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as process:
+    with started(folder, settings) as process:
         try:
-            port = _port_of(process)
+            port = port_of(process)
             with httpx2.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S) as door:
                 yield RealServer(port=port, process=process, door=door)
         finally:
@@ -108,7 +100,23 @@ def real_server(folder: Path, settings: Mapping[str, object]) -> Iterator[RealSe
     assert process.returncode == 0
 
 
-def _port_of(process: "subprocess.Popen[str]") -> int:
+def started(
+    folder: Path, settings: Mapping[str, object], *, errors: IO[str] | None = None
+) -> "subprocess.Popen[str]":
+    """The process of `coaxial run`, which may not answer yet; its log goes to `errors`."""
+    folder.mkdir(exist_ok=True)
+    (folder / "config.yaml").write_text(yaml.safe_dump({**OPEN_DOOR, **settings}), encoding="utf-8")
+    return subprocess.Popen(
+        [sys.executable, "-m", "server", "run", "--port", "0"],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(CHECKOUT), "COAXIAL_HOME": str(folder / "home")},
+        stdout=subprocess.PIPE,
+        stderr=errors,
+        text=True,
+    )
+
+
+def port_of(process: "subprocess.Popen[str]") -> int:
     for line in process.stdout or ():
         found = re.search(r"http://127\.0\.0\.1:(\d+)/", line)
         if found is not None:

@@ -1,6 +1,7 @@
 """A CT through the door: sent, read, looked at, refused, cancelled, and there again after a restart."""
 
 import gc
+import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -54,6 +55,8 @@ def test_a_ct_is_sent_and_looked_at(server: Server, content: Any) -> None:  # no
         assert np.abs(seen.astype(int) - shown(expected.hu, WINDOWS["bone"])).max() <= 1
         place = server.ask("GET", f"/api/ct/slices/{plane}?at_mm={at_mm}", 200)
         assert np.array(place["lps_from_px"]) == pytest.approx(expected.lps_from_px, abs=1e-4)
+        answer = server.door.get(f"/api/ct/slices/{plane}.png?at_mm={at_mm}")
+        assert json.loads(answer.headers["slice-place"]) == place
     point = truth.lps_from_index([40, 50, 20])
     probed = server.ask("POST", "/api/ct/probe", 200, json={"point_lps_mm": point.tolist()})
     assert probed["hu"] == pytest.approx(truth.hu[20, 50, 40], abs=1.0)

@@ -131,6 +131,7 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
     assert first["overlay"]["shift_px"] == [0.5 * edge for edge in CAMERA.size_wh_px]
     assert [one["name"] for one in first["needles"]] == ["middle", "left", "right"]
     assert first["directions"] == []
+    assert first["slice"] is not None
 
     places = places_on_lines(reference())
     view = view_from_ruler(MEASURED, CAMERA, 0.5 * np.array(CAMERA.size_wh_px))
@@ -146,6 +147,11 @@ def test_the_slice_is_laid_over_the_picture_and_taken(server: Server) -> None:
         "POST", f"{NEEDLES}/overlay", 200, json={"view": VIEW, "overlay": overlay, "marked": needles}
     )
     assert max(one["beside_px"] for one in laid["needles"]) < 2.0
+    # A page that lays the plan's picture of the slice there shows each line's ends where the lens shows them.
+    assert (laid["slice"]["width_px"], laid["slice"]["height_px"]) == (100, 100)
+    for line in reference().lines:
+        there = np.column_stack([line.ends_px, np.ones(2)]) @ np.array(laid["slice"]["image_from_slice"]).T
+        np.testing.assert_allclose(there[:, :2] / there[:, 2:], px(*line.ends_lps_mm), atol=1.5)
 
     asked = {**VIEW, "x_px": overlay["shift_px"][0], "y_px": overlay["shift_px"][1], "fade_ratio": 0.5}
     answer = server.door.get(f"{NEEDLES}/overlay.jpg", params=asked)

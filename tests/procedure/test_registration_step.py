@@ -43,6 +43,7 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     told = server.ask("POST", POINTS, 201, json=DRILL)
     assert [one["name"] for one in told["landmarks"]] == list(LANDMARKS)
     assert told["anchored_to"] == "camera"
+    assert told["limits"]["most_tre_mm"] == 2.0
     assert told["missing"][0]["code"] == "POINTS_TOO_FEW"
     for count, one in enumerate(USED, start=1):
         told = patient.touch(one)
@@ -57,6 +58,8 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
 
     document = server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
     assert document["content"]["numbers"]["points"] == 4
+    (step,) = (one for one in server.ask("GET", "/api/procedure", 200)["steps"] if one["step"] == "register")
+    assert 0.0 <= step["numbers"]["age_min"] < 10.0
     registration = registered(server)
     assert registration is not None
     entry_in_camera = registration.anchor_from_vertebra.move_points(ENTRY)
@@ -257,7 +260,8 @@ def test_beside_a_reference_patient_and_camera_may_move_and_the_server_start_aga
 
     turns.close()
     again = turns.enter_context(serving(tmp_path, REFERENCE))
-    assert withheld(again) is None
+    # A person says first that it is the same patient, and all stands as it did.
+    assert withheld(again) is AbsentReason.NOT_CONFIRMED
     assert registered(again) is not None
     turns.close()
     # Without its marker it is nowhere.

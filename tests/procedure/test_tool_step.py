@@ -28,15 +28,20 @@ def calibrated(server: Server) -> str:
     return case_id
 
 
-def gather(server: Server, scene: Scene, purpose: str, *, images: int = 400, seed: int = 1) -> dict[str, Any]:
+def gather(
+    server: Server, scene: Scene, purpose: str, *, images: int = 400, seed: int = 1, marker: str = "drill"
+) -> dict[str, Any]:
     """Show a rehearsed motion until nothing is missing; the state of the gathering."""
     theatre = Theatre(TheatreSettings(seed=seed, scene=scene))
     random = np.random.default_rng(5)
-    server.ask("POST", "/api/tools/collection", 201, json={"tool": "drill", "purpose": purpose})
+    server.ask(
+        "POST", "/api/tools/collection", 201, json={"tool": "drill", "purpose": purpose, "marker": marker}
+    )
     told: dict[str, Any] = {}
     for index in range(images):
         at_s = index / 10.0
-        server.show(at_s=at_s, seen=sighting(theatre, at_s, random))
+        seen = sighting(theatre, at_s, random)
+        server.show(at_s=at_s, seen=seen, beside={marker: seen})
 
         def looked_at(wanted: int = index + 1) -> bool:
             nonlocal told

@@ -65,13 +65,24 @@ def test_from_an_empty_case_to_drilling(tmp_path: Path) -> None:
 
     # Another start, in the same folder: the case is open again, still registered, and nothing is forgotten.
     with real_server(tmp_path, SETTINGS) as server:
-        assert set(Team(server=server, config=CONFIG).steps().values()) == {"done"}
+        goes_on_once_confirmed(Team(server=server, config=CONFIG))
         lines = server.ask("GET", "/api/alarms/log", 200)["lines"]
         told = [(line["change"], line.get("by")) for line in lines if line.get("number") == breach["number"]]
         assert told[:2] == [("raised", None), ("acknowledged", "M. Ito")]
 
 
 STEPS = ("camera", "tool", "plan", "register", "check", "navigate")
+
+
+def goes_on_once_confirmed(team: Team) -> None:
+    """All holds, and no number is given until a person has said that nothing has moved."""
+    server = team.server
+    assert team.steps() == {**dict.fromkeys(STEPS, "done"), "navigate": "missing"}
+    assert deviation_now(server) == {"kind": "absent", "reason": "NOT_CONFIRMED"}
+    needed = server.ask("GET", "/api/procedure", 200)["confirmation"]
+    word = {"registration_id": needed["registration_id"]}
+    server.ask("POST", "/api/procedure/confirmation", 200, json=word)
+    assert set(team.steps().values()) == {"done"}
 
 
 def register(team: Team) -> None:

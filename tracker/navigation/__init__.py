@@ -1,6 +1,6 @@
 """From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
 
-from tracker.navigation.along import AlongChannel, seen_along
+from tracker.navigation.along import AlongChannel, half_axes_95_mm, seen_along
 from tracker.navigation.concluding import navigate
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.navigation.guide import Guide, ScrewSize, Verdict, verdict_of
@@ -34,6 +34,7 @@ __all__ = [
     "Watched",
     "Watching",
     "deviation_from_channel",
+    "half_axes_95_mm",
     "moves_seen_by",
     "navigate",
     "seen_along",

@@ -10,6 +10,8 @@ from tracker.plan import Channel
 
 # A drill across the channel (89.4 degrees) crosses its planes metres away.
 LEAST_ALONG = 0.01
+# Two degrees of freedom: chi-square of 95 in 100.
+CHI_SQUARE_95 = 5.991
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +38,20 @@ class AlongChannel:
     def across_mm2(self, covariance_mm2: Array) -> Array:
         """A covariance (3, 3) of the vertebra's frame as it is seen in this view, (2, 2)."""
         return np.asarray(self.view_from_vertebra @ covariance_mm2 @ self.view_from_vertebra.T)
+
+    def place_mm(self, point_in_vertebra_mm: Array, channel: Channel) -> Array:
+        """A point of the vertebra's frame in this view of its channel, (2,)."""
+        return np.asarray(self.view_from_vertebra @ (point_in_vertebra_mm - channel.entry_in_vertebra_mm))
+
+    def half_axes_95_mm(self, covariance_mm2: Array) -> Array:
+        """Half axes (2, 2), a row each, of the ellipse that holds a place of covariance (3, 3) in 95 %."""
+        return half_axes_95_mm(self.across_mm2(covariance_mm2))
+
+
+def half_axes_95_mm(covariance_mm2: Array) -> Array:
+    """Half axes (2, 2), a row each, of the ellipse that holds 95 % of a covariance (2, 2) of the view."""
+    values, vectors = np.linalg.eigh(covariance_mm2)
+    return np.asarray(np.sqrt(np.maximum(values, 0.0) * CHI_SQUARE_95)[:, None] * vectors.T)
 
 
 def seen_along(vertebra_from_tool: Rigid[Vertebra, Tool], channel: Channel) -> AlongChannel:

@@ -109,13 +109,19 @@ def placed_vertebra(
     )
 
 
-def _while_placed(vertebra: PlacedVertebra | Absent, tool: ToolInView | Absent) -> ToolInView | Absent:
+def _while_placed(
+    setup: Setup, vertebra: PlacedVertebra | Absent, tool: ToolInView | Absent
+) -> ToolInView | Absent:
     """The tool; once plan and patient are registered, only while it is known where the plan lies on them.
 
-    A drill's line over a patient whose place was lost looks like navigation, and is none.
+    A drill's line over a patient whose place was lost looks like navigation, and is none. Where a person has
+    to confirm that place, the plan is shown for them to look at, and no drill.
     """
-    if isinstance(tool, Absent) or not isinstance(vertebra, Absent):
+    if isinstance(tool, Absent):
         return tool
+    if not isinstance(vertebra, Absent):
+        is_stopped = setup.withheld is AbsentReason.NOT_CONFIRMED
+        return Absent(reason=AbsentReason.NOT_CONFIRMED) if is_stopped else tool
     return tool if vertebra.reason is AbsentReason.NOT_REGISTERED else vertebra
 
 
@@ -189,7 +195,7 @@ def navigate(
     vertebra = placed_vertebra(setup, sightings, watched)
     tools = {
         name: _while_placed(
-            vertebra, tool_in_view(setup, tool, sightings[tool.marker], steady.get(name), watched)
+            setup, vertebra, tool_in_view(setup, tool, sightings[tool.marker], steady.get(name), watched)
         )
         for name, tool in setup.tools.items()
     }

@@ -41,6 +41,8 @@ class AbsentReason(StrEnum):
     REFERENCE_MOVED = "REFERENCE_MOVED"  # the marker on the patient moved, or the patient did
     POSE_JUMPED = "POSE_JUMPED"  # seen, but farther away than a hand gets from one image to the next
     NOT_CHECKED = "NOT_CHECKED"  # registered, but not yet held against a landmark
+    NOT_CONFIRMED = "NOT_CONFIRMED"  # started again, and nobody has said yet that all stands as it did
+    NOT_COSIGNED = "NOT_COSIGNED"  # a second person has not yet signed plan or registration
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,7 +3,7 @@
 from server.procedure.plan.active import ACTIVE_CHANNEL, ActiveChannel, kept_channel
 from server.procedure.plan.exchange import plan_in, plan_out
 from server.procedure.plan.kept import KeptPlan, PlanShelf
-from server.procedure.plan.picture import reference_picture
+from server.procedure.plan.picture import reference_picture, reference_slice
 from server.procedure.plan.step import Author, PlanStep, Proposal
 
 __all__ = [
@@ -18,4 +18,5 @@ __all__ = [
     "plan_in",
     "plan_out",
     "reference_picture",
+    "reference_slice",
 ]

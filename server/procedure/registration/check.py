@@ -26,12 +26,16 @@ class CheckStatus:
         vertebra: that is checked.
         tool: that touches.
         capture: of the tip on the landmark.
+        most_mm: how far the tip may be from where the plan has the landmark.
+        most_spread_mm: standard deviation that the tip may have while it is held there.
         outcome: what the case would keep; None until the tip was captured.
     """
 
     vertebra: str
     tool: str
     capture: TouchStatus
+    most_mm: float
+    most_spread_mm: float
     outcome: KeptCheck | None
 
 
@@ -69,6 +73,8 @@ class CheckSession:
             vertebra=self.ground.vertebra.name,
             tool=self.ground.tool,
             capture=capture,
+            most_mm=self._gate.most_check_mm,
+            most_spread_mm=self._gate.most_capture_sd_mm,
             outcome=None if capture.touched is None else self._outcome(capture, capture.touched),
         )
 

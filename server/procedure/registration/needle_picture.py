@@ -4,7 +4,9 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from server.procedure.plan import reference_slice
 from server.procedure.registration.needle_records import LaidSlice
+from tracker.geometry import Array
 from tracker.plan import Volume
 from tracker.plan.slices import Window, shown
 from tracker.registration.needles import image_from_slice
@@ -40,3 +42,24 @@ def overlay_picture(laid: LaidSlice, volume: Volume | None, window: Window) -> n
         points = np.rint(np.clip(line, -20_000.0, 20_000.0) * 2**BITS).astype(np.int32)
         cv2.polylines(image, [points], False, LINE, 2, cv2.LINE_AA, BITS)
     return np.asarray(image, dtype=np.uint8)
+
+
+def slice_in_image(laid: LaidSlice, volume: Volume) -> tuple[tuple[int, int], Array] | None:
+    """How large the plan's picture of the slice is, in pixels of the CT, and how it lies over the image.
+
+    Returns:
+        (width, height), and the homography (3, 3) from its pixels, whose centres are whole numbers, to the
+        image's; None where needles stand on landmarks, not on a slice's lines.
+    """
+    reference = laid.scene.reference
+    if reference is None:
+        return None
+    one = reference_slice(laid.scene.ground.vertebra, volume)
+    homography = image_from_slice(laid.camera_from_vertebra, reference, laid.scene.camera)
+    # The plan's picture shows the patient's left to the right, whichever way the scanner counted.
+    corners_px = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    corners_lps = np.column_stack([corners_px, np.ones(3)]) @ one.lps_from_px.T
+    own = volume.index_from_lps(corners_lps)[:, :2]
+    own_from_shown = np.eye(3)
+    own_from_shown[:2] = np.column_stack([own[1] - own[0], own[2] - own[0], own[0]])
+    return one.size_wh_px, homography @ own_from_shown

@@ -57,7 +57,7 @@ class PointsStep:
         self._hub = hub
         self._grounds = grounds
         self._shelf = shelf
-        self._gate = gate
+        self.gate = gate
         self._captures = capture_settings(gate)
         self._held: Held[PointsSession] = Held(
             "landmarks are",
@@ -74,7 +74,7 @@ class PointsStep:
             RegistrationError: LANDMARKS_TOO_FEW.
         """
         ground = self._grounds.find(vertebra=vertebra, tool=tool)
-        there, needed = len(ground.vertebra.landmarks), self._gate.least_points
+        there, needed = len(ground.vertebra.landmarks), self.gate.least_points
         if there < needed:
             raise RegistrationError(
                 "LANDMARKS_TOO_FEW",
@@ -100,13 +100,13 @@ class PointsStep:
 
     def failures(self, status: PointsStatus) -> tuple[RegistrationError, ...]:
         """What keeps these points from being used; nothing where they pass their gate."""
-        if len(status.used) < self._gate.least_points:
+        if len(status.used) < self.gate.least_points:
             return (
                 RegistrationError(
                     "POINTS_TOO_FEW",
-                    f"{len(status.used)} landmarks are touched and used, needed {self._gate.least_points}",
+                    f"{len(status.used)} landmarks are touched and used, needed {self.gate.least_points}",
                     "Touch another landmark, or use one that was left out.",
-                    {"points": len(status.used), "needed": self._gate.least_points},
+                    {"points": len(status.used), "needed": self.gate.least_points},
                 ),
             )
         if status.fit is None:
@@ -114,10 +114,10 @@ class PointsStep:
             if trouble is None:
                 raise RuntimeError("neither a fit nor a trouble")
             return (RegistrationError(trouble.code, trouble.message, trouble.remedy, trouble.context),)
-        gate = PointGate(most_fre_mm=self._gate.most_fre_mm, most_tre_mm=self._gate.most_tre_mm)
+        gate = PointGate(most_fre_mm=self.gate.most_fre_mm, most_tre_mm=self.gate.most_tre_mm)
         return (
             *status.fit.failures(gate, list(status.ground.entries_mm)),
-            *strays(status.fit, most_mm=self._gate.most_left_out_mm),
+            *strays(status.fit, most_mm=self.gate.most_left_out_mm),
         )
 
     def conclude(self, *, made_by: str) -> Document:
@@ -151,11 +151,11 @@ class PointsStep:
         return {
             "points": int(fit.used.sum()),
             "fre_rms_mm": fit.fre_rms_mm,
-            "most_fre_mm": self._gate.most_fre_mm,
+            "most_fre_mm": self.gate.most_fre_mm,
             "left_out_mm": max(fit.left_out_mm.values(), default=None),
-            "most_left_out_mm": self._gate.most_left_out_mm,
+            "most_left_out_mm": self.gate.most_left_out_mm,
             "tre_at_entry_mm": max((error.stated_mm for error in entries), default=None),
-            "most_tre_mm": self._gate.most_tre_mm,
+            "most_tre_mm": self.gate.most_tre_mm,
         }
 
 

@@ -2,11 +2,12 @@
 
 from server.procedure.state.judged import ProcedureState, judged, no_case
 from server.procedure.state.reading import Brought, Procedure
-from server.procedure.state.records import Finding, StepName, StepState, StepStatus
+from server.procedure.state.records import Finding, Lack, StepName, StepState, StepStatus
 
 __all__ = [
     "Brought",
     "Finding",
+    "Lack",
     "Procedure",
     "ProcedureState",
     "StepName",

@@ -46,7 +46,7 @@ def check_finding(
         return Finding(state=StepState.MISSING, said=error.message, remedy=error.remedy)
     if kept.passed and is_loose and kept.run != run:
         return _after_start(registration.vertebra, check.id)
-    return _of(kept, check, again_after_min=again_after_min, minutes=_minutes(check.made_at, now))
+    return _of(kept, check, again_after_min=again_after_min, minutes=minutes_since(check.made_at, now))
 
 
 def _of(kept: KeptCheck, check: Document, *, again_after_min: float, minutes: float) -> Finding:
@@ -82,6 +82,7 @@ def _after_start(vertebra: str, document_id: str) -> Finding:
     )
 
 
-def _minutes(made_at: str, now: datetime) -> float:
+def minutes_since(made_at: str, now: datetime) -> float:
+    """The age of a document in minutes; below 0 where the clock was set back."""
     made = datetime.fromisoformat(made_at.replace("Z", "+00:00"))
     return (now.astimezone(UTC) - made).total_seconds() / 60.0

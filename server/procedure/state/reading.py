@@ -1,15 +1,24 @@
 """The state of the procedure as the open case has it now."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 
-from server.config import RegistrationConfig
+from server.config import CosignConfig, RegistrationConfig
 from server.procedure.camera import ACCURACY, MAIN_CAMERA, kept_camera
+from server.procedure.confirmed import (
+    ConfirmationNeeded,
+    believed_from_s,
+    confirmation_name,
+    confirmation_needed,
+    kept_confirmation,
+)
 from server.procedure.plan import ACTIVE_CHANNEL, kept_channel
 from server.procedure.plan.kept import MAIN_PLAN
-from server.procedure.registered import check_name, kept_registration
-from server.procedure.state.checked import CHECK, check_finding
+from server.procedure.registered import KeptRegistration, check_name, kept_check, kept_registration
+from server.procedure.state.checked import CHECK, check_finding, minutes_since
+from server.procedure.state.cosigned import lacking
 from server.procedure.state.judged import ProcedureState, judged, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import kept_tool
@@ -50,6 +59,8 @@ class Procedure:
         brought: what the settings bring.
         gate: the limits of registration and check.
         run: names this run of the server.
+        tracked_from_s: since when the tracking process of now runs, by the images' clock.
+        cosign: what a second person must have signed.
         clock: the wall clock, in UTC.
     """
 
@@ -60,12 +71,16 @@ class Procedure:
         brought: Brought,
         gate: RegistrationConfig,
         run: str,
+        tracked_from_s: Callable[[], float] = lambda: -math.inf,
+        cosign: CosignConfig | None = None,
         clock: Callable[[], datetime] = utc_now,
     ) -> None:
         self._store = store
         self._brought = brought
         self._gate = gate
         self.run = run
+        self._tracked_from_s = tracked_from_s
+        self.cosign = cosign or CosignConfig()
         self._clock = clock
 
     def state(self) -> ProcedureState:
@@ -82,7 +97,44 @@ class Procedure:
             StepName.REGISTER: self._registration(case.id, vertebra),
             StepName.CHECK: self._check(case.id, vertebra),
         }
-        return judged(case.id, findings, check_required=required)
+        return judged(
+            case.id,
+            findings,
+            check_required=required,
+            confirmation=self._confirmation(case.id, vertebra),
+            lacks=lacking(self._store, case.id, findings, self.cosign),
+        )
+
+    def believed_from_s(self, registration: KeptRegistration, case_id: str) -> float | None:
+        """When a person last touched, checked or confirmed what is registered; None before this run."""
+        name = registration.vertebra
+        check = self._current(case_id, DocumentKind.CHECK, check_name(name))
+        confirmation = self._current(case_id, DocumentKind.CONFIRMATION, confirmation_name(name))
+        try:
+            return believed_from_s(
+                registration,
+                None if check is None else kept_check(check),
+                None if confirmation is None else kept_confirmation(confirmation),
+                run=self.run,
+            )
+        except NavigationError:
+            # What cannot be read was said by nobody.
+            return None
+
+    def _confirmation(self, case_id: str, vertebra: str | None) -> ConfirmationNeeded | None:
+        document = None if vertebra is None else self._current(case_id, DocumentKind.REGISTRATION, vertebra)
+        if document is None:
+            return None
+        try:
+            kept = kept_registration(document, reference=self._brought.reference)
+        except NavigationError:
+            return None
+        return confirmation_needed(
+            kept,
+            document,
+            believed_s=self.believed_from_s(kept, case_id),
+            tracked_from_s=self._tracked_from_s(),
+        )
 
     def active_vertebra(self, case_id: str) -> str | None:
         """The vertebra whose channel is to be drilled now."""
@@ -187,7 +239,12 @@ class Procedure:
             kept = kept_registration(found, reference=self._brought.reference)
         except NavigationError as error:
             return _unusable(found, error)
-        numbers = {"method": kept.method.value, "anchored_to": kept.anchored_to.value, **kept.numbers}
+        numbers = {
+            "method": kept.method.value,
+            "anchored_to": kept.anchored_to.value,
+            "age_min": minutes_since(found.made_at, self._clock()),
+            **kept.numbers,
+        }
         return _done(found, f"{vertebra} is registered by {kept.method.value}", numbers)
 
     def _check(self, case_id: str, vertebra: str | None) -> Finding:

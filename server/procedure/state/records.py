@@ -52,6 +52,19 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Lack:
+    """What a step that is done still lacks before anybody may navigate by it.
+
+    Attributes:
+        said: what, in a sentence without its full stop.
+        remedy: what to do, one full sentence.
+    """
+
+    said: str
+    remedy: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class StepStatus:
     """One step among the others.
 
@@ -59,8 +72,10 @@ class StepStatus:
         step: which one.
         finding: what is said of it.
         allowed: whether all that it stands on holds, so that it may be done now.
+        lacks: the co-signature that is required of it and not there; None where nothing is lacking.
     """
 
     step: StepName
     finding: Finding
     allowed: bool
+    lacks: Lack | None = None

@@ -198,7 +198,14 @@ def test_health_fails_only_when_a_restart_would_help(
 def test_each_route_documents_what_it_answers(client: TestClient) -> None:
     document = client.get("/api/openapi.json").json()
     paths = document["paths"]
-    watched = {"/video/{camera}.mjpg", "/api/live", "/api/dashboard", "/health", "/metrics"}
+    watched = {
+        "/video/{camera}.mjpg",
+        "/api/live",
+        "/api/dashboard",
+        "/api/supervision/room",
+        "/health",
+        "/metrics",
+    }
     # Without a store there are no cases and no steps; alarms and the rehearsal need none.
     rooms = ("/api/alarms", "/api/rehearsal", "/api/session", "/api/people", "/api/audit")
     others = {path for path in paths if path.startswith(rooms)}
@@ -218,6 +225,7 @@ def test_each_route_documents_what_it_answers(client: TestClient) -> None:
     assert {(path, status) for path, status, _ in refused if path in watched} == {
         ("/video/{camera}.mjpg", "404"),
         ("/video/{camera}.mjpg", "422"),
+        ("/video/{camera}.mjpg", "503"),
         ("/api/live", "503"),
     }
     for _, _, answer in refused:

@@ -6,6 +6,7 @@ import pytest
 
 from server.api.metrics import Metrics
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.stream.fitting.pictures import Pictures
 from server.stream.viewers import ViewerKind, Viewers
 from tracker.navigation import NavigationSnapshot
 
@@ -25,7 +26,7 @@ def viewers() -> Viewers:
 
 @pytest.fixture
 def metrics(hub: LiveHub, viewers: Viewers) -> Metrics:
-    return Metrics(hub=hub, viewers=viewers)
+    return Metrics(hub=hub, viewers=viewers, pictures=Pictures(quality=80))
 
 
 def value(metrics: Metrics, name: str, **labels: str) -> float | None:
@@ -82,5 +83,5 @@ def test_two_applications_do_not_share_counters(
     metrics: Metrics, snapshot_of: SnapshotOf, instant_of: InstantOf
 ) -> None:
     metrics.count(instant_of(0, snapshot=snapshot_of(captured_at_s=1.0)))
-    other = Metrics(hub=LiveHub(), viewers=Viewers())
+    other = Metrics(hub=LiveHub(), viewers=Viewers(), pictures=Pictures(quality=80))
     assert value(other, "coaxial_marker_seen_total", marker="drill") is None

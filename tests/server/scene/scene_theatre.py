@@ -152,7 +152,9 @@ class Running:
 
 
 @contextmanager
-def running(theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0) -> Iterator[Running]:
+def running(
+    theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0, most_viewers: int = 32
+) -> Iterator[Running]:
     """The scene behind a real socket on 127.0.0.1, with a page around it at `/`."""
     hub = LiveHub()
 
@@ -163,7 +165,14 @@ def running(theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0) -
         await app.state.scene.stop()
 
     app = Starlette(routes=[Route("/", lambda _: HTMLResponse(PARENT))], lifespan=lifespan)
-    mount_scene(app, hub=hub, setup=theatre.setup, surface=theatre.surface, stale_after_ms=stale_after_ms)
+    mount_scene(
+        app,
+        hub=hub,
+        setup=theatre.setup,
+        surface=theatre.surface,
+        stale_after_ms=stale_after_ms,
+        most_viewers=most_viewers,
+    )
     listener = socket.socket()
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     listener.bind(("127.0.0.1", port))

@@ -154,9 +154,8 @@ def test_a_stranger_is_refused_before_the_handshake(theatre: Theatre, wish: dict
         assert server.app.state.scene.viewers == 0
 
 
-def test_a_crowd_is_refused(theatre: Theatre, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(scene_module, "MOST_VIEWERS", 1)
-    with running(theatre) as server, viewer(server) as line:
+def test_a_crowd_is_refused(theatre: Theatre) -> None:
+    with running(theatre, most_viewers=1) as server, viewer(server) as line:
         line.recv(timeout=20)
         with pytest.raises(InvalidStatus), viewer(server):
             pass

@@ -1,5 +1,6 @@
 """The folder in which everything is kept, and the database in it."""
 
+import errno
 import os
 import shutil
 import sqlite3
@@ -9,6 +10,7 @@ from contextlib import closing
 from pathlib import Path
 
 import alembic.autogenerate
+import filelock
 import pytest
 from alembic.runtime.migration import MigrationContext
 from sqlalchemy import create_engine
@@ -51,6 +53,20 @@ def test_two_servers_never_share_a_folder(tmp_path: Path) -> None:
         assert refused.value.code == "HOME_IN_USE"
         other.kill()
     Home(tmp_path).close()
+
+
+@pytest.mark.parametrize("said", [OSError(errno.ENOLCK, "No locks available"), NotImplementedError("flock")])
+def test_a_disk_without_locks_is_refused_with_a_remedy(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: Exception
+) -> None:
+    def acquire(*_: object, **__: object) -> None:
+        raise said
+
+    monkeypatch.setattr(filelock.FileLock, "acquire", acquire)
+    with pytest.raises(StoreError, match="gives no locks") as refused:
+        Home(tmp_path)
+    assert refused.value.code == "HOME_NOT_LOCKABLE"
+    assert "COAXIAL_HOME" in refused.value.remedy
 
 
 def test_a_refused_second_server_does_not_touch_the_work_of_the_first(home: Home) -> None:

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from fastapi import FastAPI
@@ -24,9 +25,9 @@ DEADLINE_S = 60.0
 class Watching:
     """A viewer of the MJPEG stream that looks at each byte."""
 
-    def __init__(self, port: int) -> None:
+    def __init__(self, port: int, query: str = "") -> None:
         self._connection = http.client.HTTPConnection("127.0.0.1", port, timeout=DEADLINE_S)
-        self._connection.request("GET", "/video/main.mjpg")
+        self._connection.request("GET", f"/video/main.mjpg{query}")
         self.response = self._connection.getresponse()
         assert self.response.read(len(PART_HEAD)) == PART_HEAD
 
@@ -53,11 +54,11 @@ def port(app: FastAPI, serve: Serve) -> int:
 
 
 @pytest.fixture
-def watch(port: int) -> Iterator[Callable[[], Watching]]:
+def watch(port: int) -> Iterator[Callable[..., Watching]]:
     watching: list[Watching] = []
 
-    def start() -> Watching:
-        watching.append(Watching(port))
+    def start(query: str = "") -> Watching:
+        watching.append(Watching(port, query))
         return watching[-1]
 
     yield start
@@ -108,6 +109,18 @@ def test_each_viewer_gets_the_same_bytes(
     instant = live_instant(2)
     hub.publish(instant)
     assert one.picture()[1] == other.picture()[1] == instant.jpeg
+
+
+def test_a_viewer_gets_the_size_that_it_asks_for(
+    hub: LiveHub, live_instant: LiveInstant, watch: Callable[..., Watching]
+) -> None:
+    hub.publish(live_instant(1))
+    for query, ratio, width_px in (("", 1.0, 160), ("?size=half", 0.5, 80), ("?size=quarter", 0.25, 40)):
+        facts, jpeg = watch(query).picture()
+        assert facts["shown_scale_ratio"] == ratio
+        decoded = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
+        assert decoded is not None
+        assert decoded.shape[1] == width_px
 
 
 def test_before_the_first_image_a_card_is_shown_and_then_the_image(

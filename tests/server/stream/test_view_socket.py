@@ -5,6 +5,8 @@ import struct
 from collections.abc import Callable
 from typing import Any
 
+import cv2
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 from starlette.testclient import WebSocketTestSession
@@ -71,6 +73,8 @@ def test_an_instant_without_image_comes_with_an_empty_jpeg(
         pytest.param("next", 1008, "only {", id="no-json"),
         pytest.param('{"next": false}', 1008, "only {", id="another-value"),
         pytest.param('{"next": true, "camera": "x"}', 1008, "only {", id="more-than-asked"),
+        pytest.param('{"size": "tiny"}', 1008, "only {", id="unknown-size"),
+        pytest.param('{"size": ["full"]}', 1008, "only {", id="sizes"),
         pytest.param("[" * 1000, 1008, "only {", id="deep"),
         pytest.param("x" * 1025, 1009, "1024", id="too-long"),
         pytest.param(b"\x00", 1008, "text", id="binary"),
@@ -90,6 +94,24 @@ def test_anything_else_ends_with_a_reason(
     assert reason in told.value.reason
 
 
+def test_the_size_is_asked_for_at_the_door_and_changed_on_the_way(
+    open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant
+) -> None:
+    with open_socket("/ws/view?size=half") as socket:
+        shown = []
+        for sequence, said in enumerate((None, "quarter", "full", "auto")):
+            if said is not None:
+                socket.send_text(json.dumps({"size": said}))
+            hub.publish(live_instant(sequence))
+            socket.send_text('{"next": true}')
+            header, jpeg = unpacked(socket.receive_bytes())
+            decoded = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
+            assert decoded is not None
+            shown.append((header["shown_scale_ratio"], decoded.shape[1], header["snapshot"]["width_px"]))
+    # The pixels in the message are always those of the camera's image.
+    assert shown == [(0.5, 80, 160), (0.25, 40, 160), (1.0, 160, 160), (1.0, 160, 160)]
+
+
 def test_a_flood_of_questions_ends_with_a_reason(open_socket: OpenSocket) -> None:
     with open_socket("/ws/view") as socket:
         for _ in range(700):
@@ -105,3 +127,10 @@ def test_an_unknown_camera_is_refused_with_the_known_ones(open_socket: OpenSocke
         socket.receive_bytes()
     assert told.value.code == 1008
     assert told.value.reason == "there is no camera 'side', only main"
+
+
+def test_an_unknown_size_is_refused_with_the_known_ones(open_socket: OpenSocket) -> None:
+    with open_socket("/ws/view?size=tiny") as socket, pytest.raises(WebSocketDisconnect) as told:
+        socket.receive_bytes()
+    assert told.value.code == 1008
+    assert told.value.reason == "there is no size 'tiny', only auto, full, half, quarter"

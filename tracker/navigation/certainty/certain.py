@@ -26,6 +26,11 @@ class Room:
     room_mm: float
     lever_mm: float
 
+    @property
+    def room_deg(self) -> float:
+        """The angle that uses the room up where the pedicle is narrow, of a drill that enters on the axis."""
+        return float(np.degrees(np.arctan2(self.room_mm, self.lever_mm)))
+
     @classmethod
     def of_tolerance(cls, tolerance: Tolerance) -> "Room":
         """As the plan's tolerance has it."""
@@ -49,13 +54,15 @@ class Certain:
         enough: 95 % of the uncertainty fits into the room.
         entry_95_mm: the drill's line is within this of where it is shown, in 95 %, at the entry.
         isthmus_95_mm: likewise where the pedicle is narrow.
-        room_mm: what the pedicle leaves.
+        room_mm: what the pedicle leaves to an offset.
+        room_deg: what it leaves to an angle.
     """
 
     enough: bool
     entry_95_mm: float
     isthmus_95_mm: float
     room_mm: float
+    room_deg: float
 
 
 def certain_for(tool: Placed[Vertebra, Tool], channel: Channel, room: Room) -> Certain:
@@ -68,4 +75,5 @@ def certain_for(tool: Placed[Vertebra, Tool], channel: Channel, room: Room) -> C
         entry_95_mm=entry,
         isthmus_95_mm=isthmus,
         room_mm=room.room_mm,
+        room_deg=room.room_deg,
     )

@@ -3,6 +3,7 @@ import { useLocation } from "wouter";
 import { EnterPage } from "../enter/EnterPage";
 import { LiveProvider } from "../live/LiveContext";
 import { OperatorView } from "../operator/OperatorView";
+import { RoomProvider } from "../room/RoomContext";
 import { SupervisorView } from "../supervisor/SupervisorView";
 import { TheatreView } from "../theatre/TheatreView";
 import { useSession } from "./session";
@@ -19,10 +20,13 @@ export function App(): ReactNode {
   const { session } = useSession();
   const [path] = useLocation();
   if (session.state !== "in" || path === "/enter") return <EnterPage />;
-  const View = VIEWS[viewAt(path, session.who.role)];
+  const view = viewAt(path, session.who.role);
+  const View = VIEWS[view];
   return (
     <LiveProvider>
-      <View />
+      <RoomProvider view={view}>
+        <View />
+      </RoomProvider>
     </LiveProvider>
   );
 }

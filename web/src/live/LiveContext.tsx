@@ -1,7 +1,8 @@
 // The way from the live state into React: words and tables a few times a second, and at once when what they
 // say changes. Picture and figures do not come this way; they are painted directly.
 import { createContext, use, useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
-import type { View } from "./live";
+import type { Carried } from "./carried";
+import type { Ages, View } from "./live";
 import { Live } from "./live";
 import { start, type Dashboard } from "./start";
 
@@ -44,6 +45,16 @@ export function useLive(): LiveValue {
   return value;
 }
 
+/** The true age of everything, a few times a second: for who watches from afar. */
+export function useAges(): Ages {
+  return useLive().view.ages;
+}
+
+/** What this viewer's line carries, a few times a second. */
+export function useCarried(): Carried {
+  return useLive().view.carried;
+}
+
 /** Paints directly with every look, past React's state. */
 export function usePainter(paint: (view: View) => void): void {
   const { live } = useLive();
@@ -58,7 +69,7 @@ export function usePainter(paint: (view: View) => void): void {
 }
 
 /** What the words say; a change of it is shown at once. */
-function keyOf({ link, video, numbers, scene, newest }: View): string {
+function keyOf({ link, video, numbers, scene, newest, carried }: View): string {
   const videoKey = video.live ? "live" : video.cause;
   const unread = numbers.live ? null : numbers.unread;
   const numbersKey = numbers.live
@@ -73,5 +84,6 @@ function keyOf({ link, video, numbers, scene, newest }: View): string {
     troubles,
     newest?.source.state,
     newest?.alarms.revision,
+    carried.choice,
   ].join("|");
 }

@@ -1,6 +1,6 @@
 // Truth for tests: messages as the server sends them.
 import type { Situation, Taken } from "./assess";
-import type { AlarmsMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
+import type { AlarmsMessage, AlongMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
 
 export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessage {
   return {
@@ -14,6 +14,7 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
     anchored_to: "camera",
     reference: null,
     channel_name: "L3 left",
+    withheld: null,
     vertebra: { kind: "absent", reason: "NOT_REGISTERED" },
     watched: { moves_seen_by: "not-at-all", camera_moved: false, reference_moved: false, scene: "unsure" },
     markers: [
@@ -41,6 +42,7 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
           sagittal_deg: -1.5,
         },
         judgement: judgement(),
+        along: along(),
       },
     ],
     stage_ms: {},
@@ -86,7 +88,27 @@ export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMes
       sd_depth_mm: 0.2,
       sd_at_entry_mm: 0.3,
     },
-    certain: { enough: true, entry_95_mm: 0.7, isthmus_95_mm: 0.8, room_mm: 2 },
+    certain: { enough: true, entry_95_mm: 0.7, isthmus_95_mm: 0.8, room_mm: 2, room_deg: 6.3 },
+    ...changes,
+  };
+}
+
+/** Beside the axis, turned a little to the right. */
+export function along(changes: Partial<AlongMessage> = {}): AlongMessage {
+  return {
+    tip_mm: [1, -0.5],
+    at_entry_mm: [0.6, 0.8],
+    at_target_mm: [2, -3],
+    nearest_mm: [2.6, -0.5],
+    tip_half_axes_95_mm: [
+      [0.5, 0],
+      [0, 0.3],
+    ],
+    medial_is_right: true,
+    channel_radius_mm: 4,
+    channel_length_mm: 40,
+    drill_radius_mm: 2,
+    reach_mm: 8,
     ...changes,
   };
 }
@@ -99,6 +121,7 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
   return {
     sequence: 7,
     sent_at_s: 100.02,
+    shown_scale_ratio: 1,
     source: { name: "rehearsal", state: "running", trouble: null, images: 8, skipped_images: 0, rate_hz: 30 },
     process: { state: "running", restarts: 0, trouble: null },
     snapshot: snapshot(),

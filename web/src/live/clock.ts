@@ -13,6 +13,11 @@ export class ServerClock {
     this.offsetMs = sentAtS * 1000 - (askedAtMs + answeredAtMs) / 2;
   }
 
+  /** By how much the server's clock is ahead of the page's; null before the first comparison. */
+  get aheadMs(): number | null {
+    return this.offsetMs;
+  }
+
   forget(): void {
     this.offsetMs = null;
   }

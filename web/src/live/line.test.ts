@@ -66,6 +66,17 @@ test("grants one image when it opens, and no other before it is told", () => {
   expect(images).toEqual([7]);
 });
 
+test("another size is asked for on a line that stands, and only there", () => {
+  line.askSize("half");
+  expect(newest().sent).toEqual([]);
+  newest().onopen?.();
+  line.askSize("half");
+  expect(newest().sent).toEqual(['{"next":true}', '{"size":"half"}']);
+  newest().onclose?.();
+  line.askSize("full");
+  expect(newest().sent).toHaveLength(2);
+});
+
 test("a lost line is said at once and taken up again", () => {
   newest().onopen?.();
   newest().onclose?.();

@@ -28,6 +28,7 @@ const GRANT = JSON.stringify({ next: true });
 export class ViewLine {
   private socket: Socket | null = null;
   private attempt = 0;
+  private isOpen = false;
   private stopped = false;
 
   constructor(private readonly doors: LineDoors) {}
@@ -53,6 +54,11 @@ export class ViewLine {
     this.socket?.send(GRANT);
   }
 
+  /** Ask for pictures of another size, from the next one on. */
+  askSize(size: string): void {
+    if (this.isOpen) this.socket?.send(JSON.stringify({ size }));
+  }
+
   private connect(): void {
     if (this.stopped) return;
     const socket = this.doors.open();
@@ -61,6 +67,7 @@ export class ViewLine {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       opened = true;
+      this.isOpen = true;
       this.doors.onLink("open");
       this.grant();
     };
@@ -103,6 +110,7 @@ export class ViewLine {
   private release(): void {
     const socket = this.socket;
     this.socket = null;
+    this.isOpen = false;
     if (socket === null) return;
     socket.onopen = socket.onmessage = socket.onclose = null;
     socket.close();

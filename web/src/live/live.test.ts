@@ -111,6 +111,29 @@ test("an answer that came too late for its line is not heard", () => {
   expect(live.look().newest).toBeNull();
 });
 
+test("the true age of everything can be read, clocks compared", async () => {
+  await live.take(frame(1));
+  expect(live.look().ages).toEqual({
+    pictureMs: 20,
+    numbersMs: 20,
+    sceneMs: null,
+    clockAheadMs: null,
+  });
+  live.answered(message(), nowMs, live.currentGeneration);
+  nowMs = 1100;
+  expect(live.look().ages).toMatchObject({ pictureMs: 120, clockAheadMs: 99_020 });
+});
+
+test("a chosen size is told at once, and the picture says which one came", async () => {
+  const told: string[] = [];
+  live.setOnChoice((choice) => told.push(choice));
+  live.choosePicture("half");
+  const { message: full, jpeg: picture } = frame(1);
+  await live.take({ message: { ...full, shown_scale_ratio: 0.5 }, jpeg: picture });
+  expect(told).toEqual(["half"]);
+  expect(live.look().carried).toMatchObject({ choice: "half", widthPx: 640, heightPx: 360 });
+});
+
 test("a server that says nothing any more is gone within a second", async () => {
   await live.take(frame(1));
   nowMs = 1801;

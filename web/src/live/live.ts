@@ -7,26 +7,17 @@ import {
   type NumbersVerdict,
   type Situation,
   type Taken,
-  type VideoVerdict,
 } from "./assess";
+import { Carrying, type PictureChoice } from "./carried";
 import { ServerClock } from "./clock";
 import type { ViewFrame } from "./frame";
 import type { LinkState } from "./line";
 import type { LiveMessage } from "./messages";
 import { ReturnHold } from "./returnHold";
-import { SceneAge, type SceneNote, type SceneVerdict } from "./sceneAge";
+import { SceneAge, type SceneNote } from "./sceneAge";
+import { agesOf, type View } from "./view";
 
-export interface View {
-  nowMs: number;
-  link: LinkState;
-  silentMs: number;
-  newest: LiveMessage | null;
-  video: VideoVerdict;
-  numbers: NumbersVerdict;
-  /** How long there have been no numbers; null while there are, or when there never were. */
-  untrackedMs: number | null;
-  scene: SceneVerdict;
-}
+export type { Ages, View } from "./view";
 
 /** Draws the picture of a frame; false when it cannot be drawn. */
 export type Draw = (jpeg: Uint8Array<ArrayBuffer>, isCurrent: () => boolean) => Promise<boolean>;
@@ -54,6 +45,8 @@ export class Live {
   private readonly clock = new ServerClock();
   private readonly hold = new ReturnHold();
   private readonly sceneAge = new SceneAge();
+  private readonly carrying = new Carrying();
+  private onChoice: (choice: PictureChoice) => void = () => undefined;
   private readonly painters = new Set<(view: View) => void>();
 
   constructor(private readonly now: () => number) {}
@@ -71,6 +64,7 @@ export class Live {
     const video = videoVerdict(this.is, nowMs);
     // A picture that was taken away does not come back: only a new one does.
     if (!video.live) this.is.picture = null;
+    const scene = this.sceneAge.verdict(nowMs, this.is.limits.scene_stale_after_ms);
     const view: View = {
       nowMs,
       link: this.is.link,
@@ -79,7 +73,9 @@ export class Live {
       video,
       numbers,
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
-      scene: this.sceneAge.verdict(nowMs, this.is.limits.scene_stale_after_ms),
+      scene,
+      ages: agesOf(video, numbers, scene, this.clock.aheadMs),
+      carried: this.carrying.look(nowMs, this.is.newest?.source.rate_hz ?? 0),
     };
     for (const painter of this.painters) painter(view);
     return view;
@@ -87,6 +83,21 @@ export class Live {
 
   setDraw(draw: Draw): void {
     this.draw = draw;
+  }
+
+  /** Who tells the server which size is wanted, now and with each later choice. */
+  setOnChoice(onChoice: (choice: PictureChoice) => void): void {
+    this.onChoice = onChoice;
+  }
+
+  choosePicture(choice: PictureChoice): void {
+    this.carrying.choice = choice;
+    this.onChoice(choice);
+    this.look();
+  }
+
+  get pictureChoice(): PictureChoice {
+    return this.carrying.choice;
   }
 
   setLimits(limits: Limits): void {
@@ -118,10 +129,14 @@ export class Live {
     const taken = this.takenFrom(message, receivedAtMs);
     if (taken) this.sceneAge.image(taken.snapshot.image_number, taken.capturedAtMs);
     // Numbers and picture change together, when the picture is ready: both are of one image.
+    const began = this.now();
     const drawn = taken !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent));
     if (!isCurrent()) return false;
     this.is.numbers = taken;
-    if (drawn) this.is.picture = taken;
+    if (drawn) {
+      this.is.picture = taken;
+      this.noteCarried(taken.snapshot, began, message.shown_scale_ratio);
+    }
     this.look();
     return true;
   }
@@ -148,6 +163,11 @@ export class Live {
     return this.is.link !== "open" || this.is.heardAtMs === null ? 0 : this.now() - this.is.heardAtMs;
   }
 
+  private noteCarried(of: Taken["snapshot"], beganMs: number, scaleRatio: number): void {
+    const nowMs = this.now();
+    this.carrying.took(nowMs, nowMs - beganMs, [of.width_px, of.height_px], scaleRatio);
+  }
+
   private heard(): number {
     this.is.heardAtMs = this.now();
     return this.is.heardAtMs;
@@ -158,6 +178,7 @@ export class Live {
     this.is.newest = this.is.numbers = this.is.picture = null;
     this.clock.forget();
     this.sceneAge.forget();
+    this.carrying.forget();
   }
 
   private takenFrom(message: LiveMessage, receivedAtMs: number): Taken | null {

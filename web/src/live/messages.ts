@@ -9,6 +9,7 @@ export type MarkerMessage = Schemas["MarkerMessage"];
 export type ToolStateMessage = Schemas["ToolStateMessage"];
 export type DeviationMessage = Schemas["DeviationMessage"];
 export type JudgementMessage = Schemas["JudgementMessage"];
+export type AlongMessage = Schemas["AlongMessage"];
 export type ClosestMessage = Schemas["ClearanceMessage"]["now"];
 export type Verdict = Schemas["Verdict"];
 export type Wall = Schemas["Wall"];

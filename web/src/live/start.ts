@@ -1,6 +1,7 @@
 // Joins the pure parts to the browser: WebSocket, timers, questions to the server, visibility.
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
+import { chosenBefore, keepChoice } from "./chosen";
 import { ViewLine, type Socket } from "./line";
 import type { Live } from "./live";
 import { isSceneNote } from "./sceneAge";
@@ -80,6 +81,11 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     { signal },
   );
   onVisibility();
+  live.choosePicture(chosenBefore());
+  live.setOnChoice((choice) => {
+    keepChoice(choice);
+    line.askSize(choice);
+  });
   line.start();
   return () => {
     stop.abort();
@@ -90,13 +96,15 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
 
 function viewLine(live: Live, onOpen: () => void): ViewLine {
   const line = new ViewLine({
-    open: () => new WebSocket(viewAddress()) as Socket,
+    open: () => new WebSocket(viewAddress(live.pictureChoice)) as Socket,
     later: (action, waitMs) => {
       setTimeout(action, waitMs);
     },
     onLink: (state) => {
       live.setLink(state);
-      if (state === "open") onOpen();
+      if (state !== "open") return;
+      onOpen();
+      tellScenes();
     },
     onFrame: (frame) => {
       void live.take(frame).then((standing) => {
@@ -107,8 +115,15 @@ function viewLine(live: Live, onOpen: () => void): ViewLine {
   return line;
 }
 
-function viewAddress(): string {
-  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/view`;
+/** The server is there again: `watch.js` in each scene hears this, and takes its own line up at once. */
+function tellScenes(): void {
+  for (const frame of document.querySelectorAll<HTMLIFrameElement>("iframe[src^='/scene/']")) {
+    frame.contentWindow?.postMessage({ kind: "coaxial-server" }, location.origin);
+  }
+}
+
+function viewAddress(size: string): string {
+  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/view?size=${size}`;
 }
 
 /** Asks the server who it is and which limits hold; limits have one home, its config. */

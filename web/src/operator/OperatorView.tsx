@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { ConfirmRestart } from "../app/ConfirmRestart";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { AlertBand } from "../panes/AlertBand";
@@ -38,6 +39,7 @@ function Steps(): ReactNode {
         <SignedIn />
       </header>
       <AlarmBand />
+      <ConfirmRestart />
       <AlertBand />
       <div className="operator-body">
         <StepRail now={page} />

@@ -1,6 +1,7 @@
 import { useEffect, useRef, type ReactNode } from "react";
 import { useLive, usePainter } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
+import { MarksLayer } from "../marks/MarksLayer";
 import { useWords } from "../words/WordsContext";
 import { Cover } from "./Cover";
 import { clearPicture, drawPicture } from "./drawPicture";
@@ -60,6 +61,7 @@ export function VideoPane(): ReactNode {
           aria-label={words.video.alt}
         />
         <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
+        <MarksLayer />
         <p className="when-late" data-testid="video-late">
           <span aria-hidden="true">▲▲</span> {words.video.late}
         </p>

@@ -4,12 +4,12 @@ import { en } from "../words/en";
 import { VERDICT_SYMBOL, aheadText, clearanceMm, verdictText, wallHint } from "./verdictText";
 
 test("an unsure drill is told with the larger uncertainty and what the pedicle leaves", () => {
-  const certain = { enough: false, entry_95_mm: 1.2, isthmus_95_mm: 1.94, room_mm: 1.5 };
+  const certain = { enough: false, entry_95_mm: 1.2, isthmus_95_mm: 1.94, room_mm: 1.5, room_deg: 6.3 };
   expect(verdictText(judgement({ verdict: "unsure", certain }), en)).toBe("UNSURE ±1.9 of 1.5 mm");
 });
 
 test("a drill across the channel has no uncertainty in mm", () => {
-  const certain = { enough: false, entry_95_mm: null, isthmus_95_mm: 1, room_mm: 1.5 };
+  const certain = { enough: false, entry_95_mm: null, isthmus_95_mm: 1, room_mm: 1.5, room_deg: 6.3 };
   expect(verdictText(judgement({ verdict: "unsure", certain }), en)).toBe("UNSURE ±-- of 1.5 mm");
 });
 

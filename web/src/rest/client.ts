@@ -4,7 +4,10 @@ import type { components, paths } from "../schema";
 
 export type Trouble = components["schemas"]["TroubleMessage"];
 
-export const server = createClient<paths>({ baseUrl: location.origin, cache: "no-store" });
+// Tests of pure parts run without a browser.
+const baseUrl = typeof location === "undefined" ? "" : location.origin;
+
+export const server = createClient<paths>({ baseUrl, cache: "no-store" });
 
 const gone = new EventTarget();
 const GONE = "session-gone";

@@ -1,7 +1,112 @@
 import type { ReactNode } from "react";
-import { TheatreView } from "../theatre/TheatreView";
+import { ViewSwitch } from "../app/ViewSwitch";
+import { MarkingProvider } from "../marks/MarkingContext";
+import { MarksTools } from "../marks/MarksTools";
+import { ProcedureProvider } from "../operator/procedure";
+import { AlertBand } from "../panes/AlertBand";
+import { Announcer } from "../panes/Announcer";
+import { NumbersPane } from "../panes/NumbersPane";
+import { ScenePane } from "../panes/ScenePane";
+import { VideoPane } from "../panes/VideoPane";
+import type { Signable } from "../room/messages";
+import { useRoomWords } from "../room/RoomContext";
+import { Watching } from "../room/Watching";
+import { useWords } from "../words/WordsContext";
+import { AgesStrip } from "./Ages";
+import { AlarmsShown } from "./AlarmsShown";
+import { Fold } from "./Fold";
+import { HoldPanel } from "./HoldPanel";
+import { LogPanel } from "./LogPanel";
+import { PlanPanel } from "./PlanPanel";
+import { RegistrationPanel } from "./RegistrationPanel";
+import { StepsShown } from "./StepsShown";
 
-/** The supervisor's view: what the theatre sees, its plan and its log. */
+/** The supervisor's view: sees all, points, signs, asks to hold. Nothing in it moves anything. */
 export function SupervisorView(): ReactNode {
-  return <TheatreView />;
+  const words = useWords();
+  const own = words.supervisor;
+  return (
+    <div className="page supervisor">
+      <a className="skip" href="#video">
+        {own.skip}
+      </a>
+      <header className="supervisor-top">
+        <div>
+          <h1>
+            {words.product} <small>{own.title}</small>
+          </h1>
+          <p className="notice">
+            {words.notice}. {own.nothingMoves}
+          </p>
+        </div>
+        <ViewSwitch />
+        <Watching />
+      </header>
+      <AlarmsShown />
+      <AlertBand />
+      <main className="supervisor-body">
+        <div className="supervisor-picture">
+          <MarkingProvider>
+            <VideoPane />
+            <MarksTools />
+          </MarkingProvider>
+          <AgesStrip />
+        </div>
+        <div className="supervisor-side">
+          <HoldPanel />
+          <NumbersPane />
+        </div>
+        <ProcedureProvider>
+          <div className="supervisor-folds">
+            <Fold id="steps" title={own.steps.title} open>
+              <StepsShown />
+            </Fold>
+            <Signables />
+            <Fold id="log" title={own.log.title}>
+              <LogPanel />
+            </Fold>
+            <Fold id="scene" title={own.scene.title} aside={<span className="soft">{own.scene.hint}</span>}>
+              <ScenePane />
+            </Fold>
+          </div>
+        </ProcedureProvider>
+      </main>
+      <Announcer />
+    </div>
+  );
+}
+
+/** Plan and registration; the state of their signatures is told by the room, and stands there unopened. */
+function Signables(): ReactNode {
+  const own = useWords().supervisor;
+  const { signable } = useRoomWords();
+  const plan = signable?.find((one) => one.what === "plan") ?? null;
+  const registration = signable?.find((one) => one.what === "registration") ?? null;
+  return (
+    <>
+      <Fold id="plan" title={own.plan.title} aside={<SignState signable={plan} />}>
+        {plan === null ? <p className="soft">{own.plan.none}</p> : <PlanPanel signable={plan} />}
+      </Fold>
+      <Fold id="registration" title={own.registration.title} aside={<SignState signable={registration} />}>
+        {registration === null ? (
+          <p className="soft">{own.registration.none}</p>
+        ) : (
+          <RegistrationPanel signable={registration} />
+        )}
+      </Fold>
+    </>
+  );
+}
+
+function SignState({ signable }: { signable: Signable | null }): ReactNode {
+  const words = useWords().supervisor.sign;
+  if (signable?.document_id == null) return null;
+  const waits = !signable.is_cosigned && signable.requirement === "required";
+  return (
+    <span className="sign-state" data-state={signable.is_cosigned ? "done" : waits ? "waits" : "open"}>
+      <span aria-hidden="true">{signable.is_cosigned ? "✓" : waits ? "▲" : "○"}</span>{" "}
+      {signable.is_cosigned ? words.done : words.open}
+      {waits && ` · ${words.required}`}
+    </span>
+  );
 }

@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
 import { DetailsPane } from "../panes/DetailsPane";
@@ -20,6 +21,7 @@ export function TheatreView(): ReactNode {
       </a>
       <Header />
       <AlarmBand />
+      <ConfirmRestart />
       <AlertBand />
       <main className="panes">
         <div className="column">

@@ -4,13 +4,18 @@ import { cameraDe } from "./camera/de";
 import { caseDe } from "./case/de";
 import { checkDe } from "./check/de";
 import { enterDe } from "./enter/de";
+import { lineDe } from "./line/de";
 import { navigateDe } from "./navigate/de";
+import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
+import { peopleDe } from "./people/de";
 import { planDe } from "./plan/de";
 import { reasonsDe } from "./reasons/de";
 import { registrationDe } from "./registration/de";
 import { reportDe } from "./report/de";
 import { restDe } from "./rest/de";
+import { roomDe } from "./room/de";
+import { restartDe } from "./restart/de";
 import { shellDe } from "./shell/de";
 import { supervisorDe } from "./supervisor/de";
 import { theatreDe } from "./theatre/de";
@@ -133,17 +138,22 @@ export const de: Words = {
   alarms: alarmsDe,
   ...reasonsDe,
   shell: shellDe,
+  line: lineDe,
   enter: enterDe,
   rest: restDe,
+  restart: restartDe,
   operator: operatorDe,
   theatre: theatreDe,
   case: caseDe,
   camera: cameraDe,
   tool: toolDe,
+  people: peopleDe,
   plan: planDe,
   registration: registrationDe,
   check: checkDe,
   navigate: navigateDe,
   report: reportDe,
   supervisor: supervisorDe,
+  marks: marksDe,
+  room: roomDe,
 };

@@ -4,13 +4,18 @@ import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
 import { checkEn } from "./check/en";
 import { enterEn } from "./enter/en";
+import { lineEn } from "./line/en";
 import { navigateEn } from "./navigate/en";
+import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
+import { peopleEn } from "./people/en";
 import { planEn } from "./plan/en";
 import { reasonsEn } from "./reasons/en";
 import { registrationEn } from "./registration/en";
 import { reportEn } from "./report/en";
 import { restEn } from "./rest/en";
+import { roomEn } from "./room/en";
+import { restartEn } from "./restart/en";
 import { shellEn } from "./shell/en";
 import { supervisorEn } from "./supervisor/en";
 import { theatreEn } from "./theatre/en";
@@ -135,17 +140,22 @@ export const en: Words = {
   alarms: alarmsEn,
   ...reasonsEn,
   shell: shellEn,
+  line: lineEn,
   enter: enterEn,
   rest: restEn,
+  restart: restartEn,
   operator: operatorEn,
   theatre: theatreEn,
   case: caseEn,
   camera: cameraEn,
   tool: toolEn,
+  people: peopleEn,
   plan: planEn,
   registration: registrationEn,
   check: checkEn,
   navigate: navigateEn,
   report: reportEn,
   supervisor: supervisorEn,
+  marks: marksEn,
+  room: roomEn,
 };

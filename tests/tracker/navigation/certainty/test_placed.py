@@ -187,6 +187,13 @@ def test_navigation_is_enough_while_95_percent_fit_into_the_room(sd_mm: float, *
     assert certain.isthmus_95_mm == pytest.approx(2.4477 * sd_mm, abs=1e-3)
 
 
+def test_the_room_is_an_angle_where_the_pedicle_is_narrow() -> None:
+    # 2 mm at 18 mm behind the entry: atan(1/9).
+    room = Room(room_mm=2.0, lever_mm=18.0)
+    assert room.room_deg == pytest.approx(6.3402, abs=1e-4)
+    assert certain_for(_drill(0.5, 0.0, 0.0), CHANNEL, room).room_deg == room.room_deg
+
+
 def test_the_room_is_that_of_the_plan_s_tolerance() -> None:
     tolerance = Tolerance(
         offset_mm=np.array([0.0, 1.8]),

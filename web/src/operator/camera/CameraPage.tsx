@@ -1,5 +1,66 @@
-import type { ReactNode } from "react";
+import { Loader } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { VideoPane } from "../../panes/VideoPane";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useWords } from "../../words/WordsContext";
+import { useGates } from "../parts/useGates";
+import { useProcedure } from "../procedure";
+import { Accuracy } from "./Accuracy";
+import { startingBoard, type Board } from "./board";
+import { BoardCard } from "./BoardCard";
+import { CalibrationReport } from "./CalibrationReport";
+import { CameraTest } from "./CameraTest";
+import { Collection } from "./Collection";
+import { Markers } from "./Markers";
 
+const ASK_EVERY_MS = 2000;
+
+/** The camera: its test, the markers and their search, its calibration with live coverage, its accuracy. */
 export function CameraPage(): ReactNode {
-  return null;
+  const words = useWords().camera;
+  const procedure = useProcedure();
+  const gates = useGates();
+  const [board, setBoard] = useState<Board>(startingBoard);
+  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/camera", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const changed = (): void => {
+    again();
+    procedure.again();
+  };
+  const caseId = procedure.data?.case_id ?? null;
+  return (
+    <div className="beside">
+      <div className="cards">
+        <CameraTest />
+        {gates !== null && <Markers gate={gates.tracker} canAdd={caseId !== null} onChange={changed} />}
+        <RefusalNote refusal={refusal} />
+        {(data === null || gates === null) && refusal === null && <Loader aria-label={words.loading} />}
+        {procedure.data !== null && caseId === null && <p className="card-lead">{words.noCase}</p>}
+        {data !== null && gates !== null && caseId !== null && (
+          <>
+            {data.collecting ? (
+              <Collection gates={gates} onOver={changed} />
+            ) : (
+              <BoardCard
+                board={board}
+                first={data.calibration === null}
+                onBoard={setBoard}
+                onBegun={changed}
+              />
+            )}
+            {data.calibration !== null && (
+              <CalibrationReport caseId={caseId} kept={data.calibration} gate={gates.calibration} />
+            )}
+            {data.calibration?.heading.current === true && (
+              <Accuracy board={board} check={data.accuracy} gate={gates.calibration} onChecked={changed} />
+            )}
+          </>
+        )}
+      </div>
+      <VideoPane />
+    </div>
+  );
 }

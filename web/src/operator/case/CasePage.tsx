@@ -1,5 +1,48 @@
+import { Loader } from "@mantine/core";
 import type { ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useWords } from "../../words/WordsContext";
+import { useProcedure } from "../procedure";
+import { ArchiveIn } from "./ArchiveIn";
+import { CaseList } from "./CaseList";
+import { Documents } from "./Documents";
+import { Jobs } from "./Jobs";
+import { NewCase } from "./NewCase";
+import { OpenedCase } from "./OpenedCase";
+import { Rehearsal } from "./Rehearsal";
+import { Verification } from "./Verification";
 
+const ASK_EVERY_MS = 3000;
+
+/** The case that is worked in: made, opened, looked through, copied out, put away. */
 export function CasePage(): ReactNode {
-  return null;
+  const words = useWords().case;
+  const { again: askProcedure } = useProcedure();
+  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/cases", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const changed = (): void => {
+    again();
+    askProcedure();
+  };
+  if (data === null) {
+    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
+  }
+  const opened = data.cases.find((one) => one.id === data.opened_id) ?? null;
+  const newCase = <NewCase first={data.cases.length === 0} onMade={changed} />;
+  return (
+    <div className="cards">
+      {opened === null && newCase}
+      {opened !== null && <OpenedCase key={opened.id} opened={opened} onChange={changed} />}
+      <Rehearsal />
+      <CaseList cases={data.cases} openedId={data.opened_id} onChange={changed} />
+      {opened !== null && newCase}
+      <ArchiveIn onTaken={changed} />
+      {opened !== null && <Documents key={`documents ${opened.id}`} caseId={opened.id} />}
+      {opened !== null && <Verification key={`files ${opened.id}`} caseId={opened.id} />}
+      <Jobs />
+    </div>
+  );
 }

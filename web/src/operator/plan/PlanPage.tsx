@@ -1,5 +1,64 @@
 import type { ReactNode } from "react";
+import { Link } from "wouter";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useWords } from "../../words/WordsContext";
+import { useProcedure } from "../procedure";
+import { CtIntake } from "./ct/CtIntake";
+import { SlicesProvider } from "./slices/SlicesContext";
+import { hasDocument } from "./state/documents";
+import { PlanProvider } from "./state/PlanContext";
+import { WorkProvider } from "./state/WorkContext";
+import { Workplace } from "./Workplace";
 
+/** Planning on CT: the CT comes in, and on its slices the plan is made. */
 export function PlanPage(): ReactNode {
-  return null;
+  const words = useWords().plan;
+  const { data: procedure } = useProcedure();
+  if (procedure === null) return <p role="status">{words.loading}</p>;
+  if (procedure.case_id === null) {
+    return (
+      <section className="plan-empty">
+        <p>{words.noCase}</p>
+        <Link className="plan-link" href="/operator/case">
+          {words.toCase}
+        </Link>
+      </section>
+    );
+  }
+  return <PlanOfCase key={procedure.case_id} caseId={procedure.case_id} />;
+}
+
+function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
+  const words = useWords().plan;
+  const ct = useAsked(async (signal) => {
+    const isThere = await hasDocument(caseId, "ct", signal);
+    return isThere ? answered(server.GET("/api/ct", { signal })) : "none";
+  });
+  if (ct.data === "none") {
+    return (
+      <section className="plan-empty" data-testid="no-ct">
+        <h3>{words.ct.noneTitle}</h3>
+        <CtIntake isSecond={false} onTaken={ct.again} />
+      </section>
+    );
+  }
+  if (ct.data === null) {
+    return (
+      <section className="plan-empty">
+        <RefusalNote refusal={ct.refusal} />
+        {ct.refusal === null && <p role="status">{words.loading}</p>}
+      </section>
+    );
+  }
+  return (
+    <PlanProvider caseId={caseId}>
+      <SlicesProvider key={ct.data.heading.id} ct={ct.data}>
+        <WorkProvider>
+          <Workplace onCtTaken={ct.again} />
+        </WorkProvider>
+      </SlicesProvider>
+    </PlanProvider>
+  );
 }

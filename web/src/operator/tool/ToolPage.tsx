@@ -1,5 +1,74 @@
+import { Loader } from "@mantine/core";
 import type { ReactNode } from "react";
+import { VideoPane } from "../../panes/VideoPane";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { useDocuments } from "../parts/useDocuments";
+import { useGates } from "../parts/useGates";
+import { useProcedure } from "../procedure";
+import { Gathering } from "./Gathering";
+import type { Purpose } from "./kept";
+import { NewTool } from "./NewTool";
+import { ToolCard } from "./ToolCard";
 
+const ASK_EVERY_MS = 2000;
+
+/** Tools: the tip by pivoting, the axis by spinning, the tip checked; each with its live progress. */
 export function ToolPage(): ReactNode {
-  return null;
+  const words = useWords().tool;
+  const procedure = useProcedure();
+  const gates = useGates();
+  const documents = useDocuments();
+  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/tools", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const beginning = useDo();
+  const begin = (tool: string, purpose: Purpose, marker: string | null): void => {
+    void beginning
+      .run(async () => {
+        await answered(server.POST("/api/tools/collection", { body: { tool, purpose, marker } }));
+      })
+      .then(again);
+  };
+  const over = (): void => {
+    again();
+    procedure.again();
+  };
+  if (data === null || gates === null) {
+    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
+  }
+  if (procedure.data?.case_id === null) return <p className="card-lead">{words.noCase}</p>;
+  return (
+    <div className="beside">
+      <div className="cards">
+        <RefusalNote refusal={beginning.refusal} />
+        {data.collecting ? (
+          <Gathering tools={data.tools} gate={gates.tool_calibration} onOver={over} />
+        ) : (
+          <>
+            {data.tools.map((tool) => (
+              <ToolCard
+                key={tool.name}
+                tool={tool}
+                gate={gates.tool_calibration}
+                documents={documents}
+                busy={beginning.busy}
+                onBegin={begin}
+              />
+            ))}
+            <NewTool
+              first={data.tools.length === 0}
+              taken={data.tools.map((tool) => tool.name)}
+              busy={beginning.busy}
+              onBegin={begin}
+            />
+          </>
+        )}
+      </div>
+      <VideoPane />
+    </div>
+  );
 }

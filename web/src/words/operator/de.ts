@@ -12,6 +12,7 @@ export const operatorDe: OperatorWords = {
     check: "Prüfung",
     navigate: "Navigation",
     report: "Bericht",
+    people: "Personen",
   },
   state: {
     missing: "offen",

@@ -73,6 +73,14 @@ export const reasonsDe: Pick<Words, "cause" | "absent" | "unseen"> = {
       state: "NICHT GEPRÜFT",
       sentence: "Registriert, aber noch nicht an einer Landmarke geprüft. Zum Prüfen eine berühren.",
     },
+    NOT_CONFIRMED: {
+      state: "NAVIGATION ANGEHALTEN",
+      sentence: "Neu gestartet. Erst bestätigt der Bediener, dass sich nichts bewegt hat.",
+    },
+    NOT_COSIGNED: {
+      state: "NICHT GEGENGEZEICHNET",
+      sentence: "Planung oder Registrierung wartet auf die Unterschrift einer zweiten Person.",
+    },
   },
   unseen: {
     NO_CANDIDATE: "nichts im Bild sieht ihm ähnlich",

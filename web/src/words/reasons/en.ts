@@ -60,6 +60,14 @@ export const reasonsEn: Pick<Words, "cause" | "absent" | "unseen"> = {
       state: "NOT CHECKED",
       sentence: "Registered, but not yet held against a landmark. Touch one to check.",
     },
+    NOT_CONFIRMED: {
+      state: "NAVIGATION STOPPED",
+      sentence: "Started again. The operator confirms that nothing has moved before it goes on.",
+    },
+    NOT_COSIGNED: {
+      state: "NOT CO-SIGNED",
+      sentence: "Plan or registration waits for the signature of a second person.",
+    },
   },
   unseen: {
     NO_CANDIDATE: "nothing in the image looks like it",

@@ -1,0 +1,103 @@
+"""Markers: their pictures sent into the open case, listed, shown, and taken away again."""
+
+from typing import Annotated
+
+from anyio import to_thread
+from fastapi import APIRouter, Query, Request, Response
+
+from server.api.case_messages import MadeBy
+from server.api.errors import refusals
+from server.api.uploads import received
+from server.config import Name
+from server.picture_file import png_bytes
+from server.procedure.markers import KnownMarker, MarkerStep
+from server.store import Home
+from server.stream.messages import Message
+
+LARGEST_PICTURE_BYTES = 32 * 2**20
+PICTURE_TYPES: dict[str, dict[str, object]] = {"image/png": {}, "image/jpeg": {}, "image/bmp": {}}
+SideMm = Annotated[float, Query(gt=0.0, le=1000.0, allow_inf_nan=False)]
+
+
+class KnownMarkerMessage(Message):
+    """A marker that is looked for."""
+
+    name: str
+    side_mm: float
+    """Outer side of the printed black square."""
+    width_px: int
+    """Of its picture, which is at `/api/markers/{name}/picture`."""
+    height_px: int
+    document_id: str | None
+    """What keeps it in the open case; null for one that the settings bring, which stays."""
+    made_at: str | None
+    made_by: str | None
+
+
+class KnownMarkersMessage(Message):
+    """The markers that are looked for: of the settings first, then of the open case."""
+
+    markers: list[KnownMarkerMessage]
+
+
+def markers_router(step: MarkerStep, home: Home) -> APIRouter:
+    """Everything under `/api/markers`."""
+    router = APIRouter(prefix="/api/markers", tags=["markers"])
+
+    @router.get("", responses=refusals(503))
+    def markers() -> KnownMarkersMessage:
+        """The markers that are looked for now."""
+        return KnownMarkersMessage(markers=[_message(known) for known in step.known()])
+
+    @router.post(
+        "",
+        status_code=201,
+        responses=refusals(409, 413, 422, 503, 507),
+        openapi_extra={"requestBody": {"required": True, "content": PICTURE_TYPES}},
+    )
+    async def add(
+        request: Request, name: Name, side_mm: SideMm, made_by: MadeBy, file: str = "sent"
+    ) -> KnownMarkerMessage:
+        """Look for this marker from the next image on; its picture is the body (PNG, JPEG or BMP).
+
+        The black square must fill the picture edge to edge. One of the same name is replaced, and what was
+        calibrated behind that is out of date; a marker of the settings is not replaced.
+        """
+        async with received(request, home, most_bytes=LARGEST_PICTURE_BYTES) as path:
+
+            def kept() -> KnownMarkerMessage:
+                step.add(name, side_mm=side_mm, picture=path, named=file[:100], made_by=made_by)
+                return _message(step.one(name))
+
+            return await to_thread.run_sync(kept)
+
+    @router.get(
+        "/{name}/picture",
+        response_class=Response,
+        responses={200: {"content": {"image/png": {}}}, **refusals(404, 503)},
+    )
+    def picture(name: str) -> Response:
+        """The marker's picture as it is looked for: grey, row 0 on top."""
+        return Response(png_bytes(step.one(name).model.image), media_type="image/png")
+
+    @router.delete("/{name}", status_code=204, responses=refusals(404, 409, 422, 503, 507))
+    def remove(name: str, made_by: MadeBy) -> Response:
+        """Look for this marker of the open case no more; what was calibrated behind it is out of date."""
+        step.remove(name, by=made_by)
+        return Response(status_code=204)
+
+    return router
+
+
+def _message(known: KnownMarker) -> KnownMarkerMessage:
+    height, width = known.model.image.shape
+    document = known.document
+    return KnownMarkerMessage(
+        name=known.model.name,
+        side_mm=known.model.side_mm,
+        width_px=width,
+        height_px=height,
+        document_id=None if document is None else document.id,
+        made_at=None if document is None else document.made_at,
+        made_by=None if document is None else document.made_by,
+    )

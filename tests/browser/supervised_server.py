@@ -1,0 +1,144 @@
+"""The real web server with a case that lacks nothing but a co-signature, people without keys, made images.
+
+Standard output gets one line, the port. Standard input is told what to publish, as `fake_server.py` is. The
+process ends with its standard input.
+"""
+
+import os
+import socket
+import sys
+import tempfile
+import threading
+from pathlib import Path
+
+import numpy as np
+import uvicorn
+
+from server.alarms import AlarmDesk, StoredAlarmLog
+from server.app import AppParts, create_app
+from server.config import Config
+from server.jobs import Jobs
+from server.live import LiveHub
+from server.logs import LogSettings
+from server.procedure import Steps
+from server.procedure.plan import ACTIVE_CHANNEL, ActiveChannel
+from server.procedure.registered import KeptCheck, KeptRegistration, check_name
+from server.store import CaseStore, DocumentKind, Home
+from tests.browser.fake_server import Feeder, setup
+from tests.procedure.patient import CAMERA_FROM_VERTEBRA, plan_content
+from tests.server.supervision.persons import sign_people_in
+from tracker.plan import plan_from_mapping
+from tracker.plan.document import plain
+from tracker.plan.document.changes import channel_of, vertebra_named
+from tracker.registration import Registration
+
+# A busy machine brings images late, and nothing is marked on what is not live.
+PATIENT = {"pose_stale_after_ms": 10_000, "video_stale_after_ms": 10_000, "scene_stale_after_ms": 10_000}
+SUPERVISION = {"cosign": {"plan": "required"}, "drawings_fade_after_s": 600}
+CONFIG = Config.model_validate({"supervision": SUPERVISION, "limits": PATIENT})
+
+
+def fill(store: CaseStore, run: str) -> None:
+    """A case as it stands before somebody navigates; camera and tool are the rehearsal's."""
+    case = store.create("L3, rehearsal")
+    store.open(case.id)
+    ct = store.put(case.id, DocumentKind.CT, "main", {}, made_by="ito")
+    content = plan_content("L3")
+    plan = store.put(case.id, DocumentKind.PLAN, "main", content, made_by="ito", stands_on=[ct.id])
+    vertebra = vertebra_named(plan_from_mapping(content), "L3")
+    active = ActiveChannel(vertebra="L3", side="left", channel=channel_of(vertebra, "left").channel)
+    chosen = store.put(
+        case.id, DocumentKind.PLAN, ACTIVE_CHANNEL, dict(plain(active)), made_by="ito", stands_on=[plan.id]
+    )
+    kept = KeptRegistration.of(
+        Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
+        vertebra="L3",
+        reference="",
+        run=run,
+        numbers={
+            "points": 4,
+            "fre_rms_mm": 0.41,
+            "most_fre_mm": 1.5,
+            "tre_at_entry_mm": 0.87,
+            "most_tre_mm": 2.0,
+        },
+        made_from={},
+        from_s=0.0,
+    )
+    registration = store.put(
+        case.id,
+        DocumentKind.REGISTRATION,
+        "L3",
+        kept.model_dump(mode="json"),
+        made_by="ito",
+        stands_on=[chosen.id],
+    )
+    check = KeptCheck(
+        vertebra="L3",
+        landmark="left lamina",
+        tool="drill",
+        distance_mm=0.6,
+        most_mm=2.0,
+        passed=True,
+        run=run,
+        from_s=0.0,
+        off_lps_mm=np.zeros(3).tolist(),
+        sd_mm=0.4,
+        images=20,
+    )
+    store.put(
+        case.id,
+        DocumentKind.CHECK,
+        check_name("L3"),
+        check.model_dump(mode="json"),
+        made_by="ito",
+        stands_on=[registration.id],
+    )
+
+
+def main() -> None:
+    """Serve until standard input ends."""
+    hub = LiveHub()
+    door = socket.create_server(("127.0.0.1", 0), reuse_port=False)
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        Home(Path(folder) / "home") as home,
+        CaseStore(home) as store,
+    ):
+        log = StoredAlarmLog(store)
+        alarms = AlarmDesk(CONFIG, log=log)
+        jobs = Jobs(log=LogSettings(as_json=True))
+        steps = Steps.of(
+            hub=hub,
+            store=store,
+            jobs=jobs,
+            config=CONFIG,
+            side_mm_from_marker={"drill": 25.0},
+            adopt=lambda _: None,
+        )
+        fill(store, steps.procedure.run)
+        app = create_app(
+            AppParts(
+                hub=hub, config=CONFIG, setup=setup(), alarms=alarms, store=store, jobs=jobs, steps=steps
+            )
+        )
+        sign_people_in(app)
+        server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
+        serving = threading.Thread(target=server.run, args=([door],), name="web server", daemon=True)
+        serving.start()
+        feeder = Feeder(hub, alarms)
+        feeder.start()
+        sys.stdout.write(f"{door.getsockname()[1]}\n")
+        sys.stdout.flush()
+        for line in sys.stdin:
+            feeder.mode = line.strip()
+        server.should_exit = True
+        serving.join(10)
+        jobs.close()
+        log.stop()
+    # The feeder is in the middle of an image, and needs no farewell.
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

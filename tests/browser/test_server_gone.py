@@ -1,0 +1,154 @@
+"""The server gone for 5 s: every pane says so within 1 s, and is right again within 2 s, untouched.
+
+All times are the page's own, from its own clock. A machine that other work shares stops the page itself now
+and then: its longest pause is measured beside, and allowed for. What was measured is printed (`pytest -s`).
+"""
+
+import itertools
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.theatre import PATIENCE_MS, Theatre, Watched
+
+pytestmark = pytest.mark.browser
+
+Watch = Callable[..., Watched]
+PANES = ("video", "numbers", "scene")
+GONE_FOR_MS, SAID_WITHIN_MS, RIGHT_WITHIN_MS = 5000, 1000, 2000
+
+expect.set_options(timeout=PATIENCE_MS)
+
+# Stands in the page before its own script does, and writes down when what happened.
+RECORDER = """(() => {
+    if (window.parent !== window) return;
+    const kept = window.kept = { panes: [], heardAt: 0, firstHeardAt: null, tries: [], longestPause: 0 };
+    new MutationObserver((records) => {
+        for (const { target } of records) {
+            const { testid, live } = target.dataset;
+            kept.panes.push({ at: performance.now(), pane: testid, live });
+        }
+    }).observe(document, { subtree: true, attributes: true, attributeFilter: ["data-live"] });
+    let last = performance.now();
+    setInterval(() => {
+        kept.longestPause = Math.max(kept.longestPause, performance.now() - last);
+        last = performance.now();
+    }, 20);
+    const Own = window.WebSocket;
+    window.WebSocket = class extends Own {
+        constructor(...given) {
+            super(...given);
+            if (!String(given[0]).includes("/ws/view")) return;
+            kept.tries.push(performance.now());
+            this.addEventListener("message", () => {
+                kept.heardAt = performance.now();
+                kept.firstHeardAt ??= kept.heardAt;
+            });
+        }
+    };
+})()"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Absence:
+    """What the page wrote down of an absence of the server, in ms of its own clock.
+
+    Attributes:
+        said_ms: from the last word of the server to each pane's saying so.
+        right_ms: from the first word after it to each pane's being live again.
+        since_return_ms: the same from the moment when the server was let go on.
+        try_ms: the longest time between two attempts to reach it.
+        pause_ms: the longest pause of the page itself.
+    """
+
+    said_ms: dict[str, float]
+    right_ms: dict[str, float]
+    since_return_ms: dict[str, float]
+    try_ms: float
+    pause_ms: float
+
+
+def all_live(page: Page, *, live: bool) -> None:
+    for pane in PANES:
+        expect(page.get_by_test_id(pane)).to_have_attribute("data-live", "true" if live else "false")
+
+
+def first_changes(page: Page, *, live: bool) -> dict[str, float]:
+    """When each pane first became so, since the record was begun anew."""
+    wanted = "true" if live else "false"
+    changes = page.evaluate("kept.panes")
+    return {
+        pane: next(one["at"] for one in changes if one["pane"] == pane and one["live"] == wanted)
+        for pane in PANES
+    }
+
+
+@contextmanager
+def recorded(watched: Watched) -> Iterator[Page]:
+    """A page that writes down, and is live, and is not loaded anew for the time of the block."""
+    watched.page.add_init_script(RECORDER)
+    page = watched.open()
+    all_live(page, live=True)
+    page.evaluate("window.neverReloaded = true")
+    yield page
+    assert page.evaluate("window.neverReloaded") is True
+
+
+def absence(page: Page, *, go: Callable[[], None], come: Callable[[], None]) -> Absence:
+    """Have the server go, and come again when it was gone for 5 s of the page's time."""
+    page.evaluate("Object.assign(kept, { panes: [], tries: [], longestPause: 0 })")
+    go()
+    all_live(page, live=False)
+    expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+    last_heard = page.evaluate("kept.heardAt")
+    said = first_changes(page, live=False)
+    page.wait_for_function("forMs => performance.now() - kept.heardAt > forMs", arg=GONE_FOR_MS)
+    page.evaluate("Object.assign(kept, { panes: [], firstHeardAt: null })")
+    come()
+    returned = page.evaluate("performance.now()")
+    all_live(page, live=True)
+    right = first_changes(page, live=True)
+    kept = page.evaluate("kept")
+    tries = [last_heard, *kept["tries"]]
+    return Absence(
+        said_ms={pane: at - last_heard for pane, at in said.items()},
+        right_ms={pane: at - kept["firstHeardAt"] for pane, at in right.items()},
+        since_return_ms={pane: at - returned for pane, at in right.items()},
+        try_ms=max(later - earlier for earlier, later in itertools.pairwise(tries)),
+        pause_ms=kept["longestPause"],
+    )
+
+
+def judge(what: str, seen: Absence) -> None:
+    rounded = [{pane: round(ms) for pane, ms in some.items()} for some in (seen.said_ms, seen.right_ms)]
+    since = {pane: round(ms) for pane, ms in seen.since_return_ms.items()}
+    sys.stdout.write(
+        f"\n{what}: said gone after {rounded[0]} ms, right {rounded[1]} ms after its first word, {since} ms "
+        f"after its return; tried every {seen.try_ms:.0f} ms at most; page paused {seen.pause_ms:.0f} ms\n"
+    )
+    for pane in PANES:
+        assert seen.said_ms[pane] <= SAID_WITHIN_MS + seen.pause_ms
+    # Numbers stay away while images are older than 150 ms, which on a busy machine is no matter of the line.
+    for pane in ("video", "scene"):
+        assert seen.right_ms[pane] <= RIGHT_WITHIN_MS + seen.pause_ms
+
+
+def test_server_that_hangs_for_5_s(theatre: Theatre, watch: Watch) -> None:
+    with recorded(watch(theatre, strict=False)) as page:
+        seen = absence(page, go=theatre.freeze, come=theatre.thaw)
+    judge("hangs", seen)
+
+
+def test_server_that_is_killed_and_started_again_on_its_port(watch: Watch) -> None:
+    with Theatre() as first, recorded(watch(first, strict=False)) as page:
+        again: list[Theatre] = []
+        try:
+            seen = absence(page, go=first.kill, come=lambda: again.append(Theatre(first.port)))
+        finally:
+            for one in again:
+                one.kill()
+    judge("killed and started again", seen)

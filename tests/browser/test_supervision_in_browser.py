@@ -1,0 +1,170 @@
+"""A supervisor in one browser, the theatre's screen in another: marks, a co-signature, a hold."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser.theatre import CHECKOUT, PATIENCE_MS, SCREENSHOTS, Watched
+
+pytestmark = pytest.mark.browser
+expect.set_options(timeout=PATIENCE_MS)
+
+# Whether anything is painted on the layer within a radius about a pixel of the image.
+PAINTED = """(canvas, [x, y, radius]) => {
+    const ratio = canvas.width / canvas.clientWidth;
+    const scale = Math.min(canvas.clientWidth / 1280, canvas.clientHeight / 720);
+    const left = (canvas.clientWidth - 1280 * scale) / 2, top = (canvas.clientHeight - 720 * scale) / 2;
+    const at = [(left + (x + 0.5) * scale) * ratio, (top + (y + 0.5) * scale) * ratio].map(Math.round);
+    const [reach] = [Math.ceil(radius * scale * ratio)];
+    const context = canvas.getContext("2d");
+    const { data } = context.getImageData(at[0] - reach, at[1] - reach, 2 * reach + 1, 2 * reach + 1);
+    for (let i = 3; i < data.length; i += 4) if (data[i] > 200) return true;
+    return false;
+}"""
+
+
+class Supervised:
+    """The server process of `supervised_server.py`."""
+
+    def __init__(self) -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, str(CHECKOUT / "tests" / "browser" / "supervised_server.py")],
+            cwd=CHECKOUT,
+            env={**os.environ, "PYTHONPATH": str(CHECKOUT)},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        self.port = int(self.process.stdout.readline())
+
+
+@pytest.fixture
+def supervised() -> Iterator[Supervised]:
+    server = Supervised()
+    yield server
+    server.process.communicate(timeout=30)
+
+
+def opened(
+    watch: Callable[..., Watched], server: Supervised, person: str, path: str, size: tuple[int, int]
+) -> Page:
+    watched = watch(server, *size)
+    address = f"http://127.0.0.1:{server.port}"
+    watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])
+    page = watched.open(path)
+    expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true")
+    return page
+
+
+def on_picture(page: Page, x_px: float, y_px: float) -> tuple[float, float]:
+    """Where a pixel of the image lies on this page: the picture is shown whole, in the middle."""
+    box = page.get_by_test_id("marks").bounding_box()
+    assert box is not None
+    scale = min(box["width"] / 1280, box["height"] / 720)
+    left = box["x"] + (box["width"] - 1280 * scale) / 2
+    top = box["y"] + (box["height"] - 720 * scale) / 2
+    return left + (x_px + 0.5) * scale, top + (y_px + 0.5) * scale
+
+
+def is_painted(marks: Locator, x_px: float, y_px: float, *, within_px: float = 4) -> bool:
+    return bool(marks.evaluate(PAINTED, [x_px, y_px, within_px]))
+
+
+def until_painted(marks: Locator, x_px: float, y_px: float) -> None:
+    handle = marks.element_handle()
+    assert handle is not None
+    marks.page.wait_for_function(f"([canvas, at]) => ({PAINTED})(canvas, at)", arg=[handle, [x_px, y_px, 4]])
+
+
+def picture(page: Page, name: str) -> None:
+    SCREENSHOTS.mkdir(exist_ok=True)
+    page.screenshot(path=SCREENSHOTS / f"{name}.png")
+
+
+def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
+    supervised: Supervised, watch: Callable[..., Watched]
+) -> None:
+    theatre = opened(watch, supervised, "v1", "theatre", (1600, 900))
+    sato = opened(watch, supervised, "s1", "supervisor", (1280, 800))
+    expect(sato.get_by_test_id("watching")).to_contain_text("Guest")
+    marks, own = theatre.get_by_test_id("marks"), sato.get_by_test_id("marks")
+
+    # A pointer, at the same place of a picture of another size, which goes by itself.
+    for turn in range(100):
+        # It goes when it rests, and on a busy machine it may be gone before anybody looks.
+        sato.mouse.move(*on_picture(sato, 900 + turn % 2, 500))
+        if is_painted(marks, 900, 500):
+            break
+    assert is_painted(marks, 900, 500)
+    assert not is_painted(marks, 300, 600)
+    expect(marks).to_have_attribute("data-pointers", "0")
+
+    # A circle and a line, seen from both ends.
+    sato.get_by_test_id("tool-circle").click()
+    sato.mouse.move(*on_picture(sato, 640, 360))
+    sato.mouse.down()
+    sato.mouse.move(*on_picture(sato, 740, 360), steps=4)
+    sato.mouse.up()
+    until_painted(marks, 740, 360)
+    until_painted(marks, 640, 460)
+    sato.get_by_test_id("tool-pen").click()
+    sato.mouse.move(*on_picture(sato, 200, 600))
+    sato.mouse.down()
+    sato.mouse.move(*on_picture(sato, 500, 600), steps=12)
+    sato.mouse.up()
+    until_painted(marks, 350, 600)
+    expect(own).to_have_attribute("data-marks", "2")
+    picture(theatre, "marks-in-theatre")
+    picture(sato, "supervisor")
+    sato.get_by_test_id("marks-undo").click()
+    expect(marks).to_have_attribute("data-marks", "1")
+    sato.get_by_test_id("marks-clear").click()
+    expect(marks).to_have_attribute("data-marks", "0")
+
+    # What is required is not there; one look and two touches later it is, and navigation is open.
+    asks = theatre.request.get
+    address = f"http://127.0.0.1:{supervised.port}/api/procedure"
+    told: Any = asks(address).json()
+    assert not told["may_navigate"]
+    plan = sato.get_by_test_id("fold-plan")
+    expect(plan).to_contain_text("required before anybody navigates")
+    plan.locator("summary").click()
+    expect(plan).to_contain_text("plan 'main' version 1")
+    sato.get_by_test_id("cosign-plan").click()
+    assert not asks(address).json()["may_navigate"], "a slip has signed"
+    sato.get_by_test_id("cosign-plan").click()
+    expect(sato.get_by_test_id("sign-plan")).to_have_attribute("data-signed", "true")
+    assert asks(address).json()["may_navigate"]
+    expect(sato.locator("[data-step=navigate]")).to_have_attribute("data-state", "done")
+
+    # A hold, in two touches, is an alarm in theatre under the name of who asks.
+    sato.get_by_test_id("hold-ask").click()
+    sato.get_by_test_id("hold-ask").click()
+    expect(theatre.get_by_test_id("alarms")).to_contain_text("Dr Sato")
+    expect(sato.get_by_test_id("hold")).to_have_attribute("data-asked", "true")
+    picture(theatre, "hold-in-theatre")
+    sato.get_by_test_id("hold-release").click()
+    expect(sato.get_by_test_id("hold")).to_have_attribute("data-asked", "false")
+
+
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (390, 844)])
+def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
+    supervised: Supervised, watch: Callable[..., Watched], width: int, height: int
+) -> None:
+    page = opened(watch, supervised, "s1", "supervisor?lang=de", (width, height))
+    for fold in ("plan", "registration", "log"):
+        page.get_by_test_id(f"fold-{fold}").locator("summary").click()
+    expect(page.get_by_test_id("sign-registration")).to_be_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    for button in page.locator(".supervisor button:visible").all():
+        box = button.bounding_box()
+        assert box is not None
+        assert min(box["width"], box["height"]) >= 48, button.inner_text()
+    SCREENSHOTS.mkdir(exist_ok=True)
+    page.screenshot(path=SCREENSHOTS / f"supervisor-{width}.png", full_page=True)

@@ -1,0 +1,224 @@
+"""How a whole server stands a `kill -9` in a procedure: of the web process, of tracking, of both.
+
+    PYTHONPATH=. python -m tests.procedure.killed --times 50 --seed 1 [--from empty] [--kills-each 10]
+
+People do the procedure on the rehearsal theatre through the server's door. After each kill it is started
+again with the same folder, and everything that it had confirmed is looked for: documents, the open case, the
+steps, the alarm log. No number may be given until a person has confirmed (or checked), and then there are
+numbers again. Odd procedures have a marker on the patient, even ones have none.
+"""
+
+import argparse
+import random
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import httpx2
+
+from server.config import Config
+from tests.procedure.killing.people import HOLDS, KilledUnderUs, Listener, People, WatchedServer
+from tests.procedure.killing.processes import Family, family_of, kill, left_behind
+from tests.procedure.killing.promised import Promised
+from tests.procedure.killing.theatre import prepare, settings_of
+from tests.procedure.real_server import PATIENCE_S, port_of, started
+from tests.procedure.team import Team
+
+TARGETS = ("web", "tracking", "both")
+STOPPED = {"NOT_CONFIRMED", "NOT_CHECKED"}
+COLUMNS = "{:>4} {:<9} {:<4} {:<22} {:>7} {:>9} {:>7}  {}\n"
+
+
+@dataclass(slots=True, kw_only=True)
+class Kill:
+    """One kill, and what came of it."""
+
+    target: str
+    doing: str = ""
+    confirmed: int = 0
+    back_s: float = 0.0
+    stopped_by: str = ""
+    broken: list[str] = field(default_factory=list)
+
+
+class Theatre:
+    """A server that is killed and started again in one folder, and the people who use it."""
+
+    def __init__(self, folder: Path, *, reference: bool, chance: random.Random, empty: bool) -> None:
+        self._folder, self._settings = folder, settings_of(reference=reference)
+        self._config = Config.model_validate(self._settings)
+        self._reference, self._chance = reference, chance
+        self._promised, self._numbers = Promised(), count(1)
+        self._ending = ExitStack()
+        folder.mkdir(parents=True)
+        if not empty:
+            prepare(folder / "home", self._config)
+        self._start()
+        self._promised.observe(self._server)
+
+    def kill_once(self, target: str, *, after_s: float) -> Kill:
+        """Let people work for so long, kill, start again, look, and go on."""
+        one, struck = Kill(target=target), list[Family]()
+        before = self._promised.changes
+
+        def strike() -> None:
+            family = family_of(self._server.process.pid)
+            if target == "tracking" and family.tracking is not None:
+                kill((family.tracking,))
+            else:
+                one.target = "web" if target == "tracking" else target
+                both = (family.web, *(() if family.tracking is None else (family.tracking,)))
+                kill(both if one.target == "both" else (family.web,))
+            struck.append(family)
+            self._server.killed.set()
+
+        timer = threading.Timer(after_s, strike)
+        timer.start()
+        try:
+            self._people.work()
+        except (KilledUnderUs, httpx2.TransportError):
+            timer.join()
+        finally:
+            timer.cancel()
+        one.doing, one.confirmed = self._people.doing, self._promised.changes - before
+        began_s = time.monotonic()
+        if one.target == "tracking":
+            one.broken += self._tracking_again(struck[0])
+        else:
+            self._ending.close()
+            one.broken += left_behind(struck[0])
+            self._start()
+        one.back_s = time.monotonic() - began_s
+        one.broken += self._promised.broken(self._server)
+        one.broken += self._steps_kept(one.target)
+        one.stopped_by = self._goes_on_once_confirmed(one)
+        self._promised.observe(self._server)
+        return one
+
+    def end(self) -> None:
+        """Kill the last one."""
+        family = family_of(self._server.process.pid)
+        kill(family.pids)
+        self._ending.close()
+
+    def _start(self) -> None:
+        errors = self._ending.enter_context((self._folder / "log.txt").open("a", encoding="utf-8"))
+        process = self._ending.enter_context(started(self._folder, self._settings, errors=errors))
+        port = port_of(process)
+        door = httpx2.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S)
+        self._ending.enter_context(door)
+        self._server = WatchedServer(port=port, process=process, door=door, promised=self._promised)
+        self._hear()
+        team = Team(server=self._server, config=self._config)
+        self._people = People(team, self._server, self._chance, self._numbers)
+
+    def _hear(self) -> None:
+        self._listener = Listener(port=self._server.port).start()
+        self._ending.callback(self._listener.stop)
+
+    def _tracking_again(self, struck: Family) -> Iterator[str]:
+        """Wait until another process tracks in the place of the one that was killed."""
+        self._server.killed.clear()
+        self._server.until("another tracking process", lambda: self._process()["state"] == "running")
+        now = family_of(self._server.process.pid)
+        if now.tracking == struck.tracking:
+            yield "it tracks on in a process that was killed"
+
+    def _process(self) -> dict[str, Any]:
+        live: dict[str, Any] = self._server.ask("GET", "/api/live", 200)
+        # A word from before the kill was noticed is none.
+        is_another = family_of(self._server.process.pid).tracking is not None and live["snapshot"] is not None
+        return {**live["process"], "state": live["process"]["state"] if is_another else "none"}
+
+    def _steps_kept(self, target: str) -> Iterator[str]:
+        """Tell of steps that stand otherwise; after a start a camera that nobody watched is to be checked."""
+        allowed = {"navigate"} if target == "tracking" or self._reference else {"check", "navigate"}
+        for step, (was, now) in self._promised.changed_steps(self._server).items():
+            if step not in allowed:
+                yield f"the step {step} was {was}, and is {now}"
+
+    def _goes_on_once_confirmed(self, one: Kill) -> str:
+        """Where all was done: no number before a person's word, and numbers after it; why it was stopped."""
+        told = self._server.ask("GET", "/api/procedure", 200)
+        states = {step["step"]: step["state"] for step in told["steps"]}
+        ready = all(state in HOLDS for step, state in states.items() if step != "navigate")
+        goes_on = one.target == "tracking" and (self._reference or told["confirmation"] is None)
+        if not ready:
+            return next(f"{step} {state}" for step, state in states.items() if state not in HOLDS)
+        process = int(self._server.ask("GET", "/api/live", 200)["process"]["restarts"])
+        heard = self._listener
+        if goes_on:
+            self._server.until("numbers again", lambda: self._has_numbers(process))
+            return "-"
+        if told["confirmation"] is None:
+            one.broken.append("nobody is asked whether all stands as it did")
+            return "nothing"
+        self._server.until("a word that it is stopped", lambda: heard.reasons.get(process, set()) & STOPPED)
+        if process in heard.numbers:
+            one.broken.append("numbers were given before anybody confirmed them")
+        self._people.confirm()
+        self._server.until("numbers again", lambda: self._has_numbers(process))
+        return str(told["confirmation"]["because"])
+
+    def _has_numbers(self, process: int) -> bool:
+        """Whether numbers are given again. On a busy machine tracking may be started once more meanwhile."""
+        if any(heard >= process for heard in self._listener.numbers):
+            return True
+        self._people.confirm()
+        return False
+
+
+def kills(times: int, *, seed: int, empty: bool, each: int, longest_s: float) -> Iterator[Kill]:
+    """So many kills, in as many procedures as that needs."""
+    chance = random.Random(seed)
+    with tempfile.TemporaryDirectory() as folder:
+        for first in range(0, times, each):
+            odd = first // each % 2 == 0
+            theatre = Theatre(Path(folder) / f"{first}", reference=odd, chance=chance, empty=empty)
+            try:
+                for _ in range(min(each, times - first)):
+                    after_s = chance.uniform(0.2, longest_s)
+                    yield theatre.kill_once(chance.choice(TARGETS), after_s=after_s)
+            finally:
+                theatre.end()
+
+
+def main() -> None:
+    """Kill so many times, and tell how it went."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--times", type=int, default=50)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--from", dest="start", choices=("prepared", "empty"), default="prepared")
+    parser.add_argument("--kills-each", type=int, default=10, help="in one procedure")
+    parser.add_argument("--longest-s", type=float, default=6.0, help="that people work before a kill")
+    given = parser.parse_args()
+    tell = sys.stdout.write
+    tell(COLUMNS.format("kill", "killed", "", "while", "changes", "back in s", "broken", "stopped by"))
+    told: list[Kill] = []
+    for one in kills(
+        given.times,
+        seed=given.seed,
+        empty=given.start == "empty",
+        each=given.kills_each,
+        longest_s=given.longest_s,
+    ):
+        told.append(one)
+        row = (len(told), one.target, "", one.doing, one.confirmed, f"{one.back_s:.1f}", len(one.broken))
+        tell(COLUMNS.format(*row, one.stopped_by))
+        tell("".join(f"       {what}\n" for what in one.broken))
+        sys.stdout.flush()
+    broken = sum(len(one.broken) for one in told)
+    changes = sum(one.confirmed for one in told)
+    tell(f"{len(told)} kills, {changes} confirmed changes, {broken} promises broken\n")
+    sys.exit(1 if broken else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,218 @@
+"""People who work through a server's door until it is killed under their hands."""
+
+import json
+import random
+import threading
+from contextlib import suppress
+from dataclasses import dataclass, field
+from itertools import count
+from typing import Any
+
+from websockets.exceptions import WebSocketException
+from websockets.sync.client import connect
+
+from tests.procedure.killing.promised import Promised
+from tests.procedure.killing.theatre import VERTEBRA
+from tests.procedure.real_server import RealServer
+from tests.procedure.team import BY, POINTS, Team
+
+HOLDS = {"done", "due"}
+CONFIRM = "/api/procedure/confirmation"
+SERVERS_MISTAKE, MOST_REFUSED = 500, 20
+
+
+class KilledUnderUs(Exception):
+    """The server was killed while somebody waited for it."""
+
+
+class Refused(Exception):
+    """The server did not do it."""
+
+    def __init__(self, told: str, status: int) -> None:
+        super().__init__(told)
+        self.status = status
+
+
+@dataclass(slots=True, kw_only=True)
+class WatchedServer(RealServer):
+    """A server whose confirmations are noted, and whose end is noticed in the middle of a wait."""
+
+    promised: Promised
+    killed: threading.Event = field(default_factory=threading.Event)
+
+    def ask(self, method: str, path: str, status: int, **sent: Any) -> Any:  # noqa: ANN401  JSON
+        """As ever; a change that was confirmed is a promise from then on."""
+        answer = self.door.request(method, path, **sent)
+        if answer.status_code != status:
+            raise Refused(f"{method} {path}: {answer.status_code} {answer.text[:300]}", answer.status_code)
+        told = answer.json() if answer.content else None
+        if method != "GET":
+            self.promised.note(told)
+        return told
+
+    def until(self, what: str, true: Any) -> Any:  # noqa: ANN401  whatever became true
+        """As ever, or at once when the server was killed."""
+
+        def or_killed() -> Any:  # noqa: ANN401  whatever became true
+            if self.killed.is_set():
+                raise KilledUnderUs
+            return true()
+
+        return RealServer.until(self, what, or_killed)
+
+
+@dataclass(slots=True, kw_only=True)
+class Listener:
+    """Hears every live message, and keeps in which tracking process numbers were given."""
+
+    port: int
+    numbers: set[int] = field(default_factory=set)
+    reasons: dict[int, set[str]] = field(default_factory=dict)
+    _stop: threading.Event = field(default_factory=threading.Event)
+    _thread: threading.Thread | None = None
+
+    def start(self) -> "Listener":
+        """Begin to listen."""
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+        return self
+
+    def stop(self) -> None:
+        """Listen no more."""
+        self._stop.set()
+        if self._thread is not None:
+            self._thread.join()
+
+    def _run(self) -> None:
+        with (
+            suppress(WebSocketException, OSError),
+            connect(f"ws://127.0.0.1:{self.port}/ws/live", proxy=None, compression=None) as socket,
+        ):
+            while not self._stop.is_set():
+                with suppress(TimeoutError):
+                    self._hear(json.loads(socket.recv(timeout=0.5)))
+
+    def _hear(self, message: dict[str, Any]) -> None:
+        if message["snapshot"] is None:
+            return
+        process = int(message["process"]["restarts"])
+        for tool in message["snapshot"]["tools"]:
+            if tool["deviation"]["kind"] == "deviation" or tool["judgement"]["kind"] == "judgement":
+                self.numbers.add(process)
+            elif tool["deviation"]["kind"] == "absent":
+                self.reasons.setdefault(process, set()).add(tool["deviation"]["reason"])
+
+
+class People:
+    """Do what is to be done next, and other things where all is done.
+
+    Args:
+        team: around the table.
+        server: theirs.
+        chance: what they fancy.
+        numbers: of the changes, so that each is made by a name that nobody else has.
+    """
+
+    def __init__(
+        self, team: Team, server: WatchedServer, chance: random.Random, numbers: "count[int]"
+    ) -> None:
+        self._team = team
+        self._server = server
+        self._chance = chance
+        self._numbers = numbers
+        self.doing = ""
+
+    def work(self) -> None:
+        """Go on and on."""
+        refused = 0
+        while True:
+            if self._server.killed.is_set():
+                raise KilledUnderUs
+            try:
+                self.act()
+                refused = 0
+            except Refused as why:
+                # A collection that lost its images is refused; whoever was told so begins again.
+                refused += 1
+                if why.status == SERVERS_MISTAKE or refused > MOST_REFUSED:
+                    raise
+            self._server.promised.observe(self._server)
+
+    def act(self) -> None:
+        """One thing."""
+        told = self._server.ask("GET", "/api/procedure", 200)
+        states = {one["step"]: one["state"] for one in told["steps"]}
+        due = next((step for step, state in states.items() if state not in HOLDS), "")
+        if told["case_id"] is None:
+            self.doing = "a new case"
+            self._team.open_case(self._name())
+            return
+        self.doing = due or "navigating"
+        if told["confirmation"] is not None:
+            self.confirm()
+            return
+        match due:
+            case "camera":
+                self._team.calibrate_camera()
+            case "tool":
+                self._team.calibrate_tool()
+            case "plan":
+                self._plan(told)
+            case "register":
+                self._team.touch(5)
+                self._server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
+            case "check":
+                self._team.check()
+            case _:
+                self._while_navigating()
+
+    def confirm(self) -> None:
+        """Nothing has moved: navigation goes on."""
+        needed = self._server.ask("GET", "/api/procedure", 200)["confirmation"]
+        picture = self._server.until("a picture", self._snapshot)
+        assert picture
+        if needed is not None:
+            self._server.ask("POST", CONFIRM, 200, json={"registration_id": needed["registration_id"]})
+
+    def _snapshot(self) -> Any:  # noqa: ANN401  JSON
+        return self._server.ask("GET", "/api/live", 200)["snapshot"]
+
+    def _plan(self, told: dict[str, Any]) -> None:
+        step = next(one for one in told["steps"] if one["step"] == "plan")
+        if step["document_id"] is None:
+            self._team.plan(VERTEBRA)
+        self._choose(self._chance.choice(("left", "right")))
+
+    def _while_navigating(self) -> None:
+        """Any of the small things that are done meanwhile."""
+        ask, act = self._server.ask, self._chance.random()
+        if act < 0.35:
+            self.doing = "choosing"
+            self._choose(self._chance.choice(("left", "right")))
+        elif act < 0.7:
+            self.doing = "asking to hold"
+            name = self._name()
+            ask("POST", "/api/alarms/hold", 200, json={"by": name})
+            self._server.promised.names.add(name)
+            ask("POST", "/api/alarms/release", 200, json={"by": name})
+        elif act < 0.8:
+            self.doing = "a second case"
+            name = self._name()
+            ask("POST", "/api/cases", 201, json={"name": name})
+            self._server.promised.names.add(name)
+        elif act < 0.95:
+            self.doing = "checking"
+            self._team.check()
+        else:
+            self.doing = "registering again"
+            self._team.touch(5)
+            ask("POST", f"{POINTS}/conclusion", 201, json=BY)
+
+    def _choose(self, side: str) -> None:
+        name = self._name()
+        asked = {"made_by": name, "vertebra": VERTEBRA, "side": side}
+        self._server.ask("POST", "/api/plan/active-channel", 200, json=asked)
+        self._server.promised.names.add(name)
+
+    def _name(self) -> str:
+        return f"person {next(self._numbers)}"

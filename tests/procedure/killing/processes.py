@@ -1,0 +1,93 @@
+"""The processes of a server: found by their parents, killed, and looked for afterwards."""
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+PROC = Path("/proc")
+RING = "memfd:coaxial-ring"
+GONE_WITHIN_S = 30.0
+LOOK_AGAIN_S = 0.02
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Family:
+    """A server and everything that it started.
+
+    Attributes:
+        web: the process that answers.
+        tracking: the one that tracks; None while there is none.
+        others: the rest: who forks, who counts resources, jobs.
+        shared: names of shared memory that any of them holds.
+    """
+
+    web: int
+    tracking: int | None
+    others: tuple[int, ...]
+    shared: frozenset[str]
+
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """All of them."""
+        return (self.web, *(() if self.tracking is None else (self.tracking,)), *self.others)
+
+
+def family_of(web: int) -> Family:
+    """Who belongs to a server now."""
+    below = tuple(_descendants(web))
+    maps = {pid: _maps(pid) for pid in (web, *below)}
+    # The process that forks holds no picture; jobs hold none either.
+    tracking = next((pid for pid in below if RING in maps[pid]), None)
+    shared = {line.split()[-1] for text in maps.values() for line in text.splitlines() if "/dev/shm/" in line}  # noqa: S108  it is looked at, not written
+    return Family(
+        web=web,
+        tracking=tracking,
+        others=tuple(pid for pid in below if pid != tracking),
+        shared=frozenset(shared),
+    )
+
+
+def kill(pids: tuple[int, ...]) -> None:
+    """`kill -9`."""
+    for pid in pids:
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+
+
+def left_behind(family: Family) -> Iterator[str]:
+    """What of a server that was killed is still there after a while."""
+    deadline_s = time.monotonic() + GONE_WITHIN_S
+    alive = family.pids
+    while alive and time.monotonic() < deadline_s:
+        alive = tuple(pid for pid in alive if _is_alive(pid))
+        time.sleep(LOOK_AGAIN_S)
+    yield from (f"process {pid} of the killed server lives on" for pid in alive)
+    yield from (f"{name} was left behind" for name in sorted(family.shared) if Path(name).exists())
+
+
+def _descendants(pid: int) -> Iterator[int]:
+    for task in (PROC / str(pid) / "task").glob("*/children"):
+        with suppress(OSError):
+            for child in task.read_text().split():
+                yield int(child)
+                yield from _descendants(int(child))
+
+
+def _maps(pid: int) -> str:
+    try:
+        return (PROC / str(pid) / "maps").read_text()
+    except OSError:
+        return ""
+
+
+def _is_alive(pid: int) -> bool:
+    try:
+        state = (PROC / str(pid) / "stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    # One that is dead and not yet counted by its parent runs no more.
+    return state != "Z"

@@ -1,0 +1,202 @@
+"""Co-signatures: of exactly one version, by somebody else, and where required before anybody navigates."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi import FastAPI
+
+from server.app import AppParts, create_app
+from server.errors import SetupOrderError
+from server.procedure.state import Finding, Lack, StepName, StepState, judged
+from server.store import DocumentKind
+from tests.procedure.conftest import Server, serving
+from tests.procedure.patient import Patient, plan_content, ready, with_plan, withheld
+from tests.procedure.test_camera_step import open_a_case
+from tests.server.supervision.persons import sign_people_in
+from tracker.navigation import AbsentReason
+
+SIGNATURES = "/api/supervision/signatures"
+REQUIRED = {"supervision": {"cosign": {"plan": "required", "registration": "required"}}}
+
+
+@pytest.fixture
+def guarded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Server]]:
+    """A server with people who are signed in, as the header says."""
+
+    def create(parts: AppParts) -> FastAPI:
+        app = create_app(parts)
+        sign_people_in(app)
+        return app
+
+    monkeypatch.setattr("tests.procedure.conftest.create_app", create)
+    with ExitStack() as stack:
+        yield lambda settings=None: stack.enter_context(serving(tmp_path / "home", settings))
+
+
+def signable(server: Server, what: str) -> dict[str, Any]:
+    told = server.ask("GET", SIGNATURES, 200)["signable"]
+    return next(dict(one) for one in told if one["what"] == what)
+
+
+def sign(server: Server, what: str, person: str, status: int = 201, document_id: str = "") -> Any:  # noqa: ANN401  JSON
+    asked = {"what": what, "document_id": document_id or signable(server, what)["document_id"] or "none"}
+    headers = {"x-person": person} if person else {}
+    return server.ask("POST", SIGNATURES, status, json=asked, headers=headers)
+
+
+def step(server: Server, name: str) -> dict[str, Any]:
+    told = server.ask("GET", "/api/procedure", 200)["steps"]
+    return next(dict(one) for one in told if one["step"] == name)
+
+
+def planned(server: Server) -> str:
+    """An open case with a plan."""
+    case_id = open_a_case(server)
+    with_plan(server, case_id)
+    return case_id
+
+
+def change_plan(server: Server, case_id: str, made_by: str = "ito") -> None:
+    ct = server.store.current(case_id, DocumentKind.CT, "main")
+    content = plan_content("L3", shift_mm=0.5)
+    server.store.put(case_id, DocumentKind.PLAN, "main", content, made_by=made_by, stands_on=[ct.id])
+
+
+def test_required_signatures_withhold_navigation_until_a_second_person_signed(
+    guarded: Callable[..., Server],
+) -> None:
+    server = guarded(REQUIRED)
+    ready(server)
+    patient = Patient(server=server)
+    # The plan lacks it, and the registration goes on all the same.
+    assert "not signed by a second person" in step(server, "plan")["lacks"]["said"]
+    patient.register()
+    patient.check()
+    navigate = step(server, "navigate")
+    assert (navigate["state"], navigate["allowed"]) == ("missing", False)
+    assert "waits for a co-signature: plan 'main' version 1" in navigate["said"]
+    assert navigate["remedy"].endswith("page.")
+    assert withheld(server) is AbsentReason.NOT_COSIGNED
+    sign(server, "plan", "s1")
+    assert step(server, "plan")["lacks"] is None
+    assert "registration 'L3'" in step(server, "navigate")["said"]
+    assert withheld(server) is AbsentReason.NOT_COSIGNED
+    (signature,) = sign(server, "registration", "s1")["signable"][1]["signatures"]
+    assert (signature["by"], signature["second_person"]) == ("Dr Sato", True)
+    assert server.ask("GET", "/api/procedure", 200)["may_navigate"]
+    assert withheld(server) is None
+    path = f"{SIGNATURES}/{signature['id']}"
+    assert server.ask("DELETE", path, 409, headers={"x-person": "s2"})["code"] == "SIGNATURE_NOT_YOURS"
+    server.ask("DELETE", path, 200, headers={"x-person": "s1"})
+    assert withheld(server) is AbsentReason.NOT_COSIGNED
+    sign(server, "registration", "s1")
+    assert withheld(server) is None
+
+
+def test_a_changed_plan_is_unsigned_at_once(guarded: Callable[..., Server]) -> None:
+    server = guarded()
+    case_id = planned(server)
+    looked_at = signable(server, "plan")["document_id"]
+    sign(server, "plan", "s1")
+    assert signable(server, "plan")["is_cosigned"]
+    change_plan(server, case_id)
+    now = signable(server, "plan")
+    assert (now["is_cosigned"], now["signatures"], now["was_signed"]) == (False, [], True)
+    # What was looked at is not what would be signed.
+    refused = sign(server, "plan", "s2", 409, document_id=looked_at)
+    assert refused["code"] == "SIGNED_VERSION_OLD"
+    assert "version 2" in refused["message"]
+
+
+def test_who_made_it_cannot_co_sign_it(guarded: Callable[..., Server]) -> None:
+    server = guarded()
+    case_id = planned(server)
+    change_plan(server, case_id, made_by=" ITO ")
+    refused = sign(server, "plan", "o1", 409)
+    assert refused["code"] == "SIGNED_BY_MAKER"
+    assert refused["remedy"]
+    sign(server, "plan", "s1")
+
+
+def test_several_sign_and_each_once(guarded: Callable[..., Server]) -> None:
+    server = guarded()
+    planned(server)
+    sign(server, "plan", "s1")
+    sign(server, "plan", "s2")
+    told = sign(server, "plan", "s1")["signable"][0]["signatures"]
+    assert [one["by"] for one in told] == ["Dr Sato", "Dr Kim"]
+    assert [one["is_yours"] for one in told] == [True, False]
+
+
+def test_without_sign_in_a_signature_is_nobodys_second(server: Server) -> None:
+    planned(server)
+    told = sign(server, "plan", "")["signable"][0]
+    assert [(one["by"], one["second_person"]) for one in told["signatures"]] == [("this computer", False)]
+    assert not told["is_cosigned"]
+
+
+def test_what_is_not_there_is_not_signed(server: Server) -> None:
+    assert sign(server, "plan", "", 409)["code"] == "NO_CASE_OPEN"
+    planned(server)
+    assert sign(server, "registration", "", 409)["code"] == "REGISTRATION_MISSING"
+    assert signable(server, "registration")["document_id"] is None
+    server.ask("DELETE", f"{SIGNATURES}/0123456789abcdef", 404)
+    plan = signable(server, "plan")["document_id"]
+    assert server.ask("DELETE", f"{SIGNATURES}/{plan}", 422)["code"] == "SIGNATURE_DOCUMENT_INVALID"
+
+
+def test_a_content_that_was_changed_behind_the_store_is_not_signed(guarded: Callable[..., Server]) -> None:
+    server = guarded()
+    case_id = planned(server)
+    sign(server, "plan", "s1")
+    (document,) = server.store.all(case_id, DocumentKind.SIGNATURE)
+    content = {**document.content, "content_sha256": "0" * 64}
+    server.store.put(
+        case_id,
+        DocumentKind.SIGNATURE,
+        document.name,
+        content,
+        made_by="Dr Sato",
+        stands_on=document.stands_on,
+    )
+    assert not signable(server, "plan")["is_cosigned"]
+
+
+def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server]) -> None:
+    server = guarded()
+    with server.door.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s2") as socket:
+
+        def heard(true: Callable[[dict[str, Any]], bool]) -> None:
+            def told() -> bool:
+                socket.send_json({"next": True})
+                news = socket.receive_json()["signable"]
+                return news is not None and true(news[0])
+
+            server.until(told)
+
+        heard(lambda plan: plan["document_id"] is None)
+        planned(server)
+        heard(lambda plan: plan["title"] == "plan 'main' version 1")
+        sign(server, "plan", "s1")
+        heard(lambda plan: plan["is_cosigned"] and plan["signatures"][0]["by"] == "Dr Sato")
+
+
+def test_only_navigation_waits_for_a_signature() -> None:
+    done = Finding(state=StepState.DONE, said="done")
+    findings = dict.fromkeys(StepName, done)
+    del findings[StepName.NAVIGATE]
+    lack = Lack(said="plan 'main' version 3 is not signed by a second person", remedy="Sign it.")
+    state = judged("case", findings, lacks={StepName.PLAN: lack})
+    assert [one.step for one in state.steps if not one.allowed] == [StepName.NAVIGATE]
+    state.refuse_before(StepName.CHECK)
+    with pytest.raises(SetupOrderError) as caught:
+        state.refuse_before(StepName.NAVIGATE)
+    assert (caught.value.code, caught.value.remedy) == ("PLAN_NOT_COSIGNED", "Sign it.")
+    missing = {**findings, StepName.TOOL: Finding(state=StepState.MISSING, said="no tool", remedy="Pivot.")}
+    assert (
+        "no tool"
+        in judged("case", missing, lacks={StepName.PLAN: lack}).status(StepName.NAVIGATE).finding.said
+    )

@@ -1,0 +1,25 @@
+"""`kill -9` of web process, tracking process and both, while people navigate: it comes back as it was."""
+
+import random
+from pathlib import Path
+
+import pytest
+
+from tests.procedure.killed import TARGETS, Theatre
+
+
+@pytest.mark.timeout(900)
+def test_killed_in_a_procedure_it_comes_back_into_case_and_step_and_waits_for_a_person(
+    tmp_path: Path,
+) -> None:
+    chance = random.Random(5)
+    theatre = Theatre(tmp_path / "theatre", reference=True, chance=chance, empty=False)
+    try:
+        told = {target: theatre.kill_once(target, after_s=chance.uniform(0.2, 2.0)) for target in TARGETS}
+    finally:
+        theatre.end()
+    assert {target: one.broken for target, one in told.items()} == {target: [] for target in TARGETS}
+    assert sum(one.confirmed for one in told.values()) > 0
+    # What is fixed to the patient's marker goes on by itself when only tracking was started again.
+    assert told["web"].stopped_by == told["both"].stopped_by == "server_started"
+    assert told["tracking"].stopped_by == "-"

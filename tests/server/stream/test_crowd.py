@@ -1,0 +1,51 @@
+"""More viewers than are allowed are refused in words, and each way of watching counts."""
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from fastapi.testclient import TestClient
+from starlette.testclient import WebSocketTestSession
+from starlette.websockets import WebSocketDisconnect
+
+from server.app import AppParts, create_app
+from server.config import Config
+from server.live import Instant, LiveHub
+
+OpenSocket = Callable[..., WebSocketTestSession]
+
+
+@pytest.fixture
+def client(hub: LiveHub) -> Iterator[TestClient]:
+    config = Config()
+    two = config.model_copy(update={"video": config.video.model_copy(update={"most_viewers": 2})})
+    with TestClient(create_app(AppParts(hub=hub, config=two)), base_url="http://127.0.0.1:8000") as client:
+        yield client
+
+
+def test_the_third_of_two_is_refused_with_a_remedy(
+    client: TestClient, open_socket: OpenSocket, hub: LiveHub, live_instant: Callable[..., Instant]
+) -> None:
+    hub.publish(live_instant(1))
+    with open_socket("/ws/view") as view, open_socket("/ws/live") as live:
+        view.send_text('{"next": true}')
+        view.receive_bytes()
+        live.receive_text()
+        answer = client.get("/video/main.mjpg")
+        assert answer.status_code == 503
+        assert answer.json()["code"] == "TOO_MANY_VIEWERS"
+        assert answer.json()["message"] == "2 viewers watch already, at most 2 may"
+        assert "video.most_viewers" in answer.json()["remedy"]
+        for path in ("/ws/view", "/ws/live"):
+            with open_socket(path) as third, pytest.raises(WebSocketDisconnect) as told:
+                third.receive_bytes()
+            assert (told.value.code, told.value.reason) == (1013, "2 viewers watch already, at most 2 may")
+    # They went: there is room again.
+    with open_socket("/ws/live") as live:
+        assert live.receive_text()
+
+
+def test_who_is_refused_does_not_count(client: TestClient, open_socket: OpenSocket) -> None:
+    for _ in range(3):
+        with open_socket("/ws/view?size=tiny") as refused, pytest.raises(WebSocketDisconnect):
+            refused.receive_bytes()
+    assert 'coaxial_viewers{kind="view"} 0.0' in client.get("/metrics").text

@@ -1,0 +1,106 @@
+"""Each picture and each text is made once for all who watch, and only when somebody does."""
+
+import asyncio
+import dataclasses
+import json
+import time
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+import pytest
+
+from server.live import Instant
+from server.stream.fitting.pictures import ASKED_WITHIN_S, Pictures
+from server.stream.fitting.sizes import Size
+from server.stream.fitting.texts import Texts
+from server.stream.messages import live_message
+
+LiveInstant = Callable[..., Instant]
+
+
+@pytest.fixture
+def drawn(live_instant: LiveInstant) -> Instant:
+    """An instant whose picture nobody has encoded."""
+    picture = np.full((90, 160, 3), 77, np.uint8)
+    return dataclasses.replace(live_instant(5), jpeg=b"", drawn=picture)
+
+
+def size_px(jpeg: bytes) -> tuple[int, int]:
+    decoded = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
+    assert decoded is not None
+    assert abs(float(decoded.mean()) - 77.0) < 1.0
+    height, width = decoded.shape[:2]
+    return width, height
+
+
+async def all_of(pictures: Pictures, instant: Instant, *sizes: Size) -> list[bytes]:
+    return await asyncio.gather(*(pictures.of(instant, size) for size in sizes))
+
+
+def test_all_viewers_of_a_size_share_one_encoding(drawn: Instant) -> None:
+    pictures = Pictures(quality=80)
+    got = asyncio.run(all_of(pictures, drawn, Size.HALF, Size.HALF, Size.QUARTER, Size.HALF))
+    assert [size_px(jpeg) for jpeg in got] == [(80, 45), (80, 45), (40, 22), (80, 45)]
+    assert got[0] is got[1] is got[3]
+    assert pictures.encoded == {Size.FULL: 0, Size.HALF: 1, Size.QUARTER: 1}
+
+
+def test_a_picture_that_is_there_already_is_not_encoded_again(live_instant: LiveInstant) -> None:
+    pictures, instant = Pictures(quality=80), live_instant(77)
+    assert asyncio.run(all_of(pictures, instant, Size.FULL))[0] is instant.jpeg
+    assert size_px(asyncio.run(all_of(pictures, instant, Size.HALF))[0]) == (80, 45)
+    assert pictures.encoded[Size.FULL] == 0
+
+
+def test_a_late_comer_gets_a_picture_that_nobody_had_wanted(drawn: Instant) -> None:
+    assert size_px(asyncio.run(all_of(Pictures(quality=80), drawn, Size.FULL))[0]) == (160, 90)
+
+
+def test_an_older_instant_does_not_throw_out_the_newest(drawn: Instant) -> None:
+    pictures = Pictures(quality=80)
+    newer = dataclasses.replace(drawn, sequence=6)
+
+    async def three() -> None:
+        for instant in (newer, drawn, newer):
+            await pictures.of(instant, Size.HALF)
+
+    asyncio.run(three())
+    assert pictures.encoded[Size.HALF] == 2
+
+
+def test_full_pictures_are_wanted_only_while_somebody_asks(drawn: Instant) -> None:
+    now_s = 100.0
+    pictures = Pictures(quality=80, clock=lambda: now_s)
+    assert not pictures.wants_full()
+    asyncio.run(all_of(pictures, drawn, Size.HALF))
+    assert not pictures.wants_full()
+    asyncio.run(all_of(pictures, drawn, Size.FULL))
+    assert pictures.wants_full()
+    now_s += ASKED_WITHIN_S + 0.01
+    assert not pictures.wants_full()
+
+
+def test_an_instant_without_picture_has_none_in_any_size(instant_of: LiveInstant) -> None:
+    pictures = Pictures(quality=80)
+    assert asyncio.run(all_of(pictures, instant_of(1), *Size)) == [b"", b"", b""]
+    assert sum(pictures.encoded.values()) == 0
+
+
+def test_a_text_is_written_once_and_says_the_truth_of_each_sending(live_instant: LiveInstant) -> None:
+    texts, instant = Texts(), live_instant(3)
+    made_s = time.monotonic()
+    texts.of(instant, now_s=made_s)
+    for later_s, size in ((0.0, Size.FULL), (0.7, Size.QUARTER)):
+        now_s = made_s + later_s
+        said = json.loads(texts.of(instant, size=size, now_s=now_s))
+        whole = live_message(instant, now_s=now_s, shown_scale_ratio=size.scale_ratio)
+        assert said == json.loads(whole.model_dump_json())
+    assert texts.written == 1
+
+
+def test_a_text_without_image_is_whole_too(instant_of: LiveInstant) -> None:
+    texts, instant = Texts(), instant_of(9)
+    texts.of(instant, now_s=1.0)
+    said = json.loads(texts.of(instant, now_s=4.5))
+    assert said == json.loads(live_message(instant, now_s=4.5).model_dump_json())

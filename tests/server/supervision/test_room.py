@@ -1,0 +1,247 @@
+"""The room without a network: people once, marks that go with their moment, bounds for who sends too much."""
+
+from dataclasses import dataclass, field
+
+import pytest
+
+from server.security import Person, Role
+from server.supervision.marks import MOST_DRAWINGS_A_PERSON, MOST_POINTS_A_DRAWING, Moment, Shape
+from server.supervision.people import LineState, Seat, View
+from server.supervision.room import MARKS_AT_ONCE, Room, RoomFull, Shown, Unfair
+from server.supervision.told import News, RoomPicture, Told
+
+SATO = Person(id="s1", name="Dr Sato", role=Role.SUPERVISOR)
+ITO = Person(id="o1", name="M. Ito", role=Role.OPERATOR)
+GUEST = Person(id="v1", name="Guest", role=Role.VIEWER)
+SCREEN = Person(id="t1", name="Theatre 3", role=Role.SCREEN)
+FADES_S = 20.0
+
+
+@dataclass(slots=True)
+class Scene:
+    """A room, a clock and a camera that are set by hand."""
+
+    room: Room = field(default_factory=lambda: Room(fades_after_s=FADES_S))
+    now_s: float = 100.0
+
+    @property
+    def moment(self) -> Moment:
+        return Moment(image_number=int(self.now_s * 10), captured_at_s=self.now_s)
+
+    @property
+    def shown(self) -> Shown:
+        return Shown(moment=self.moment, size_wh_px=(1280, 720))
+
+    def enter(self, person: Person, view: View = View.SUPERVISOR) -> Seat:
+        return self.room.enter(person, view, now_s=self.now_s, at=f"at {self.now_s:g}")
+
+    def point(self, seat: Seat, at_px: tuple[float, float] = (10.0, 20.0)) -> None:
+        self.room.point(seat, at_px, self.moment, self.shown, now_s=self.now_s)
+
+    def draw(self, seat: Seat, key: int = 1, shape: Shape = Shape.PEN, points: int = 2) -> bool:
+        line = [(10.0 + n, 20.0) for n in range(points)]
+        return self.room.draw(seat, key, shape, line, self.moment, self.shown, now_s=self.now_s)
+
+    @property
+    def drawn(self) -> list[str]:
+        return [one.key for one in self.room.marks.drawings(self.now_s)]
+
+    def news(self, told: Told) -> News:
+        marks = self.room.marks
+        return told.news(
+            RoomPicture(
+                now_s=self.now_s,
+                fades_after_s=FADES_S,
+                people=self.room.present(self.now_s),
+                pointers=marks.pointers(self.now_s),
+                drawings=marks.drawings(self.now_s),
+            )
+        )
+
+
+@pytest.fixture
+def scene() -> Scene:
+    return Scene()
+
+
+def test_somebody_with_several_pages_is_here_once(scene: Scene) -> None:
+    first = scene.enter(SATO, View.SUPERVISOR)
+    scene.enter(GUEST, View.THEATRE)
+    scene.now_s += 60
+    scene.enter(SATO, View.THEATRE)
+    told = [(one.name, one.role, one.views, one.since) for one in scene.room.present(scene.now_s)]
+    assert told == [
+        ("Dr Sato", Role.SUPERVISOR, (View.THEATRE, View.SUPERVISOR), "at 100"),
+        ("Guest", Role.VIEWER, (View.THEATRE,), "at 100"),
+    ]
+    scene.room.leave(first)
+    assert scene.room.present(scene.now_s)[1].views == (View.THEATRE,)
+
+
+@pytest.mark.parametrize(
+    ("took_s", "waiting_s", "line"),
+    [
+        pytest.param(0.1, 0.0, LineState.GOOD, id="answers-at-once"),
+        pytest.param(0.7, 0.0, LineState.SLOW, id="answered-late"),
+        pytest.param(0.1, 0.9, LineState.SLOW, id="is-late-now"),
+        pytest.param(0.1, 3.0, LineState.SILENT, id="says-nothing"),
+    ],
+)
+def test_a_line_is_judged_by_its_answers(
+    scene: Scene, took_s: float, waiting_s: float, line: LineState
+) -> None:
+    seat = scene.enter(SATO)
+    seat.sent_at_s = scene.now_s
+    scene.now_s += took_s
+    seat.answered(scene.now_s)
+    if waiting_s:
+        seat.sent_at_s = scene.now_s
+        scene.now_s += waiting_s
+    assert scene.room.present(scene.now_s)[0].line is line
+
+
+def test_the_best_of_several_lines_counts(scene: Scene) -> None:
+    bad, good = scene.enter(SATO), scene.enter(SATO)
+    bad.round_trip_s, good.round_trip_s = 5.0, 0.1
+    assert scene.room.present(scene.now_s)[0].line is LineState.GOOD
+
+
+def test_a_pointer_goes_two_seconds_after_its_last_move(scene: Scene) -> None:
+    seat = scene.enter(SATO)
+    scene.point(seat)
+    scene.now_s += 1.9
+    scene.point(seat, (30.0, 40.0))
+    scene.now_s += 1.9
+    assert [one.at_px for one in scene.room.marks.pointers(scene.now_s)] == [(30.0, 40.0)]
+    scene.now_s += 0.2
+    assert scene.room.marks.pointers(scene.now_s) == ()
+
+
+def test_a_pointer_goes_with_its_page_but_drawings_stay_their_time(scene: Scene) -> None:
+    seat = scene.enter(SATO)
+    scene.point(seat)
+    scene.draw(seat)
+    scene.room.leave(seat)
+    assert scene.room.marks.pointers(scene.now_s) == ()
+    assert scene.drawn == ["1-1"]
+
+
+def test_a_drawing_goes_with_the_image_that_it_was_made_on(scene: Scene) -> None:
+    seat = scene.enter(SATO)
+    seen = scene.moment
+    scene.now_s += 5  # over a thin line an old image was drawn on
+    scene.room.draw(seat, 1, Shape.PEN, [(1.0, 1.0)], seen, scene.shown, now_s=scene.now_s)
+    scene.now_s += 14.9
+    assert scene.drawn == ["1-1"]
+    scene.now_s += 0.2
+    assert scene.drawn == []
+
+
+@pytest.mark.parametrize("person", [GUEST, SCREEN])
+def test_who_only_watches_is_cut_off(scene: Scene, person: Person) -> None:
+    seat = scene.enter(person)
+    for act in (scene.point, scene.draw):
+        with pytest.raises(Unfair, match="only watches"):
+            act(seat)
+    with pytest.raises(Unfair):
+        scene.room.extend(seat, 1, [(1.0, 1.0)], scene.shown, now_s=scene.now_s)
+    with pytest.raises(Unfair):
+        scene.room.undo(seat, now_s=scene.now_s)
+    with pytest.raises(Unfair):
+        scene.room.clear(seat, everybodys=False, now_s=scene.now_s)
+
+
+def test_too_many_marks_are_cut_off_and_a_steady_hand_is_not(scene: Scene) -> None:
+    seat = scene.enter(SATO)
+    for _ in range(600):
+        scene.now_s += 1 / 50
+        scene.point(seat)
+    hasty = scene.enter(SATO)
+    for _ in range(int(MARKS_AT_ONCE)):
+        scene.point(hasty)
+    with pytest.raises(Unfair, match="a second"):
+        scene.point(hasty)
+
+
+def test_a_drawing_has_an_end(scene: Scene) -> None:
+    seat = scene.enter(SATO)
+    scene.draw(seat, points=50)
+    for _ in range(MOST_POINTS_A_DRAWING // 50 - 1):
+        scene.room.extend(seat, 1, [(1.0, 1.0)] * 50, scene.shown, now_s=scene.now_s)
+    with pytest.raises(Unfair, match=str(MOST_POINTS_A_DRAWING)):
+        scene.room.extend(seat, 1, [(1.0, 1.0)], scene.shown, now_s=scene.now_s)
+
+
+def test_the_oldest_of_too_many_drawings_goes(scene: Scene) -> None:
+    seat = scene.enter(SATO)
+    for key in range(MOST_DRAWINGS_A_PERSON + 3):
+        scene.draw(seat, key)
+    assert scene.drawn == [f"1-{key}" for key in range(3, MOST_DRAWINGS_A_PERSON + 3)]
+
+
+def test_own_drawings_are_taken_back_and_the_operator_clears_all(scene: Scene) -> None:
+    sato, ito = scene.enter(SATO), scene.enter(ITO, View.OPERATOR)
+    for key in (1, 2):
+        scene.draw(sato, key)
+    scene.draw(ito, 1)
+    assert scene.room.undo(sato, now_s=scene.now_s)
+    assert scene.drawn == ["1-1", "2-1"]
+    with pytest.raises(Unfair, match="operator"):
+        scene.room.clear(sato, everybodys=True, now_s=scene.now_s)
+    assert scene.room.clear(sato, everybodys=False, now_s=scene.now_s) == 1
+    scene.draw(sato, 3)
+    assert scene.room.clear(ito, everybodys=True, now_s=scene.now_s) == 2
+    assert not scene.room.undo(sato, now_s=scene.now_s)
+
+
+@pytest.mark.parametrize(
+    ("points", "moved"),
+    [
+        pytest.param([(1300.0, 20.0)], Moment(image_number=1, captured_at_s=99.0), id="off-the-picture"),
+        pytest.param([(10.0, -0.9)], Moment(image_number=1, captured_at_s=99.0), id="above-it"),
+        pytest.param([(10.0, 20.0)], Moment(image_number=5000, captured_at_s=99.0), id="an-image-to-come"),
+        pytest.param([(10.0, 20.0)], Moment(image_number=1, captured_at_s=1e9), id="a-time-to-come"),
+    ],
+)
+def test_what_lies_on_no_picture_is_not_shown(
+    scene: Scene, points: list[tuple[float, float]], moved: Moment
+) -> None:
+    seat = scene.enter(SATO)
+    assert not scene.room.draw(seat, 1, Shape.PEN, points, moved, scene.shown, now_s=scene.now_s)
+    scene.room.point(seat, points[0], moved, scene.shown, now_s=scene.now_s)
+    assert not scene.room.draw(seat, 1, Shape.PEN, [(1.0, 1.0)], scene.moment, None, now_s=scene.now_s)
+    assert scene.drawn == []
+    assert scene.room.marks.pointers(scene.now_s) == ()
+
+
+def test_an_arrow_has_two_ends(scene: Scene) -> None:
+    seat = scene.enter(SATO)
+    with pytest.raises(Unfair, match="two points"):
+        scene.draw(seat, 1, Shape.ARROW, points=3)
+
+
+def test_the_room_has_an_end(scene: Scene) -> None:
+    for _ in range(20):
+        scene.enter(SATO)
+    with pytest.raises(RoomFull, match="20 pages"):
+        scene.enter(SATO)
+    scene.enter(ITO)
+
+
+def test_a_page_is_told_only_what_is_new(scene: Scene) -> None:
+    sato, told = scene.enter(SATO), Told()
+    scene.draw(sato, points=3)
+    first = scene.news(told)
+    assert first.people is not None
+    assert [(one.from_point, len(one.points_px)) for one in first.grown] == [(0, 3)]
+    scene.room.extend(sato, 1, [(1.0, 2.0)], scene.shown, now_s=scene.now_s)
+    second = scene.news(told)
+    assert (second.people, second.signable) == (None, None)
+    assert [(one.from_point, list(one.points_px)) for one in second.grown] == [(3, [(1.0, 2.0)])]
+    scene.enter(GUEST)
+    third = scene.news(told)
+    assert third.people is not None
+    assert third.grown == ()
+    assert [one.key for one in third.picture.drawings] == ["1-1"]
+    late = scene.news(Told())
+    assert [(one.from_point, len(one.points_px)) for one in late.grown] == [(0, 4)]

@@ -1,0 +1,198 @@
+"""`/ws/room` through the door: what one page marks another is told, and who misbehaves goes."""
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from starlette.testclient import WebSocketTestSession
+from starlette.websockets import WebSocketDisconnect
+
+from server.app import AppParts, create_app
+from server.config import Config
+from server.live import Instant, LiveHub
+from tests.server.supervision.persons import sign_people_in
+from tracker.navigation import NavigationSnapshot
+
+Open = Callable[..., WebSocketTestSession]
+NEXT = {"next": True}
+
+
+class Page:
+    """One page in the room."""
+
+    def __init__(self, socket: WebSocketTestSession, image: dict[str, Any]) -> None:
+        self.socket, self.image = socket, image
+
+    def say(self, **said: Any) -> None:  # noqa: ANN401  JSON
+        self.socket.send_json(said)
+
+    def hear(self) -> dict[str, Any]:
+        self.socket.send_json(NEXT)
+        told: dict[str, Any] = self.socket.receive_json()
+        return told
+
+    def until(self, true: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
+        deadline = time.monotonic() + 60
+        while not true(told := self.hear()):
+            assert time.monotonic() < deadline, told
+        return told
+
+    def reason(self) -> str:
+        """Why it is closed."""
+        with pytest.raises(WebSocketDisconnect) as told:
+            self.socket.receive_json()
+        assert told.value.code in (1008, 1009)
+        return str(told.value.reason)
+
+
+@pytest.fixture
+def client(
+    snapshot_of: Callable[..., NavigationSnapshot], instant_of: Callable[..., Instant]
+) -> Iterator[TestClient]:
+    hub = LiveHub()
+    app = create_app(AppParts(hub=hub, config=Config()))
+    sign_people_in(app)
+    snapshot = snapshot_of(size_wh_px=(1280, 720), image_number=500, captured_at_s=time.monotonic())
+    hub.publish(instant_of(1, snapshot=snapshot))
+    with TestClient(app, base_url="http://127.0.0.1:8000") as client:
+        yield client
+
+
+@pytest.fixture
+def image(client: TestClient) -> dict[str, Any]:
+    snapshot = client.get("/api/live").json()["snapshot"]
+    return {key: snapshot[key] for key in ("image_number", "captured_at_s")}
+
+
+@pytest.fixture
+def page(client: TestClient, image: dict[str, Any]) -> Iterator[Callable[..., Page]]:
+    open_sockets: list[WebSocketTestSession] = []
+
+    def opened(person: str, view: str = "supervisor") -> Page:
+        session = client.websocket_connect(f"ws://127.0.0.1:8000/ws/room?view={view}&person={person}")
+        open_sockets.append(session.__enter__())
+        return Page(session, image)
+
+    yield opened
+    for session in open_sockets:
+        session.__exit__(None, None, None)
+
+
+def test_what_a_supervisor_marks_is_told_in_theatre(page: Callable[..., Page], image: dict[str, Any]) -> None:
+    sato, theatre = page("s1"), page("v1", "theatre")
+    assert sato.hear()["you"]["name"] == "Dr Sato"
+    told = theatre.until(lambda told: told["people"] and len(told["people"]) == 2)
+    assert [(one["name"], one["role"], one["views"], one["is_you"]) for one in told["people"]] == [
+        ("Dr Sato", "supervisor", ["supervisor"], False),
+        ("Guest", "viewer", ["theatre"], True),
+    ]
+    sato.say(point={"at_px": [640.5, 300], **image})
+    (pointer,) = theatre.until(lambda told: told["pointers"])["pointers"]
+    assert (pointer["name"], pointer["at_px"], pointer["image_number"]) == ("Dr Sato", [640.5, 300.0], 500)
+    assert 0.0 <= pointer["still_ms"] < 2000.0
+    sato.say(lift=True)
+    theatre.until(lambda told: not told["pointers"])
+    sato.say(draw={"key": 1, "shape": "pen", "points_px": [[1, 2], [3, 4]], **image})
+    (begun,) = theatre.until(lambda told: told["grown"])["grown"]
+    assert (begun["from_point"], begun["points_px"]) == (0, [[1.0, 2.0], [3.0, 4.0]])
+    assert (begun["name"], begun["is_yours"], begun["shape"]) == ("Dr Sato", False, "pen")
+    assert 10.0 < begun["left_s"] <= 20.0
+    sato.say(extend={"key": 1, "points_px": [[5, 6]]})
+    (more,) = theatre.until(lambda told: told["grown"])["grown"]
+    assert (more["key"], more["from_point"], more["points_px"]) == (begun["key"], 2, [[5.0, 6.0]])
+    sato.say(undo=True)
+    theatre.until(lambda told: not told["drawings"])
+
+
+def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: dict[str, Any]) -> None:
+    sato, ito = page("s1"), page("o1", "operator")
+    sato.say(draw={"key": 7, "shape": "circle", "points_px": [[100, 100], [150, 100]], **image})
+    ito.until(lambda told: told["drawings"])
+    ito.say(clear="all")
+    sato.until(lambda told: not told["drawings"])
+
+
+POINT = {"at_px": [1, 2], "image_number": 1, "captured_at_s": 1.0}
+DRAW = {**{key: POINT[key] for key in ("image_number", "captured_at_s")}, "key": 1, "shape": "pen"}
+
+
+@pytest.mark.parametrize(
+    ("person", "said", "reason"),
+    [
+        pytest.param("v1", json.dumps({"point": POINT}), "only watches", id="a viewer points"),
+        pytest.param("v1", '{"clear": "own"}', "only watches", id="a viewer clears"),
+        pytest.param("s1", '{"clear": "all"}', "operator", id="a supervisor clears all"),
+        pytest.param("s1", "hello", "not understood", id="no JSON"),
+        pytest.param("s1", "[" * 1000, "not understood", id="deep"),
+        pytest.param("s1", '{"next": true, "undo": true}', "not understood", id="two things"),
+        pytest.param("s1", "{}", "not understood", id="nothing"),
+        pytest.param("s1", '{"next": true, "role": "operator"}', "not understood", id="something unknown"),
+        pytest.param("s1", '{"point": {"at_px": [NaN, 1]}}', "not understood", id="no number"),
+        pytest.param("s1", json.dumps({"point": {**POINT, "at_px": [1e9, 1]}}), "not", id="far away"),
+        pytest.param("s1", json.dumps({"point": {**POINT, "at_px": ["1", 1]}}), "not", id="a text"),
+        pytest.param(
+            "s1", json.dumps({"draw": {**DRAW, "points_px": [[1, 2]] * 61}}), "not", id="too many points"
+        ),
+        pytest.param("s1", json.dumps({"draw": {**DRAW, "points_px": []}}), "not", id="no points"),
+        pytest.param("s1", json.dumps({"undo": True}).ljust(1025), "1024", id="too long"),
+    ],
+)
+def test_who_misbehaves_is_told_why_and_goes(
+    page: Callable[..., Page], person: str, said: str, reason: str
+) -> None:
+    one = page(person)
+    one.socket.send_text(said)
+    assert reason in one.reason()
+
+
+def test_a_flood_of_marks_is_cut_off(page: Callable[..., Page], image: dict[str, Any]) -> None:
+    sato = page("s1")
+    for _ in range(200):
+        sato.say(point={"at_px": [1, 2], **image})
+    assert "a second" in sato.reason()
+
+
+def test_a_view_that_is_not_there_is_refused(page: Callable[..., Page]) -> None:
+    assert "theatre, operator, supervisor" in page("s1", "ceiling").reason()
+
+
+def test_the_room_is_told_once_over_http_too(client: TestClient, page: Callable[..., Page]) -> None:
+    sato = page("s1")
+    sato.hear()
+    told = client.get("/api/supervision/room", headers={"x-person": "v1"}).json()
+    assert [one["name"] for one in told["people"]] == ["Dr Sato"]
+    assert told["you"] == {"seat": 0, "name": "Guest", "role": "viewer"}
+    assert told["signable"] is None
+
+
+def test_who_leaves_is_not_here_any_more(page: Callable[..., Page], client: TestClient) -> None:
+    theatre = page("v1", "theatre")
+    with client.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s1"):
+        theatre.until(lambda told: told["people"] and len(told["people"]) == 2)
+    theatre.until(lambda told: told["people"] and len(told["people"]) == 1)
+    assert 'coaxial_viewers{kind="room"} 1.0' in client.get("/metrics").text
+
+
+def test_holds_of_several_stand_until_each_has_released(client: TestClient) -> None:
+    def post(path: str, person: str, status: int = 200) -> Any:  # noqa: ANN401  JSON
+        asked = {"by": "somebody else"}
+        answer = client.post(f"/api/alarms/{path}", json=asked, headers={"x-person": person})
+        assert answer.status_code == status, answer.text
+        return answer.json()
+
+    def by(told: Any) -> list[str]:  # noqa: ANN401  JSON
+        return [one["by"] for one in told["alarms"] if one["condition"] == "HOLD_ASKED"]
+
+    # The session's name counts, whatever was typed.
+    assert by(post("hold", "s1")) == ["Dr Sato"]
+    refused = post("release", "s2", 409)
+    assert (refused["code"], "Dr Sato" in refused["message"]) == ("HOLD_NOT_YOURS", True)
+    post("hold", "s2")
+    told = client.get("/api/supervision/room", headers={"x-person": "s2"}).json()
+    assert told["hold"] == {"asked_by": ["Dr Sato", "Dr Kim"], "is_yours": True}
+    assert by(post("release", "s1")) == ["Dr Kim"]
+    assert by(post("hold", "s1")) == ["Dr Kim, Dr Sato"]
+    assert by(post("release", "o1")) == []

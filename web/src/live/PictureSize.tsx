@@ -1,0 +1,28 @@
+import type { ReactNode } from "react";
+import { useWords } from "../words/WordsContext";
+import { PICTURE_CHOICES, type PictureChoice } from "./carried";
+import { useLive } from "./LiveContext";
+
+/** In which size the picture comes: by itself as the line carries it, or the one that is chosen. */
+export function PictureSize(): ReactNode {
+  const { line } = useWords();
+  const { live, view } = useLive();
+  return (
+    <select
+      className="picture-size"
+      aria-label={line.size}
+      title={line.size}
+      data-testid="picture-size"
+      value={view.carried.choice}
+      onChange={(event) => {
+        live.choosePicture(event.currentTarget.value as PictureChoice);
+      }}
+    >
+      {PICTURE_CHOICES.map((choice) => (
+        <option key={choice} value={choice}>
+          {line.sizes[choice]}
+        </option>
+      ))}
+    </select>
+  );
+}

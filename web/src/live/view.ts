@@ -1,0 +1,44 @@
+// What the page knows of one moment, as every pane is told it.
+import type { NumbersVerdict, VideoVerdict } from "./assess";
+import type { Carried } from "./carried";
+import type { LinkState } from "./line";
+import type { LiveMessage } from "./messages";
+import type { SceneVerdict } from "./sceneAge";
+
+/** The true age of everything that stands on the page, in ms; null where nothing stands there. */
+export interface Ages {
+  pictureMs: number | null;
+  numbersMs: number | null;
+  sceneMs: number | null;
+  /** By how much the server's clock is ahead of the page's; null before they were compared. */
+  clockAheadMs: number | null;
+}
+
+export interface View {
+  nowMs: number;
+  link: LinkState;
+  silentMs: number;
+  newest: LiveMessage | null;
+  video: VideoVerdict;
+  numbers: NumbersVerdict;
+  /** How long there have been no numbers; null while there are, or when there never were. */
+  untrackedMs: number | null;
+  scene: SceneVerdict;
+  ages: Ages;
+  /** What this viewer's line carries. */
+  carried: Carried;
+}
+
+export function agesOf(
+  video: VideoVerdict,
+  numbers: NumbersVerdict,
+  scene: SceneVerdict,
+  clockAheadMs: number | null,
+): Ages {
+  return {
+    pictureMs: video.ageMs,
+    numbersMs: numbers.ageMs,
+    sceneMs: scene.state === "loading" ? null : scene.ageMs,
+    clockAheadMs,
+  };
+}

@@ -1,0 +1,25 @@
+// Inside it, the video may be pointed at and drawn on; outside, others' marks are only shown.
+import { createContext, use, useMemo, useState, type ReactNode } from "react";
+import { useRoom } from "../room/RoomContext";
+import { Hand, type Tool } from "./hand";
+
+interface Marking {
+  tool: Tool;
+  choose: (tool: Tool) => void;
+  hand: Hand;
+}
+
+const MarkingContext = createContext<Marking | null>(null);
+
+export function MarkingProvider({ children }: { children: ReactNode }): ReactNode {
+  const room = useRoom();
+  const [tool, choose] = useState<Tool>("point");
+  const hand = useMemo(() => new Hand((said) => room?.say(said) ?? false), [room]);
+  const value = useMemo(() => ({ tool, choose, hand }), [tool, hand]);
+  return <MarkingContext value={value}>{children}</MarkingContext>;
+}
+
+/** Null where nothing may be marked. */
+export function useMarking(): Marking | null {
+  return use(MarkingContext);
+}

@@ -1,0 +1,143 @@
+import {
+  useEffect,
+  useEffectEvent,
+  useRef,
+  type KeyboardEvent,
+  type PointerEvent,
+  type ReactNode,
+} from "react";
+import { usePainter } from "../live/LiveContext";
+import type { Point } from "../room/messages";
+import { useRoom } from "../room/RoomContext";
+import { NOBODY } from "../room/roomState";
+import { useWords } from "../words/WordsContext";
+import { Board } from "./board";
+import { useMarking } from "./MarkingContext";
+import { isOnImage, onImage } from "./place";
+import { Seen } from "./seen";
+
+/** Arrow keys move the pointer by this share of the picture's width, with shift by five times as much. */
+const KEY_STEP = 0.01;
+const KEYS: Record<string, Point> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+
+/** What others point at and draw, over the picture; inside a `MarkingProvider` also what this person does. */
+export function MarksLayer(): ReactNode {
+  const words = useWords().marks;
+  const room = useRoom();
+  const marking = useMarking();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const board = useRef<Board | null>(null);
+  const seen = useRef(new Seen());
+  const key = useRef<Point | null>(null);
+  const hand = useEffectEvent(() => marking?.hand ?? null);
+  const ageWords = useEffectEvent((seconds: number) => words.ago.replace("#", String(seconds)));
+
+  usePainter((view) => {
+    seen.current.look(view);
+    marking?.hand.flush(view.nowMs);
+  });
+
+  useEffect(() => {
+    const element = canvas.current;
+    if (element === null) return;
+    const painted = new Board(
+      element,
+      seen.current,
+      () => room?.now() ?? NOBODY,
+      () => hand(),
+      (seconds) => ageWords(seconds),
+    );
+    board.current = painted;
+    const leave = room?.onMarks(() => {
+      painted.ask();
+    });
+    const resized = new ResizeObserver(() => {
+      painted.ask();
+    });
+    resized.observe(element);
+    return () => {
+      leave?.();
+      resized.disconnect();
+      painted.stop();
+    };
+  }, [room]);
+
+  const placeOf = (event: PointerEvent): Point | null => {
+    const placement = board.current?.placement ?? null;
+    const box = canvas.current?.getBoundingClientRect();
+    if (placement === null || box === undefined) return null;
+    const at: Point = [event.clientX - box.left, event.clientY - box.top];
+    const drawing = event.buttons > 0;
+    return drawing || isOnImage(at, placement) ? onImage(at, placement) : null;
+  };
+
+  const move = (event: PointerEvent): void => {
+    const at = placeOf(event);
+    const { moment } = seen.current;
+    if (marking === null || at === null || moment === null) return;
+    key.current = at;
+    const { tool } = marking;
+    if (tool !== "point" && event.buttons > 0) marking.hand.move(at, performance.now());
+    else marking.hand.point(at, moment, performance.now());
+    board.current?.ask();
+  };
+
+  const down = (event: PointerEvent<HTMLCanvasElement>): void => {
+    const at = placeOf(event);
+    const { moment } = seen.current;
+    if (marking === null || at === null || moment === null || !event.isPrimary || event.button !== 0) return;
+    event.currentTarget.setPointerCapture(event.pointerId);
+    if (marking.tool === "point") marking.hand.point(at, moment, performance.now());
+    else {
+      marking.hand.lift();
+      marking.hand.down(marking.tool, at, moment, performance.now());
+    }
+    board.current?.ask();
+  };
+
+  const up = (): void => {
+    marking?.hand.up(performance.now());
+    board.current?.ask();
+  };
+
+  const steer = (event: KeyboardEvent): void => {
+    const step = KEYS[event.key];
+    const { moment, size } = seen.current;
+    if (marking === null || step === undefined || moment === null) return;
+    event.preventDefault();
+    const far = KEY_STEP * size.width * (event.shiftKey ? 5 : 1);
+    const [x, y] = key.current ?? [size.width / 2, size.height / 2];
+    const at: Point = [clamped(x + far * step[0], size.width), clamped(y + far * step[1], size.height)];
+    key.current = at;
+    marking.hand.point(at, moment, performance.now());
+  };
+
+  const shared = { className: "marks-layer", "data-testid": "marks", ref: canvas };
+  if (marking === null) return <canvas {...shared} aria-hidden="true" />;
+  return (
+    <canvas
+      {...shared}
+      data-tool={marking.tool}
+      role="application"
+      aria-label={words.layer}
+      tabIndex={0}
+      onPointerMove={move}
+      onPointerDown={down}
+      onPointerUp={up}
+      onPointerCancel={up}
+      onPointerLeave={() => {
+        marking.hand.lift();
+      }}
+      onKeyDown={steer}
+    />
+  );
+}
+
+function clamped(value: number, size: number): number {
+  return Math.min(Math.max(Math.round(value), 0), size - 1);
+}

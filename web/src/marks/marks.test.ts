@@ -1,0 +1,149 @@
+import { describe, expect, test } from "vitest";
+import type { Said } from "../room/messages";
+import { Hand } from "./hand";
+import { isOnImage, onImage, onStage, placed } from "./place";
+
+const MOMENT = { image_number: 7, captured_at_s: 4 };
+
+describe("where a mark stands", () => {
+  test.each([
+    ["the same shape", { width: 640, height: 360 }, [0, 0], [0.25, 0.25]],
+    ["a wider stage", { width: 1000, height: 360 }, [0, 0], [180.25, 0.25]],
+    ["a higher stage", { width: 640, height: 500 }, [1279, 719], [639.75, 429.75]],
+  ] as const)("on %s", (_, stage, px, expected) => {
+    const placement = placed({ width: 1280, height: 720 }, stage);
+    if (placement === null) throw new Error("no placement");
+    const [x, y] = onStage(px, placement);
+    expect([x, y]).toEqual([...expected]);
+    expect(onImage([x, y], placement)).toEqual([...px]);
+  });
+
+  test("beside the picture nothing is marked", () => {
+    const placement = placed({ width: 1280, height: 720 }, { width: 1000, height: 360 });
+    if (placement === null) throw new Error("no placement");
+    expect(isOnImage([100, 100], placement)).toBe(false);
+    expect(onImage([100, 100], placement)[0]).toBe(0);
+    expect(placed({ width: 0, height: 0 }, { width: 10, height: 10 })).toBeNull();
+  });
+});
+
+describe("a hand", () => {
+  function hand(takes: () => boolean = () => true) {
+    const said: Said[] = [];
+    const made = new Hand((one) => {
+      if (!takes()) return false;
+      said.push(one);
+      return true;
+    });
+    return { made, said };
+  }
+
+  test("points no more often than is seen", () => {
+    const { made, said } = hand();
+    for (let ms = 0; ms < 1000; ms += 5) made.point([ms, 1], MOMENT, ms);
+    expect(said.length).toBeLessThan(25);
+    expect(said[0]).toEqual({ point: { at_px: [0, 1], ...MOMENT } });
+  });
+
+  test("is said where it came to rest", () => {
+    const { made, said } = hand();
+    made.point([1, 1], MOMENT, 0);
+    made.point([2, 2], MOMENT, 10);
+    made.flush(40);
+    expect(said).toHaveLength(1);
+    made.flush(45);
+    made.flush(200);
+    expect(said.slice(1)).toEqual([{ point: { at_px: [2, 2], ...MOMENT } }]);
+    made.down("pen", [0, 0], MOMENT, 300);
+    made.flush(361);
+    expect(said).toHaveLength(3);
+  });
+
+  test("says a pen's line in parts that make the whole", () => {
+    const { made, said } = hand();
+    made.down("pen", [0, 0], MOMENT, 0);
+    for (let n = 1; n <= 200; n += 1) made.move([n * 3, 0], n * 10);
+    made.up(3000);
+    const points = said.flatMap((one) =>
+      "draw" in one ? one.draw.points_px : "extend" in one ? one.extend.points_px : [],
+    );
+    expect(points).toHaveLength(201);
+    expect(said.filter((one) => "draw" in one)).toHaveLength(1);
+    expect(Math.max(...said.map((one) => JSON.stringify(one).length))).toBeLessThan(1024);
+  });
+
+  test("a line without end becomes several drawings, none too long", () => {
+    const { made, said } = hand();
+    made.down("pen", [0, 0], MOMENT, 0);
+    for (let n = 1; n <= 900; n += 1) made.move([n * 3, 0], n * 10);
+    made.up(10_000);
+    const lengths = new Map<number, number>();
+    for (const one of said) {
+      const part = "draw" in one ? one.draw : "extend" in one ? one.extend : null;
+      if (part) lengths.set(part.key, (lengths.get(part.key) ?? 0) + part.points_px.length);
+    }
+    expect([...lengths.values()].every((length) => length <= 400)).toBe(true);
+    expect(lengths.size).toBe(3);
+  });
+
+  test("what a full line did not take is said later", () => {
+    let open = false;
+    const { made, said } = hand(() => open);
+    made.down("pen", [0, 0], MOMENT, 0);
+    made.move([10, 0], 100);
+    open = true;
+    made.move([20, 0], 200);
+    expect(said).toEqual([
+      {
+        draw: {
+          key: 1,
+          shape: "pen",
+          points_px: [
+            [0, 0],
+            [10, 0],
+            [20, 0],
+          ],
+          ...MOMENT,
+        },
+      },
+    ]);
+  });
+
+  test("an arrow is said when it is done, and a slip is none", () => {
+    const { made, said } = hand();
+    made.down("arrow", [0, 0], MOMENT, 0);
+    made.move([50, 0], 10);
+    made.move([60, 10], 20);
+    expect(said).toEqual([]);
+    made.up(30);
+    made.down("arrow", [0, 0], MOMENT, 40);
+    made.up(50);
+    expect(said).toEqual([
+      {
+        draw: {
+          key: 1,
+          shape: "arrow",
+          points_px: [
+            [0, 0],
+            [60, 10],
+          ],
+          ...MOMENT,
+        },
+      },
+    ]);
+    expect(made.own.map((one) => one.key)).toEqual([1]);
+    made.settle(() => true, 100);
+    expect(made.own).toEqual([]);
+  });
+
+  test("what never comes back is let go", () => {
+    const { made } = hand(() => false);
+    made.down("circle", [0, 0], MOMENT, 0);
+    made.move([50, 0], 10);
+    made.up(30);
+    made.settle(() => false, 3000);
+    expect(made.own).toHaveLength(1);
+    made.settle(() => false, 3031);
+    expect(made.own).toEqual([]);
+  });
+});

@@ -1,0 +1,105 @@
+// Pointers and drawings on a canvas, thick and cased in dark, so that they stand out on any picture.
+import type { Point, Shape } from "../room/messages";
+import type { Pointer } from "../room/roomState";
+import { colourOf } from "./colours";
+import { onStage, type Placement } from "./place";
+
+const CASE = "#05090ce6";
+
+export interface Painted {
+  seat: number;
+  name: string;
+  shape: Shape;
+  points: readonly Point[];
+  /** 1 when it is new, less before it goes. */
+  strength: number;
+  /** Said beside the name; empty says the name alone. */
+  age: string;
+}
+
+export interface Pen {
+  context: CanvasRenderingContext2D;
+  placement: Placement;
+  /** Width of the stage: what is read from 3 m grows with it. */
+  width: number;
+}
+
+export function paintMark(pen: Pen, mark: Painted): void {
+  const points = mark.points.map((one) => onStage(one, pen.placement));
+  const first = points[0];
+  if (first === undefined) return;
+  const { context } = pen;
+  const line = Math.max(3.5, pen.width * 0.0045);
+  context.globalAlpha = mark.strength;
+  context.lineCap = context.lineJoin = "round";
+  for (const [style, extra] of [
+    [CASE, line * 0.9],
+    [colourOf(mark.seat), 0],
+  ] as const) {
+    context.strokeStyle = style;
+    context.lineWidth = line + extra;
+    context.beginPath();
+    trace(context, mark.shape, points, line);
+    context.stroke();
+  }
+  label(pen, mark.age === "" ? mark.name : `${mark.name} · ${mark.age}`, first, mark.seat);
+  context.globalAlpha = 1;
+}
+
+export function paintPointer(pen: Pen, pointer: Pointer): void {
+  const at = onStage(pointer.at, pen.placement);
+  const { context } = pen;
+  const radius = Math.max(8, pen.width * 0.011);
+  for (const [style, size] of [
+    [CASE, radius * 1.45],
+    ["#ffffff", radius * 1.2],
+    [CASE, radius],
+    [colourOf(pointer.seat), radius * 0.82],
+  ] as const) {
+    context.fillStyle = style;
+    context.beginPath();
+    context.arc(at[0], at[1], size, 0, 2 * Math.PI);
+    context.fill();
+  }
+  label(pen, pointer.name, [at[0] + radius, at[1] - radius], pointer.seat);
+}
+
+function trace(
+  context: CanvasRenderingContext2D,
+  shape: Shape,
+  points: readonly Point[],
+  line: number,
+): void {
+  const [from, to] = points;
+  if (from === undefined) return;
+  if (shape === "circle" && to !== undefined) {
+    context.arc(from[0], from[1], Math.hypot(to[0] - from[0], to[1] - from[1]), 0, 2 * Math.PI);
+    return;
+  }
+  context.moveTo(from[0], from[1]);
+  // A single point is a dot.
+  for (const [x, y] of points.length > 1 ? points.slice(1) : points) context.lineTo(x, y);
+  if (shape !== "arrow" || to === undefined) return;
+  const way = Math.atan2(to[1] - from[1], to[0] - from[0]);
+  for (const turn of [2.6, -2.6]) {
+    context.moveTo(to[0], to[1]);
+    context.lineTo(to[0] + 6 * line * Math.cos(way + turn), to[1] + 6 * line * Math.sin(way + turn));
+  }
+}
+
+/** The name in a dark box above the place, within the stage. */
+function label(pen: Pen, text: string, [x, y]: Point, seat: number): void {
+  const { context, width } = pen;
+  const size = Math.min(Math.max(14, width * 0.019), 38);
+  context.font = `650 ${size}px system-ui, sans-serif`;
+  context.textBaseline = "middle";
+  const box = { width: context.measureText(text).width + size, height: size * 1.5 };
+  const left = Math.min(Math.max(x + size * 0.5, 2), Math.max(2, width - box.width - 2));
+  const top = Math.max(2, y - box.height - size * 0.4);
+  context.fillStyle = CASE;
+  context.fillRect(left, top, box.width, box.height);
+  context.fillStyle = colourOf(seat);
+  context.fillRect(left, top, size * 0.28, box.height);
+  context.fillStyle = "#ffffff";
+  context.fillText(text, left + size * 0.65, top + box.height / 2);
+}

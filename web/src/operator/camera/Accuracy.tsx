@@ -1,0 +1,71 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { Measure } from "../parts/Measure";
+import { shownTime } from "../parts/shown";
+import { StandsOn } from "../parts/StandsOn";
+import { useMaker } from "../parts/useMaker";
+import { number } from "../tool/kept";
+import { isBoard, type Board } from "./board";
+
+interface AccuracyProps {
+  board: Board;
+  check: components["schemas"]["DocumentMessage"] | null;
+  gate: components["schemas"]["CalibrationConfig"];
+  onChecked: () => void;
+}
+
+/** Known distances on a board, measured with the calibrated camera, as in the paper's Table 2. */
+export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): ReactNode {
+  const all = useWords();
+  const words = all.camera;
+  const madeBy = useMaker();
+  const checking = useDo();
+  const run = (): void => {
+    void checking
+      .run(async () => {
+        await answered(server.POST("/api/camera/accuracy", { body: { board, made_by: madeBy } }));
+      })
+      .then(onChecked);
+  };
+  const limit = { kind: "most", value: gate.most_error_mm } as const;
+  return (
+    <Card title={words.accuracyTitle} testId="accuracy">
+      <p>{words.accuracyLead}</p>
+      {check !== null && (
+        <>
+          <StandsOn heading={check.heading} documents={[]} />
+          <p className="soft">
+            {shownTime(check.heading.made_at, all.language)} · {check.heading.made_by}
+          </p>
+          <dl className="measures">
+            <Measure
+              name={words.accuracyMost}
+              value={number(check.content["maximum_error_mm"])}
+              unit="mm"
+              limit={limit}
+            />
+            <Measure name={words.accuracyRms} value={number(check.content["rms_error_mm"])} unit="mm" />
+            <Measure
+              name={words.accuracyDistance}
+              value={number(check.content["plane_distance_mm"])}
+              unit="mm"
+              decimals={0}
+            />
+          </dl>
+        </>
+      )}
+      <div>
+        <Button size="lg" variant="default" disabled={!isBoard(board)} loading={checking.busy} onClick={run}>
+          {check === null ? words.accuracy : words.accuracyAgain}
+        </Button>
+      </div>
+      <RefusalNote refusal={checking.refusal} />
+    </Card>
+  );
+}

@@ -1,0 +1,92 @@
+import { Button, SegmentedControl, Select } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { saved } from "../parts/saved";
+import { boardOf, isBoard, type Board, type Pattern } from "./board";
+import { BoardNumbers } from "./BoardNumbers";
+
+type Paper = "A4" | "A3" | "letter";
+
+interface BoardCardProps {
+  board: Board;
+  first: boolean;
+  onBoard: (board: Board) => void;
+  onBegun: () => void;
+}
+
+/** Which board is held before the camera, that board to be printed, and the beginning of collecting. */
+export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): ReactNode {
+  const words = useWords().camera;
+  const [paper, setPaper] = useState<Paper>("A4");
+  const beginning = useDo();
+  const printing = useDo();
+  const usable = isBoard(board);
+  const begin = (): void => {
+    void beginning
+      .run(async () => {
+        await answered(server.POST("/api/camera/collection", { body: { board } }));
+      })
+      .then(onBegun);
+  };
+  const print = (): void => {
+    void printing.run(async () => {
+      const asked = server.POST("/api/camera/board", {
+        body: { board, paper, file: "pdf" },
+        parseAs: "blob",
+      });
+      saved(
+        await answered(asked as Promise<{ data?: Blob; error?: unknown; response: Response }>),
+        `board-${paper}.pdf`,
+      );
+    });
+  };
+  return (
+    <Card title={first ? words.calibrateTitle : words.calibrateAnew} testId="board">
+      <p>{words.calibrateLead}</p>
+      <SegmentedControl
+        size="lg"
+        fullWidth
+        aria-label={words.pattern}
+        data={Object.entries(words.patterns).map(([value, label]) => ({ value, label }))}
+        value={board.pattern}
+        onChange={(value) => {
+          onBoard(boardOf(value as Pattern));
+        }}
+      />
+      <BoardNumbers board={board} onBoard={onBoard} />
+      {!usable && <p className="bad">▲ {words.boardWrong}</p>}
+      <div className="row">
+        <Button
+          size="lg"
+          variant={first ? "filled" : "default"}
+          disabled={!usable}
+          loading={beginning.busy}
+          data-testid="collect"
+          onClick={begin}
+        >
+          {words.collect}
+        </Button>
+        <Button size="lg" variant="default" disabled={!usable} loading={printing.busy} onClick={print}>
+          {words.print}
+        </Button>
+        <Select
+          size="lg"
+          aria-label={words.paper}
+          allowDeselect={false}
+          className="paper"
+          data={["A4", "A3", "letter"]}
+          value={paper}
+          onChange={(value) => {
+            if (value !== null) setPaper(value);
+          }}
+        />
+      </div>
+      <p className="soft">{words.printHint}</p>
+      <RefusalNote refusal={beginning.refusal ?? printing.refusal} />
+    </Card>
+  );
+}

@@ -1,0 +1,135 @@
+import { NumberInput, Select } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+import type { Board } from "./board";
+
+const DICTIONARIES = [4, 5, 6, 7].flatMap((bits) =>
+  [50, 100, 250, 1000].map((size) => `DICT_${String(bits)}X${String(bits)}_${String(size)}`),
+);
+
+/** The numbers of a board, each with its unit. */
+export function BoardNumbers({
+  board,
+  onBoard,
+}: {
+  board: Board;
+  onBoard: (board: Board) => void;
+}): ReactNode {
+  const words = useWords().camera;
+  const counts = words.counts[board.pattern];
+  return (
+    <div className="numbers-grid">
+      <Count
+        label={counts.columns}
+        value={board.columns}
+        onChange={(columns) => {
+          onBoard({ ...board, columns });
+        }}
+      />
+      <Count
+        label={counts.rows}
+        value={board.rows}
+        onChange={(rows) => {
+          onBoard({ ...board, rows });
+        }}
+      />
+      {board.pattern === "dots" ? (
+        <>
+          <Size
+            label={words.pitch}
+            value={board.pitch_mm}
+            onChange={(pitch_mm) => {
+              onBoard({ ...board, pitch_mm });
+            }}
+          />
+          <Select
+            size="lg"
+            label={words.layout}
+            allowDeselect={false}
+            data={Object.entries(words.layouts).map(([value, label]) => ({ value, label }))}
+            value={board.layout}
+            onChange={(layout) => {
+              if (layout !== null) onBoard({ ...board, layout: layout as typeof board.layout });
+            }}
+          />
+        </>
+      ) : (
+        <Size
+          label={words.square}
+          value={board.square_mm}
+          onChange={(square_mm) => {
+            onBoard({ ...board, square_mm });
+          }}
+        />
+      )}
+      {board.pattern === "charuco" && (
+        <>
+          <Size
+            label={words.marker}
+            value={board.marker_mm}
+            onChange={(marker_mm) => {
+              onBoard({ ...board, marker_mm });
+            }}
+          />
+          <Select
+            size="lg"
+            label={words.dictionary}
+            allowDeselect={false}
+            data={DICTIONARIES}
+            value={board.dictionary}
+            onChange={(dictionary) => {
+              if (dictionary !== null) onBoard({ ...board, dictionary });
+            }}
+          />
+        </>
+      )}
+    </div>
+  );
+}
+
+interface NumberProps {
+  label: string;
+  value: number;
+  onChange: (value: number) => void;
+}
+
+function Count({ label, value, onChange }: NumberProps): ReactNode {
+  return (
+    <NumberInput
+      hideControls
+      inputMode="decimal"
+      size="lg"
+      label={label}
+      min={2}
+      max={200}
+      step={1}
+      allowDecimal={false}
+      value={shown(value)}
+      onChange={(given) => {
+        onChange(typed(given));
+      }}
+    />
+  );
+}
+
+function Size({ label, value, onChange }: NumberProps): ReactNode {
+  return (
+    <NumberInput
+      hideControls
+      inputMode="decimal"
+      size="lg"
+      label={`${label} (mm)`}
+      min={0.1}
+      max={1000}
+      step={1}
+      decimalScale={3}
+      value={shown(value)}
+      onChange={(given) => {
+        onChange(typed(given));
+      }}
+    />
+  );
+}
+
+const shown = (value: number): number | string => (Number.isFinite(value) ? value : "");
+const typed = (given: number | string): number => (typeof given === "number" ? given : Number.NaN);

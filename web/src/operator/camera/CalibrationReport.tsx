@@ -1,0 +1,110 @@
+import { Table } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownFigure } from "../../live/rounding";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { Measure } from "../parts/Measure";
+import { filled, sentence, shownTime } from "../parts/shown";
+import { StandsOn } from "../parts/StandsOn";
+import { Plot } from "./Plot";
+import { reportIn, type View } from "./report";
+
+interface CalibrationReportProps {
+  caseId: string;
+  kept: components["schemas"]["DocumentMessage"];
+  gate: components["schemas"]["CalibrationConfig"];
+}
+
+/** The calibration that the case has: its numbers with their limits, its warnings, its pictures, its views. */
+export function CalibrationReport({ caseId, kept, gate }: CalibrationReportProps): ReactNode {
+  const all = useWords();
+  const words = all.camera;
+  const report = reportIn(kept.content);
+  const used = report.views.filter((one) => one.used).length;
+  return (
+    <Card title={words.reportTitle} testId="calibration">
+      <StandsOn heading={kept.heading} documents={[]} />
+      <p className="soft">
+        {shownTime(kept.heading.made_at, all.language)} · {kept.heading.made_by} · {report.sizePx.join(" × ")}{" "}
+        px
+      </p>
+      <dl className="measures">
+        <Measure
+          name={words.rms}
+          value={report.rmsPx}
+          unit="px"
+          limit={{ kind: "most", value: gate.most_rms_px }}
+          testId="calibration-rms"
+        />
+        <Measure name={words.noise} value={report.noisePx} unit="px" />
+        <Measure
+          name={words.cells}
+          value={report.cellsRatio === null ? null : 100 * report.cellsRatio}
+          unit="%"
+          decimals={0}
+        />
+      </dl>
+      {report.warnings.map((one) => (
+        <p key={one.code + one.message} className="bad">
+          ▲ {sentence(one.message)} {one.remedy}
+        </p>
+      ))}
+      <details className="more">
+        <summary>{words.parameters}</summary>
+        <Table.ScrollContainer minWidth={420}>
+          <Table>
+            <Table.Thead>
+              <Table.Tr>
+                <Table.Th scope="col">{words.parameter}</Table.Th>
+                <Table.Th scope="col">{words.value}</Table.Th>
+                <Table.Th scope="col">{words.interval}</Table.Th>
+              </Table.Tr>
+            </Table.Thead>
+            <Table.Tbody>
+              {report.parameters.map((one) => (
+                <Table.Tr key={one.name}>
+                  <Table.Th scope="row">{one.name}</Table.Th>
+                  <Table.Td className="figure">{shownFigure(one.value, 4)}</Table.Td>
+                  <Table.Td className="figure">
+                    {shownFigure(one.low95, 4)} … {shownFigure(one.high95, 4)}
+                  </Table.Td>
+                </Table.Tr>
+              ))}
+            </Table.Tbody>
+          </Table>
+        </Table.ScrollContainer>
+        {report.model !== "" && <p className="soft">{sentence(report.model)}</p>}
+      </details>
+      <details className="more">
+        <summary>{filled(words.viewsUsed, { used, all: report.views.length })}</summary>
+        <Views views={report.views} />
+      </details>
+      <details className="more">
+        <summary>{words.pictures}</summary>
+        {report.plots.map(([name, file]) => (
+          <Plot key={file} caseId={caseId} file={file} name={words.plots[name] ?? name} />
+        ))}
+      </details>
+    </Card>
+  );
+}
+
+function Views({ views }: { views: readonly View[] }): ReactNode {
+  const words = useWords().camera;
+  return (
+    <ul className="rows">
+      {views.map((one) => (
+        <li key={one.image} className="row">
+          <span className="grow">
+            {one.used ? "✓" : "✕"} {one.image}
+          </span>
+          <span className="soft">
+            {shownFigure(one.rmsPx, 2)} px · {one.points ?? "—"} {words.points}
+            {one.reason !== "" && ` · ${one.reason}`}
+          </span>
+        </li>
+      ))}
+    </ul>
+  );
+}

@@ -1,0 +1,59 @@
+import type { ReactNode } from "react";
+import { useLive } from "../../live/LiveContext";
+import { shownNumber } from "../../live/rounding";
+import { searchTimeMs } from "../../panes/searchTime";
+import { troublesOf } from "../../panes/troubles";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+
+/** What the camera gives just now: from where, how large, how often, how old. */
+export function CameraTest(): ReactNode {
+  const words = useWords();
+  const { view, dashboard } = useLive();
+  const { newest, video } = view;
+  const snapshot = newest?.snapshot ?? null;
+  const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
+  const rateHz = newest?.source.rate_hz ?? null;
+  const facts: (readonly [string, string, (string | undefined)?])[] = [
+    [words.header.source, newest?.source.name ?? "—"],
+    [words.header.camera, newest === null ? "—" : words.cameraState[newest.source.state]],
+    [
+      words.details.size,
+      snapshot === null ? "—" : `${String(snapshot.width_px)} × ${String(snapshot.height_px)} px`,
+    ],
+    [words.header.rate, rateHz === null ? "—" : `${shownNumber(rateHz)} Hz`],
+    [
+      words.camera.age,
+      video.live ? `${shownNumber(video.ageMs, 0)} ms` : words.video.none,
+      dashboard === null
+        ? undefined
+        : `${words.case.measure.most} ${shownNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,
+    ],
+    [words.camera.searchTime, searchMs === null ? "—" : `${shownNumber(searchMs)} ms`],
+    [words.details.skipped, newest === null ? "—" : String(newest.source.skipped_images)],
+    [
+      words.camera.calibrated,
+      snapshot === null ? "—" : snapshot.camera_calibrated ? words.camera.yes : words.camera.no,
+    ],
+  ];
+  return (
+    <Card title={words.camera.testTitle} testId="camera-test">
+      <dl className="test-facts">
+        {facts.map(([name, value, limit]) => (
+          <div key={name}>
+            <dt>{name}</dt>
+            <dd>
+              {value} {limit !== undefined && <span className="measure-limit">{limit}</span>}
+            </dd>
+          </div>
+        ))}
+      </dl>
+      {troublesOf(view).map((trouble) => (
+        <p key={trouble.code} className="bad" role="alert">
+          ▲ {trouble.message}. {trouble.remedy}
+        </p>
+      ))}
+      {snapshot === null && troublesOf(view).length === 0 && <p className="soft">{words.camera.waiting}</p>}
+    </Card>
+  );
+}

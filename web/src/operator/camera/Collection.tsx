@@ -1,0 +1,107 @@
+import { Button, Loader } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, Refusal, server } from "../../rest/client";
+import { JobProgress } from "../../rest/JobProgress";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { isOver, useJob } from "../../rest/useJob";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { Measure } from "../parts/Measure";
+import { sentence } from "../parts/shown";
+import { TwiceButton } from "../parts/TwiceButton";
+import type { Gates } from "../parts/useGates";
+import { useMaker } from "../parts/useMaker";
+import { Coverage } from "./Coverage";
+import { SentViews } from "./SentViews";
+import { TiltCross } from "./TiltCross";
+
+const ASK_EVERY_MS = 350;
+
+/** Views as they are collected: where the board has been, how it was tilted, what is missing; then the fit. */
+export function Collection({ gates, onOver }: { gates: Gates; onOver: () => void }): ReactNode {
+  const words = useWords().camera;
+  const madeBy = useMaker();
+  const doing = useDo();
+  const { data, refusal, again } = useAsked(
+    (signal) => answered(server.GET("/api/camera/collection", { signal })),
+    { everyMs: ASK_EVERY_MS },
+  );
+  const end = async (): Promise<void> => {
+    await doing.run(async () => {
+      await answered(server.DELETE("/api/camera/collection"));
+    });
+    onOver();
+  };
+  const followed = useJob((job) => {
+    // What was kept needs its views no more; after a failure they stay, for another try.
+    if (job.state === "done") void end();
+  });
+  const calibrate = (): void => {
+    void doing.run(async () => {
+      followed.follow(await answered(server.POST("/api/camera/calibration", { body: { made_by: madeBy } })));
+    });
+  };
+  if (data === null) {
+    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
+  }
+  const working = followed.job !== null && !isOver(followed.job);
+  const enough = data.missing.length === 0;
+  const { collecting } = gates;
+  return (
+    <Card title={words.collecting} testId="collection">
+      <p className="newest" data-taking={data.said === "taken" ? "taken" : ""} role="status">
+        {data.running ? sentence(data.said) : words.ended}
+      </p>
+      <RefusalNote refusal={data.trouble === null ? null : new Refusal(data.trouble)} />
+      <div className="coverage-row">
+        <Coverage collected={data} />
+        <TiltCross tiltDeg={data.tilt_deg} wantedDeg={collecting.least_tilt_deg} />
+      </div>
+      <dl className="measures">
+        <Measure
+          name={words.views}
+          value={data.views.length}
+          unit=""
+          decimals={0}
+          limit={{ kind: "least", value: collecting.least_views }}
+          bar
+          testId="views"
+        />
+        <Measure
+          name={words.coverage}
+          value={100 * data.coverage_ratio}
+          unit="%"
+          decimals={0}
+          limit={{ kind: "least", value: 100 * collecting.least_coverage_ratio }}
+          bar
+        />
+      </dl>
+      <ul className="missing" aria-label={words.missing} data-testid="missing" data-enough={enough}>
+        {data.missing.map((one) => (
+          <li key={one}>{one}</li>
+        ))}
+        {enough && <li className="good">✓ {words.enough}</li>}
+      </ul>
+      <JobProgress followed={followed} />
+      <div className="row">
+        <Button
+          size="lg"
+          variant={enough ? "filled" : "default"}
+          disabled={data.views.length === 0 || working}
+          loading={doing.busy}
+          data-testid="calibrate"
+          onClick={calibrate}
+        >
+          {enough ? words.calibrate : words.calibrateAlready}
+        </Button>
+        <TwiceButton again={words.throwAwaySure} onTwice={() => void end()} testId="throw-away">
+          {words.throwAway}
+        </TwiceButton>
+      </div>
+      <RefusalNote refusal={doing.refusal} />
+      <SentViews disabled={working} onAdded={again} />
+    </Card>
+  );
+}

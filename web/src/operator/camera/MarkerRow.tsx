@@ -1,0 +1,81 @@
+import type { ReactNode } from "react";
+import { useLive } from "../../live/LiveContext";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { TwiceButton } from "../parts/TwiceButton";
+import { useMaker } from "../parts/useMaker";
+import type { MarkerGate } from "./Markers";
+import { ScoreBar } from "./ScoreBar";
+
+export type KnownMarker = components["schemas"]["KnownMarkerMessage"];
+
+interface MarkerRowProps {
+  marker: KnownMarker;
+  gate: MarkerGate;
+  onRemoved: () => void;
+}
+
+/** One marker: its picture, its side, and how its search goes in the newest image. */
+export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNode {
+  const words = useWords();
+  const { view } = useLive();
+  const madeBy = useMaker();
+  const removing = useDo();
+  // Scores belong to an image as numbers do: they go when it is old.
+  const stale = !view.numbers.live && view.numbers.cause !== "unread";
+  const found = view.newest?.snapshot?.markers.find((one) => one.name === marker.name) ?? null;
+  const sighting = stale ? null : (found?.sighting ?? null);
+  const seen = sighting?.kind === "seen" ? sighting : null;
+  const state =
+    sighting === null
+      ? words.camera.notSearched
+      : sighting.kind === "seen"
+        ? `● ${words.markers.seen}, ${words.foundBy[sighting.found_by]}`
+        : `▲ ${words.markers.unseen}: ${words.unseen[sighting.reason]}`;
+  const remove = (): void => {
+    void removing
+      .run(async () => {
+        const params = { path: { name: marker.name }, query: { made_by: madeBy } };
+        await answered(server.DELETE("/api/markers/{name}", { params }));
+      })
+      .then(onRemoved);
+  };
+  // Another picture under the same name is another document: the browser must not show the one before.
+  const address = `/api/markers/${marker.name}/picture?document=${marker.document_id ?? "settings"}`;
+  return (
+    <li className="marker-row" data-testid={`marker-${marker.name}`} data-seen={seen !== null}>
+      <img src={address} alt={`${words.camera.pictureOf} ${marker.name}`} width={112} height={112} />
+      <div className="stack grow">
+        <p>
+          <strong className="case-name">{marker.name}</strong>{" "}
+          <span className="soft">
+            {words.camera.side} {marker.side_mm} mm ·{" "}
+            {marker.document_id === null
+              ? words.camera.ofSettings
+              : `${words.camera.ofCase}, ${marker.made_by ?? ""}`}
+          </span>
+        </p>
+        <p className={seen === null ? "bad" : "good"}>{state}</p>
+        <ScoreBar
+          name={words.markers.score}
+          ratio={seen?.score_ratio ?? (sighting?.kind === "unseen" ? sighting.best_score_ratio : null)}
+          acceptRatio={gate.accept_score_ratio}
+        />
+        <ScoreBar
+          name={words.markers.target}
+          ratio={seen?.target_score_ratio ?? null}
+          acceptRatio={gate.accept_target_score_ratio}
+        />
+      </div>
+      {marker.document_id !== null && (
+        <TwiceButton again={words.camera.removeSure} loading={removing.busy} onTwice={remove}>
+          {words.camera.remove}
+        </TwiceButton>
+      )}
+      <RefusalNote refusal={removing.refusal} />
+    </li>
+  );
+}

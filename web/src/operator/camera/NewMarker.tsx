@@ -1,0 +1,108 @@
+import { Button, NumberInput, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+import { FileButton } from "../parts/FileButton";
+import { sent } from "../parts/transfer";
+import { TransferProgress } from "../parts/TransferProgress";
+import { useMaker } from "../parts/useMaker";
+import { useTransfer } from "../parts/useTransfer";
+import { NAME, nameFrom } from "../parts/name";
+import type { KnownMarker } from "./MarkerRow";
+
+interface Chosen {
+  file: File;
+  address: string;
+}
+
+/** Another marker: its picture as it was printed, what it is called, how large its black square is. */
+export function NewMarker({
+  known,
+  onAdded,
+}: {
+  known: readonly KnownMarker[];
+  onAdded: () => void;
+}): ReactNode {
+  const words = useWords().camera;
+  const madeBy = useMaker();
+  const [chosen, setChosen] = useState<Chosen | null>(null);
+  const [name, setName] = useState("");
+  const [sideMm, setSideMm] = useState<number | string>("");
+  const transfer = useTransfer();
+  const same = known.find((one) => one.name === name) ?? null;
+  const isReplaced = typeof same?.document_id === "string";
+  const nameError =
+    name !== "" && !NAME.test(name)
+      ? words.nameWrong
+      : same?.document_id === null
+        ? words.nameOfSettings
+        : null;
+  const ready =
+    chosen !== null && NAME.test(name) && nameError === null && typeof sideMm === "number" && sideMm > 0;
+  const choose = (file: File | null): void => {
+    if (chosen !== null) URL.revokeObjectURL(chosen.address);
+    setChosen(file === null ? null : { file, address: URL.createObjectURL(file) });
+  };
+  const add = (): void => {
+    if (!ready) return;
+    void transfer.run(async (onMoved, signal) => {
+      const asked = new URLSearchParams({
+        name,
+        side_mm: String(sideMm),
+        made_by: madeBy,
+        file: chosen.file.name,
+      });
+      await sent(`/api/markers?${asked.toString()}`, chosen.file, onMoved, signal);
+      choose(null);
+      setName("");
+      setSideMm("");
+      onAdded();
+    });
+  };
+  return (
+    <div className="stack" data-testid="new-marker">
+      <h4>{words.newMarker}</h4>
+      <p className="soft">{words.newMarkerLead}</p>
+      <div className="row">
+        {chosen !== null && <img className="marker-chosen" src={chosen.address} alt={words.pictureChosen} />}
+        <FileButton
+          accept="image/png,image/jpeg,image/bmp"
+          testId="marker-file"
+          onFiles={([file]) => {
+            if (file === undefined) return;
+            choose(file);
+            if (name === "") setName(nameFrom(file.name));
+          }}
+        >
+          {chosen === null ? words.choosePicture : words.otherPicture}
+        </FileButton>
+        <TextInput
+          className="grow"
+          size="lg"
+          label={words.markerName}
+          error={nameError}
+          value={name}
+          onChange={(event) => {
+            setName(event.currentTarget.value);
+          }}
+        />
+        <NumberInput
+          hideControls
+          inputMode="decimal"
+          size="lg"
+          label={`${words.side} (mm)`}
+          min={0.1}
+          max={1000}
+          step={1}
+          decimalScale={3}
+          value={sideMm}
+          onChange={setSideMm}
+        />
+        <Button size="lg" disabled={!ready || transfer.moved !== null} data-testid="add-marker" onClick={add}>
+          {isReplaced ? words.replaceMarker : words.addMarker}
+        </Button>
+      </div>
+      {isReplaced && <p className="bad">▲ {words.replaceHint}</p>}
+      <TransferProgress transfer={transfer} name={words.addMarker} />
+    </div>
+  );
+}

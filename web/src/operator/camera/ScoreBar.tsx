@@ -1,0 +1,32 @@
+import type { ReactNode } from "react";
+import { shownPercent } from "../../live/rounding";
+import { useWords } from "../../words/WordsContext";
+
+interface ScoreBarProps {
+  name: string;
+  ratio: number | null;
+  /** From where on the marker counts as found. */
+  acceptRatio: number;
+}
+
+/** A score as the paper's program shows it, with the line that it must reach. */
+export function ScoreBar({ name, ratio, acceptRatio }: ScoreBarProps): ReactNode {
+  const words = useWords().case.measure;
+  const accepted = ratio !== null && ratio >= acceptRatio;
+  return (
+    <div className="score" data-accepted={ratio === null ? undefined : accepted}>
+      <span className="score-name">{name}</span>
+      <span className="score-bar" aria-hidden="true">
+        <span className="score-fill" style={{ width: `${String(100 * (ratio ?? 0))}%` }} />
+        <span className="score-accept" style={{ left: `${String(100 * acceptRatio)}%` }} />
+      </span>
+      <span className="score-value">
+        {ratio === null ? "—" : `${accepted ? "✓" : "✕"} ${shownPercent(ratio)}`}
+        <span className="soft">
+          {" "}
+          {words.least} {shownPercent(acceptRatio)}
+        </span>
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,66 @@
+import { useState, type ReactNode } from "react";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { Refusal } from "../../rest/client";
+import { useWords } from "../../words/WordsContext";
+import { FileButton } from "../parts/FileButton";
+import { filled } from "../parts/shown";
+import { sent } from "../parts/transfer";
+import { TransferProgress } from "../parts/TransferProgress";
+import { useTransfer } from "../parts/useTransfer";
+
+interface Refused {
+  file: string;
+  refusal: Refusal;
+}
+
+/** Views from pictures that were taken before, one after the other; each that is refused says why. */
+export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: () => void }): ReactNode {
+  const words = useWords().camera;
+  const transfer = useTransfer();
+  const [refused, setRefused] = useState<readonly Refused[]>([]);
+  const [taken, setTaken] = useState<number | null>(null);
+  const send = (files: readonly File[]): void => {
+    setRefused([]);
+    setTaken(null);
+    void transfer.run(async (onMoved, signal) => {
+      let kept = 0;
+      for (const file of files) {
+        try {
+          await sent(
+            `/api/camera/collection/images?name=${encodeURIComponent(file.name)}`,
+            file,
+            onMoved,
+            signal,
+          );
+          kept += 1;
+        } catch (error) {
+          if (!(error instanceof Refusal)) throw error;
+          setRefused((before) => [...before, { file: file.name, refusal: error }]);
+        }
+        onAdded();
+      }
+      setTaken(kept);
+    });
+  };
+  return (
+    <div className="stack">
+      <div className="row">
+        <FileButton
+          accept="image/png,image/jpeg"
+          multiple
+          disabled={disabled || transfer.moved !== null}
+          testId="view-files"
+          onFiles={send}
+        >
+          {words.sendViews}
+        </FileButton>
+        <p className="soft grow">{words.sendViewsHint}</p>
+      </div>
+      <TransferProgress transfer={transfer} name={words.sendViews} />
+      {taken !== null && <p role="status">{filled(words.viewsSent, { count: taken })}</p>}
+      {refused.map(({ file, refusal }) => (
+        <RefusalNote key={file} refusal={refusal} />
+      ))}
+    </div>
+  );
+}

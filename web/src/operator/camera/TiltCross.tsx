@@ -1,0 +1,52 @@
+import type { ReactNode } from "react";
+import { shownFigure } from "../../live/rounding";
+import { useWords } from "../../words/WordsContext";
+import { armsOf, type Way } from "./tilts";
+
+const LENGTH = 62;
+const PLACES: Record<Way, { x: number; y: number; dx: number; dy: number }> = {
+  up: { x: 100, y: 86, dx: 0, dy: -1 },
+  down: { x: 100, y: 114, dx: 0, dy: 1 },
+  left: { x: 86, y: 100, dx: -1, dy: 0 },
+  right: { x: 114, y: 100, dx: 1, dy: 0 },
+};
+
+/** How far the board was tilted to each side, against how far it should be. */
+export function TiltCross({
+  tiltDeg,
+  wantedDeg,
+}: {
+  tiltDeg: readonly number[];
+  wantedDeg: number;
+}): ReactNode {
+  const words = useWords().camera;
+  const arms = armsOf(tiltDeg, wantedDeg);
+  const told = arms.map((arm) => `${words.ways[arm.way]} ${shownFigure(arm.reachedDeg, 0)}°`).join(", ");
+  return (
+    <figure className="tilts">
+      <svg viewBox="0 0 200 200" role="img" aria-label={`${words.tilts}: ${told}`}>
+        {arms.map(({ way, reachedDeg, ratio }) => {
+          const { x, y, dx, dy } = PLACES[way];
+          const to = (share: number): { x2: number; y2: number } => ({
+            x2: x + dx * LENGTH * share,
+            y2: y + dy * LENGTH * share,
+          });
+          return (
+            <g key={way} data-reached={ratio >= 1}>
+              <line className="arm-open" x1={x} y1={y} {...to(1)} />
+              <line className="arm-done" x1={x} y1={y} {...to(Math.max(ratio, 0.001))} />
+              <text x={x + dx * 82} y={y + dy * 74 + 5} textAnchor="middle">
+                {ratio >= 1 ? "✓" : ""}
+                {shownFigure(reachedDeg, 0)}°
+              </text>
+            </g>
+          );
+        })}
+        <rect className="tilt-board" x="88" y="88" width="24" height="24" rx="3" />
+      </svg>
+      <figcaption>
+        {words.tilts}, {words.tiltWanted} {shownFigure(wantedDeg, 0)}°
+      </figcaption>
+    </figure>
+  );
+}

@@ -1,0 +1,35 @@
+// Calibration boards as they are asked for: what each kind is described by.
+import type { components } from "../../schema";
+
+export type Board = components["schemas"]["CollectionMessage"]["board"];
+export type Pattern = Board["pattern"];
+
+/** A board of each kind that the print-outs of this program have, and the rehearsal shows. */
+export function boardOf(pattern: Pattern): Board {
+  switch (pattern) {
+    case "dots":
+      return { pattern, columns: 14, rows: 10, pitch_mm: 12, layout: "symmetric", fiducials: [] };
+    case "checkerboard":
+      return { pattern, columns: 10, rows: 7, square_mm: 15 };
+    case "charuco":
+      return {
+        pattern,
+        columns: 11,
+        rows: 8,
+        square_mm: 15,
+        marker_mm: 11,
+        dictionary: "DICT_5X5_100",
+        layout: null,
+      };
+  }
+}
+
+export const startingBoard = boardOf("dots");
+
+/** Whether the numbers can be those of a board; what remains to be refused, the server refuses. */
+export function isBoard(board: Board): boolean {
+  const counts = [board.columns, board.rows].every((n) => Number.isInteger(n) && n >= 2 && n <= 200);
+  const side = board.pattern === "dots" ? board.pitch_mm : board.square_mm;
+  const inner = board.pattern !== "charuco" || (board.marker_mm > 0 && board.marker_mm < board.square_mm);
+  return counts && side > 0 && side <= 1000 && inner;
+}

@@ -1,0 +1,43 @@
+import { useState, type ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { FileButton } from "../parts/FileButton";
+import { filled } from "../parts/shown";
+import { sent } from "../parts/transfer";
+import { TransferProgress } from "../parts/TransferProgress";
+import { useTransfer } from "../parts/useTransfer";
+import type { Case } from "./OpenedCase";
+
+/** Takes a case in from its archive: whole, or nothing of it. */
+export function ArchiveIn({ onTaken }: { onTaken: () => void }): ReactNode {
+  const words = useWords().case;
+  const [taken, setTaken] = useState<Case | null>(null);
+  const transfer = useTransfer();
+  const take = (file: File): void => {
+    setTaken(null);
+    void transfer.run(async (onMoved, signal) => {
+      const body = new Blob([file], { type: "application/zip" });
+      setTaken(await sent<Case>("/api/cases/archive", body, onMoved, signal));
+      onTaken();
+    });
+  };
+  return (
+    <Card title={words.archiveInTitle} testId="archive-in">
+      <p className="soft">{words.archiveInLead}</p>
+      <div>
+        <FileButton
+          accept=".zip,application/zip"
+          disabled={transfer.moved !== null}
+          testId="archive-file"
+          onFiles={([file]) => {
+            if (file !== undefined) take(file);
+          }}
+        >
+          {words.archiveIn}
+        </FileButton>
+      </div>
+      <TransferProgress transfer={transfer} name={words.archiveIn} />
+      {taken !== null && <p role="status">{filled(words.archiveTaken, { name: taken.name })}</p>}
+    </Card>
+  );
+}

@@ -1,0 +1,38 @@
+import { Button, Checkbox } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+import { saved } from "../parts/saved";
+import { fetched } from "../parts/transfer";
+import { TransferProgress } from "../parts/TransferProgress";
+import { useTransfer } from "../parts/useTransfer";
+
+/** The case as one file to be saved; who the patient is stays here unless somebody asks for it. */
+export function ArchiveOut({ caseId }: { caseId: string }): ReactNode {
+  const words = useWords().case;
+  const [withIdentity, setWithIdentity] = useState(false);
+  const transfer = useTransfer();
+  const copyOut = (): void => {
+    void transfer.run(async (onMoved, signal) => {
+      const path = `/api/cases/${caseId}/archive?with_identity=${String(withIdentity)}`;
+      saved(await fetched(path, onMoved, signal), `coaxial-case-${caseId.slice(0, 6)}.zip`);
+    });
+  };
+  return (
+    <div className="stack grow" data-testid="archive-out">
+      <div className="row row-mid">
+        <Button size="lg" variant="default" disabled={transfer.moved !== null} onClick={copyOut}>
+          {words.copyOut}
+        </Button>
+        <Checkbox
+          size="lg"
+          label={words.withIdentity}
+          checked={withIdentity}
+          onChange={(event) => {
+            setWithIdentity(event.currentTarget.checked);
+          }}
+        />
+      </div>
+      <TransferProgress transfer={transfer} name={words.copyOut} />
+    </div>
+  );
+}

@@ -1,0 +1,79 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { shownTime } from "../parts/shown";
+import { DeleteCase } from "./DeleteCase";
+import type { Case } from "./OpenedCase";
+
+interface CaseListProps {
+  cases: readonly Case[];
+  openedId: string | null;
+  onChange: () => void;
+}
+
+/** All other cases: open one, or delete it. */
+export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNode {
+  const words = useWords();
+  const opening = useDo();
+  const [leaving, setLeaving] = useState<Case | null>(null);
+  const others = cases.filter((one) => one.id !== openedId);
+  const open = (id: string): void => {
+    void opening
+      .run(async () => {
+        await answered(server.POST("/api/cases/{case_id}/open", { params: { path: { case_id: id } } }));
+      })
+      .then(onChange);
+  };
+  if (others.length === 0) return null;
+  return (
+    <Card title={words.case.listTitle} testId="case-list">
+      <ul className="rows">
+        {others.map((one) => (
+          <li key={one.id} className="row">
+            <div className="grow">
+              <p className="case-name">{one.name}</p>
+              <p className="soft">
+                {words.case.changedAt} {shownTime(one.changed_at, words.language)}
+              </p>
+            </div>
+            <Button
+              size="lg"
+              loading={opening.busy}
+              onClick={() => {
+                open(one.id);
+              }}
+            >
+              {words.case.open}
+            </Button>
+            <Button
+              size="lg"
+              variant="subtle"
+              color="red"
+              onClick={() => {
+                setLeaving(one);
+              }}
+            >
+              {words.case.delete}
+            </Button>
+          </li>
+        ))}
+      </ul>
+      {openedId !== null && <p className="soft">{words.case.oneIsClosed}</p>}
+      <RefusalNote refusal={opening.refusal} />
+      {leaving !== null && (
+        <DeleteCase
+          key={leaving.id}
+          leaving={leaving}
+          onEnd={() => {
+            setLeaving(null);
+            onChange();
+          }}
+        />
+      )}
+    </Card>
+  );
+}

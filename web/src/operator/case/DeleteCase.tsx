@@ -1,0 +1,66 @@
+import { Button, Modal, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import type { Case } from "./OpenedCase";
+
+/** Nothing brings a deleted case back, so its name is to be written; a slip of the hand does not do that. */
+export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => void }): ReactNode {
+  const words = useWords().case;
+  const [confirm, setConfirm] = useState("");
+  const deleting = useDo();
+  const remove = async (): Promise<void> => {
+    const done = await deleting.run(async () => {
+      const params = { path: { case_id: leaving.id } };
+      await answered(server.POST("/api/cases/{case_id}/deletion", { params, body: { confirm } }));
+    });
+    if (done) onEnd();
+  };
+  return (
+    <Modal
+      opened
+      centered
+      size="lg"
+      onClose={onEnd}
+      title={words.deleteTitle}
+      closeButtonProps={{ size: "xl", "aria-label": words.keepCase }}
+    >
+      <form
+        className="stack"
+        onSubmit={(event) => {
+          event.preventDefault();
+          void remove();
+        }}
+      >
+        <p>{words.deleteLead}</p>
+        <p className="case-name">{leaving.name}</p>
+        <TextInput
+          size="lg"
+          label={words.deleteConfirm}
+          autoComplete="off"
+          value={confirm}
+          onChange={(event) => {
+            setConfirm(event.currentTarget.value);
+          }}
+        />
+        <RefusalNote refusal={deleting.refusal} />
+        <div className="row">
+          <Button size="lg" variant="default" data-autofocus onClick={onEnd}>
+            {words.keepCase}
+          </Button>
+          <Button
+            type="submit"
+            size="lg"
+            color="red"
+            disabled={confirm !== leaving.name}
+            loading={deleting.busy}
+          >
+            {words.deleteForEver}
+          </Button>
+        </div>
+      </form>
+    </Modal>
+  );
+}

@@ -1,0 +1,95 @@
+import { Badge, Switch, Table } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { sentence, shownTime } from "../parts/shown";
+import { newestOf } from "./newest";
+
+export type Heading = components["schemas"]["HeadingMessage"];
+
+const ASK_EVERY_MS = 3000;
+
+/** What the case has, and whether each of it holds; if not, why. */
+export function Documents({ caseId }: { caseId: string }): ReactNode {
+  const words = useWords().case;
+  const [all, setAll] = useState(false);
+  const { data, refusal } = useAsked(
+    (signal) =>
+      answered(
+        server.GET("/api/cases/{case_id}/documents", { signal, params: { path: { case_id: caseId } } }),
+      ),
+    { key: caseId, everyMs: ASK_EVERY_MS },
+  );
+  const shown = data === null ? [] : all ? [...data.documents].reverse() : newestOf(data.documents);
+  return (
+    <Card
+      title={words.documentsTitle}
+      testId="documents"
+      aside={
+        <Switch
+          size="lg"
+          label={words.allVersions}
+          checked={all}
+          onChange={(event) => {
+            setAll(event.currentTarget.checked);
+          }}
+        />
+      }
+    >
+      <RefusalNote refusal={refusal} />
+      {data !== null && shown.length === 0 && <p className="soft">{words.noDocuments}</p>}
+      {shown.length > 0 && (
+        <Table.ScrollContainer minWidth={520}>
+          <Table verticalSpacing="sm">
+            <Table.Thead>
+              <Table.Tr>
+                <Table.Th scope="col">{words.document}</Table.Th>
+                <Table.Th scope="col">{words.standing}</Table.Th>
+                <Table.Th scope="col">{words.made}</Table.Th>
+              </Table.Tr>
+            </Table.Thead>
+            <Table.Tbody>
+              {shown.map((one) => (
+                <DocumentRow key={one.id} heading={one} />
+              ))}
+            </Table.Tbody>
+          </Table>
+        </Table.ScrollContainer>
+      )}
+    </Card>
+  );
+}
+
+function DocumentRow({ heading }: { heading: Heading }): ReactNode {
+  const words = useWords();
+  const { current, withdrawn, out_of_date: why } = heading;
+  const state = withdrawn !== null ? "withdrawn" : current ? "current" : "outOfDate";
+  return (
+    <Table.Tr data-standing={state}>
+      <Table.Th scope="row">
+        {words.case.kinds[heading.kind]} · {heading.name}{" "}
+        <span className="soft">
+          {words.case.version} {heading.version}
+        </span>
+      </Table.Th>
+      <Table.Td>
+        <Badge size="lg" variant="light" color={current ? "teal" : "yellow"}>
+          {current ? "✓" : "!"} {words.case.standings[state]}
+        </Badge>
+        {why !== null && <p className="soft">{sentence(why)}</p>}
+        {withdrawn !== null && (
+          <p className="soft">
+            {sentence(withdrawn.reason)} ({withdrawn.by})
+          </p>
+        )}
+      </Table.Td>
+      <Table.Td>
+        {shownTime(heading.made_at, words.language)} <span className="soft">· {heading.made_by}</span>
+      </Table.Td>
+    </Table.Tr>
+  );
+}

@@ -1,0 +1,64 @@
+import { Button, Progress } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { isOver, type Job } from "../../rest/useJob";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { sentence } from "../parts/shown";
+
+const SHOWN = 5;
+
+/** Long work, on whatever page it was begun: how far it is, how it ended, and a way to stop it. */
+export function Jobs(): ReactNode {
+  const words = useWords();
+  const cancelling = useDo();
+  const { data, again } = useAsked((signal) => answered(server.GET("/api/jobs", { signal })), {
+    everyMs: 1000,
+  });
+  const cancel = (job: Job): void => {
+    void cancelling
+      .run(async () => {
+        await answered(server.DELETE("/api/jobs/{job_id}", { params: { path: { job_id: job.id } } }));
+      })
+      .then(again);
+  };
+  if (data === null || data.jobs.length === 0) return null;
+  return (
+    <Card title={words.case.jobsTitle} testId="jobs">
+      <ul className="rows">
+        {data.jobs.slice(0, SHOWN).map((job) => (
+          <li key={job.id} className="row" data-state={job.state}>
+            <div className="grow stack">
+              <p>
+                {sentence(job.title)} <span className="soft">{words.case.jobStates[job.state]}</span>
+                {!isOver(job) && job.doing !== "" && <span className="soft"> · {job.doing}</span>}
+              </p>
+              {!isOver(job) && <Progress size="lg" value={100 * job.progress_ratio} aria-label={job.title} />}
+              {job.trouble !== null && (
+                <p className="soft">
+                  {sentence(job.trouble.message)} {job.trouble.remedy}
+                </p>
+              )}
+            </div>
+            {!isOver(job) && (
+              <Button
+                size="lg"
+                variant="default"
+                disabled={job.state === "concluding"}
+                onClick={() => {
+                  cancel(job);
+                }}
+              >
+                {words.rest.cancel}
+              </Button>
+            )}
+          </li>
+        ))}
+      </ul>
+      <RefusalNote refusal={cancelling.refusal} />
+    </Card>
+  );
+}

@@ -1,0 +1,51 @@
+import { Button, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+
+/** Makes a case and opens it; large where there is none yet. */
+export function NewCase({ first, onMade }: { first: boolean; onMade: () => void }): ReactNode {
+  const words = useWords().case;
+  const [name, setName] = useState("");
+  const making = useDo();
+  const make = async (): Promise<void> => {
+    const done = await making.run(async () => {
+      const made = await answered(server.POST("/api/cases", { body: { name: name.trim() } }));
+      await answered(server.POST("/api/cases/{case_id}/open", { params: { path: { case_id: made.id } } }));
+    });
+    // Also when only the opening was refused: the case is in the list then.
+    onMade();
+    if (done) setName("");
+  };
+  return (
+    <Card title={first ? words.firstTitle : words.newTitle} testId="new-case">
+      {first && <p className="card-lead">{words.firstLead}</p>}
+      <form
+        className="row"
+        onSubmit={(event) => {
+          event.preventDefault();
+          void make();
+        }}
+      >
+        <TextInput
+          className="grow"
+          size="lg"
+          label={words.name}
+          description={words.nameHint}
+          maxLength={200}
+          value={name}
+          onChange={(event) => {
+            setName(event.currentTarget.value);
+          }}
+        />
+        <Button type="submit" size="lg" disabled={name.trim() === ""} loading={making.busy}>
+          {words.make}
+        </Button>
+      </form>
+      <RefusalNote refusal={making.refusal} />
+    </Card>
+  );
+}

@@ -1,0 +1,98 @@
+import { Button, Select } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { useLive } from "../../live/LiveContext";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+
+type Wish = components["schemas"]["SceneRequest"];
+type Scene = Wish["scene"];
+type Skill = NonNullable<Wish["skill"]>;
+type Board = NonNullable<Wish["board"]>;
+const SCENES: readonly Scene[] = ["board", "pivot", "spin", "landmarks", "sweep", "check", "operation"];
+
+/** Only where the camera is the theatre in software: what is played before it. */
+export function Rehearsal(): ReactNode {
+  const { view } = useLive();
+  return view.newest?.source.name === "rehearsal" ? <Scenes /> : null;
+}
+
+function Scenes(): ReactNode {
+  const words = useWords().case.rehearsal;
+  const asked = useAsked((signal) => answered(server.GET("/api/rehearsal", { signal })), { everyMs: 1500 });
+  const [skill, setSkill] = useState<Skill | null>(null);
+  const [board, setBoard] = useState<Board | null>(null);
+  const playing = useDo();
+  const { data, again } = asked;
+  if (data === null) return <RefusalNote refusal={asked.refusal} />;
+  // The answer has them as text; they are what was asked for before.
+  const played = {
+    scene: data.scene as Scene,
+    skill: data.skill as Skill,
+    board: data.board as Board,
+  };
+  const play = (scene: Scene): void => {
+    void playing
+      .run(async () => {
+        const body = { scene, skill: skill ?? played.skill, board: board ?? played.board, events: [] };
+        await answered(server.PUT("/api/rehearsal", { body }));
+      })
+      .then(again);
+  };
+  return (
+    <Card
+      title={words.title}
+      testId="rehearsal"
+      aside={<span className="badge-rehearsal">{words.badge}</span>}
+    >
+      <p>{words.lead}</p>
+      <div className="row" role="group" aria-label={words.scene}>
+        {SCENES.map((scene) => (
+          <Button
+            key={scene}
+            size="lg"
+            variant={played.scene === scene ? "filled" : "default"}
+            aria-pressed={played.scene === scene}
+            data-testid={`scene-${scene}`}
+            disabled={playing.busy}
+            onClick={() => {
+              play(scene);
+            }}
+          >
+            {words.scenes[scene]}
+          </Button>
+        ))}
+      </div>
+      <p className="soft" role="status" data-begun={data.begun}>
+        {data.begun ? words.sceneLeads[played.scene] : words.coming}
+      </p>
+      <div className="row">
+        <Select
+          size="lg"
+          label={words.skill}
+          allowDeselect={false}
+          data={Object.entries(words.skills).map(([value, label]) => ({ value, label }))}
+          value={skill ?? played.skill}
+          onChange={(value) => {
+            setSkill(value as Skill);
+          }}
+        />
+        <Select
+          size="lg"
+          label={words.board}
+          allowDeselect={false}
+          data={Object.entries(words.boards).map(([value, label]) => ({ value, label }))}
+          value={board ?? played.board}
+          onChange={(value) => {
+            setBoard(value as Board);
+          }}
+        />
+      </div>
+      <RefusalNote refusal={playing.refusal} />
+    </Card>
+  );
+}

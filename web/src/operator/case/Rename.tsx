@@ -1,0 +1,82 @@
+import { Button, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import type { Case } from "./OpenedCase";
+
+/** A case's name, and another one for it; the one before can be had back. */
+export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => void }): ReactNode {
+  const words = useWords().case;
+  const [name, setName] = useState<string | null>(null);
+  const [before, setBefore] = useState<string | null>(null);
+  const renaming = useDo();
+  const rename = async (to: string): Promise<void> => {
+    const was = case_.name;
+    const done = await renaming.run(async () => {
+      const params = { path: { case_id: case_.id } };
+      await answered(server.PATCH("/api/cases/{case_id}", { params, body: { name: to } }));
+    });
+    if (!done) return;
+    setBefore(before === null ? was : null);
+    setName(null);
+    onRenamed();
+  };
+  if (name === null) {
+    return (
+      <div className="row row-mid">
+        <p className="case-name grow">{case_.name}</p>
+        {before !== null && (
+          <Button size="lg" variant="subtle" onClick={() => void rename(before)}>
+            {words.undoRename}
+          </Button>
+        )}
+        <Button
+          size="lg"
+          variant="subtle"
+          onClick={() => {
+            setName(case_.name);
+          }}
+        >
+          {words.rename}
+        </Button>
+        <RefusalNote refusal={renaming.refusal} />
+      </div>
+    );
+  }
+  return (
+    <form
+      className="row"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void rename(name.trim());
+      }}
+    >
+      <TextInput
+        className="grow"
+        size="lg"
+        label={words.name}
+        data-autofocus
+        maxLength={200}
+        value={name}
+        onChange={(event) => {
+          setName(event.currentTarget.value);
+        }}
+      />
+      <Button type="submit" size="lg" disabled={name.trim() === ""} loading={renaming.busy}>
+        {words.keepName}
+      </Button>
+      <Button
+        size="lg"
+        variant="default"
+        onClick={() => {
+          setName(null);
+        }}
+      >
+        {words.leaveName}
+      </Button>
+      <RefusalNote refusal={renaming.refusal} />
+    </form>
+  );
+}

@@ -1,0 +1,63 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { filled, sentence, shownBytes } from "../parts/shown";
+
+/** The files of a case, read from end to end when somebody wants to know. */
+export function Verification({ caseId }: { caseId: string }): ReactNode {
+  const words = useWords().case;
+  const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
+  const verifying = useDo();
+  const params = { path: { case_id: caseId } };
+  const { data, refusal } = useAsked(
+    (signal) => answered(server.GET("/api/cases/{case_id}/files", { signal, params })),
+    { key: caseId, everyMs: 5000 },
+  );
+  const verify = (): void => {
+    setFound(null);
+    void verifying.run(async () => {
+      setFound(await answered(server.POST("/api/cases/{case_id}/verification", { params })));
+    });
+  };
+  const bytes = (data?.files ?? []).reduce((sum, file) => sum + file.size_bytes, 0);
+  return (
+    <Card title={words.filesTitle} testId="files">
+      <RefusalNote refusal={refusal} />
+      <div className="row row-mid">
+        <p className="grow">
+          {data === null
+            ? words.loading
+            : filled(words.filesCount, { count: data.files.length, size: shownBytes(bytes) })}
+        </p>
+        <Button size="lg" variant="default" loading={verifying.busy} onClick={verify}>
+          {words.verify}
+        </Button>
+      </div>
+      <RefusalNote refusal={verifying.refusal} />
+      {found?.sound === true && (
+        <p role="status" className="good">
+          ✓ {words.filesSound}
+        </p>
+      )}
+      {found?.sound === false && (
+        <div role="alert" className="bad stack">
+          <p>▲ {words.filesDamaged}</p>
+          <ul>
+            {found.damages.map((one) => (
+              <li key={one.file_id}>
+                {sentence(one.told)} {one.documents.join(", ")}
+              </li>
+            ))}
+          </ul>
+          <p>{words.filesRemedy}</p>
+        </div>
+      )}
+    </Card>
+  );
+}

@@ -1,0 +1,32 @@
+import type { ReactNode } from "react";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { sentence } from "./shown";
+
+type Heading = components["schemas"]["HeadingMessage"];
+
+/** Whether a document holds, and what it was made from. */
+export function StandsOn({
+  heading,
+  documents,
+}: {
+  heading: Heading;
+  documents: readonly Heading[];
+}): ReactNode {
+  const words = useWords().case;
+  const bases = heading.stands_on.map((id) => {
+    const found = documents.find((one) => one.id === id);
+    return found === undefined
+      ? words.another
+      : `${words.kinds[found.kind]} ${found.name}, ${words.version} ${String(found.version)}`;
+  });
+  return (
+    <p className="soft">
+      <span className={heading.current ? "good" : "bad"}>
+        {heading.current ? `✓ ${words.standings.current}` : `! ${words.standings.outOfDate}`}
+      </span>
+      {heading.out_of_date !== null && ` · ${sentence(heading.out_of_date)}`}
+      {bases.length > 0 && ` · ${words.standsOn} ${bases.join("; ")}`}
+    </p>
+  );
+}

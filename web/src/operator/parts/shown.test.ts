@@ -1,0 +1,32 @@
+import { describe, expect, test } from "vitest";
+import { filled, sentence, shownBytes, shownTime } from "./shown";
+
+test("values come where the sentence names them, and a name without one stays to be seen", () => {
+  expect(filled("{there} of {wanted} views", { there: 3, wanted: 12 })).toBe("3 of 12 views");
+  expect(filled("{there} of {wanted}", { there: 0 })).toBe("0 of {wanted}");
+});
+
+describe("sizes", () => {
+  test.each([
+    [0, "0 B"],
+    [999, "999 B"],
+    [1000, "1.0 kB"],
+    [12_345_678, "12.3 MB"],
+    [345_678_901, "346 MB"],
+    [5_000_000_000_000, "5000 GB"],
+  ])("%d bytes", (bytes, shown) => {
+    expect(shownBytes(bytes)).toBe(shown);
+  });
+});
+
+test("a time is of where the page is, and what is none is shown as it is", () => {
+  expect(shownTime("2026-03-01T23:30:00.000Z", "en", "Europe/Berlin")).toBe("2 Mar 2026, 00:30");
+  expect(shownTime("2026-03-01T23:30:00.000Z", "de", "UTC")).toBe("01.03.2026, 23:30");
+  expect(shownTime("later", "en")).toBe("later");
+});
+
+test("a sentence begins large and ends", () => {
+  expect(sentence("the board moves: hold it still")).toBe("The board moves: hold it still.");
+  expect(sentence("Show it.")).toBe("Show it.");
+  expect(sentence("")).toBe("");
+});

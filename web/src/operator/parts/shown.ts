@@ -1,0 +1,36 @@
+// How times, sizes and sentences are shown on the pages of the set-up.
+import { shownNumber } from "../../live/rounding";
+
+/** `"{n} views"` with `{n: 3}` is "3 views". */
+export function filled(text: string, values: Record<string, string | number>): string {
+  return text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole));
+}
+
+/** The day and time where this page is, to the minute. */
+export function shownTime(iso: string, language: string, zone?: string): string {
+  const at = new Date(iso);
+  if (Number.isNaN(at.getTime())) return iso;
+  return new Intl.DateTimeFormat(language === "en" ? "en-GB" : language, {
+    dateStyle: "medium",
+    timeStyle: "short",
+    ...(zone === undefined ? {} : { timeZone: zone }),
+  }).format(at);
+}
+
+/** In the unit that leaves one to three digits before the point. */
+export function shownBytes(bytes: number): string {
+  const units = ["B", "kB", "MB", "GB"] as const;
+  let size = bytes;
+  let place = 0;
+  while (size >= 1000 && place < units.length - 1) {
+    size /= 1000;
+    place += 1;
+  }
+  return `${shownNumber(size, place === 0 || size >= 100 ? 0 : 1)} ${units[place] ?? ""}`;
+}
+
+/** The server's sentences begin small, because they also stand after others. */
+export function sentence(text: string): string {
+  const whole = text.charAt(0).toUpperCase() + text.slice(1);
+  return /[.!?]$/.test(whole) || whole === "" ? whole : `${whole}.`;
+}

@@ -1,0 +1,77 @@
+// What is sent up or fetched down in one piece, with how far it is; both can be stopped.
+import { Refusal } from "../../rest/client";
+import { parsed, troubleIn } from "./trouble";
+
+export interface Moved {
+  doneBytes: number;
+  /** 0 while nobody knows how much it will be. */
+  allBytes: number;
+}
+
+export type OnMoved = (moved: Moved) => void;
+
+/**
+ * Sends a file as the body of a request. `fetch` does not say how far it is with that, so an older way is taken.
+ *
+ * @throws Refusal, or a DOMException AbortError when it was stopped
+ */
+export function sent<Answer>(
+  path: string,
+  body: Blob,
+  onMoved: OnMoved,
+  signal: AbortSignal,
+): Promise<Answer> {
+  return new Promise((resolve, reject) => {
+    const request = new XMLHttpRequest();
+    request.open("POST", path);
+    request.setRequestHeader("Content-Type", body.type || "application/octet-stream");
+    request.upload.onprogress = (event): void => {
+      onMoved({ doneBytes: event.loaded, allBytes: event.lengthComputable ? event.total : body.size });
+    };
+    request.onload = (): void => {
+      if (request.status >= 200 && request.status < 300) resolve(parsed(request.responseText) as Answer);
+      else reject(new Refusal(troubleIn(request.responseText, request.status)));
+    };
+    request.onerror = (): void => {
+      reject(new Refusal(troubleIn("", 0)));
+    };
+    request.onabort = (): void => {
+      reject(new DOMException("stopped", "AbortError"));
+    };
+    signal.addEventListener("abort", () => {
+      request.abort();
+    });
+    request.send(body);
+  });
+}
+
+/**
+ * Fetches a file.
+ *
+ * @throws Refusal, or a DOMException AbortError when it was stopped
+ */
+export async function fetched(path: string, onMoved: OnMoved, signal: AbortSignal): Promise<Blob> {
+  let answer: Response;
+  try {
+    answer = await fetch(path, { signal, cache: "no-store" });
+  } catch (error) {
+    if (signal.aborted) throw error;
+    throw new Refusal(troubleIn("", 0));
+  }
+  if (!answer.ok) throw new Refusal(troubleIn(await answer.text(), answer.status));
+  const allBytes = Number(answer.headers.get("Content-Length") ?? "0");
+  const parts: Uint8Array<ArrayBuffer>[] = [];
+  let doneBytes = 0;
+  const reader = answer.body?.getReader();
+  try {
+    for (let next = await reader?.read(); next?.done === false; next = await reader?.read()) {
+      parts.push(next.value);
+      doneBytes += next.value.byteLength;
+      onMoved({ doneBytes, allBytes });
+    }
+  } catch (error) {
+    if (signal.aborted) throw error;
+    throw new Refusal(troubleIn("", 0));
+  }
+  return new Blob(parts, { type: answer.headers.get("Content-Type") ?? "" });
+}

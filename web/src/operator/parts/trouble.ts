@@ -1,0 +1,18 @@
+import type { Trouble } from "../../rest/client";
+
+/** What a refusal's body says; the page has its own words for one that says nothing. */
+export function troubleIn(text: string, status: number): Trouble {
+  const told = parsed(text);
+  if (typeof told === "object" && told !== null && "code" in told && "message" in told)
+    return told as Trouble;
+  return { code: "NO_ANSWER", message: "", remedy: "", context: { status } };
+}
+
+/** What a text says as JSON; null where it is none. */
+export function parsed(text: string): unknown {
+  try {
+    return JSON.parse(text) as unknown;
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,20 @@
+import { answered, server } from "../../rest/client";
+import { useAsked } from "../../rest/useAsked";
+import type { components } from "../../schema";
+import { useProcedure } from "../procedure";
+
+type Heading = components["schemas"]["HeadingMessage"];
+
+/** The documents of the open case; none while none is open. */
+export function useDocuments(): readonly Heading[] {
+  const caseId = useProcedure().data?.case_id ?? null;
+  const { data } = useAsked(
+    async (signal) => {
+      if (caseId === null) return { documents: [] };
+      const params = { path: { case_id: caseId } };
+      return answered(server.GET("/api/cases/{case_id}/documents", { signal, params }));
+    },
+    { key: caseId ?? "", everyMs: 3000 },
+  );
+  return data?.documents ?? [];
+}

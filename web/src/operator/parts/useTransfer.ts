@@ -1,0 +1,51 @@
+// One file on its way at a time: how far it is, how it ended, and a way to stop it.
+import { useCallback, useEffect, useRef, useState } from "react";
+import { Refusal } from "../../rest/client";
+import type { Moved, OnMoved } from "./transfer";
+
+export interface Transfer {
+  /** Null while nothing is on its way. */
+  moved: Moved | null;
+  refusal: Refusal | null;
+  stopped: boolean;
+  run: (move: (onMoved: OnMoved, signal: AbortSignal) => Promise<void>) => Promise<void>;
+  stop: () => void;
+}
+
+const NOTHING = { moved: null, refusal: null, stopped: false };
+
+export function useTransfer(): Transfer {
+  const [state, setState] = useState<Pick<Transfer, "moved" | "refusal" | "stopped">>(NOTHING);
+  const control = useRef<AbortController | null>(null);
+
+  useEffect(
+    () => () => {
+      control.current?.abort();
+    },
+    [],
+  );
+
+  const run = useCallback<Transfer["run"]>(async (move) => {
+    if (control.current !== null) return;
+    const own = new AbortController();
+    control.current = own;
+    setState({ ...NOTHING, moved: { doneBytes: 0, allBytes: 0 } });
+    try {
+      await move((moved) => {
+        setState({ ...NOTHING, moved });
+      }, own.signal);
+      setState(NOTHING);
+    } catch (error) {
+      if (own.signal.aborted) setState({ ...NOTHING, stopped: true });
+      else if (error instanceof Refusal) setState({ ...NOTHING, refusal: error });
+      else throw error;
+    } finally {
+      control.current = null;
+    }
+  }, []);
+
+  const stop = useCallback(() => {
+    control.current?.abort();
+  }, []);
+  return { ...state, run, stop };
+}

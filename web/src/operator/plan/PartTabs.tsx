@@ -1,0 +1,43 @@
+import type { ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+import { usePlanning } from "./state/PlanContext";
+import { PARTS, useWork, type Part } from "./state/WorkContext";
+
+/** The parts of planning, with what is there of each. */
+export function PartTabs(): ReactNode {
+  const words = useWords().plan;
+  const { part, setPart } = useWork();
+  const { plan, vertebra } = usePlanning();
+  const active = plan?.active_channel ?? null;
+  const there: Record<Part, string> = {
+    ct: "✓",
+    pedicle: counted(vertebra?.pedicles.length),
+    channel: counted(vertebra?.channels.length) + (active === null ? "" : " ●"),
+    lines: vertebra?.references.length ? "✓" : "",
+    landmarks: counted(vertebra?.landmarks.length),
+    surface: "",
+    file: "",
+  };
+  return (
+    <nav className="part-tabs" aria-label={words.parts}>
+      {PARTS.map((one) => (
+        <button
+          key={one}
+          type="button"
+          aria-current={one === part ? "page" : undefined}
+          data-testid={`part-${one}`}
+          onClick={() => {
+            setPart(one);
+          }}
+        >
+          {words.part[one]}
+          {there[one] !== "" && <span className="part-there"> {there[one]}</span>}
+        </button>
+      ))}
+    </nav>
+  );
+}
+
+function counted(count: number | undefined): string {
+  return count === undefined || count === 0 ? "" : String(count);
+}

@@ -1,0 +1,82 @@
+import { Alert, Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useWords } from "../../words/WordsContext";
+import { PartTabs } from "./PartTabs";
+import { usePlanning } from "./state/PlanContext";
+import { useWork } from "./state/WorkContext";
+
+/** The parts of the plan, the way back, and what stands against going on. */
+export function PlanBar(): ReactNode {
+  const words = useWords().plan.bar;
+  const { plan, planRefusal, refusal, conflict, canUndo, undo, change, busy, forget } = usePlanning();
+  const { setDraft } = useWork();
+  const heading = plan?.heading ?? null;
+  const isOld = heading !== null && !heading.current;
+  const put = (content: Record<string, unknown>): void => {
+    void change((by) => answered(server.PUT("/api/plan", { body: { ...by, plan: content } })));
+  };
+  return (
+    <div className="plan-bar">
+      <div className="plan-bar-row">
+        <PartTabs />
+        <Button
+          size="lg"
+          variant="default"
+          disabled={!canUndo}
+          data-testid="undo"
+          onClick={() => {
+            setDraft(null);
+            undo();
+          }}
+        >
+          ↶ {words.undo}
+        </Button>
+      </div>
+      <RefusalNote refusal={planRefusal} />
+      {isOld && (
+        <Alert className="consequence" title={words.old.title} data-testid="plan-old">
+          <p>{words.old.sentence}</p>
+          <div className="buttons">
+            <Button
+              size="lg"
+              disabled={busy}
+              onClick={() => {
+                put(plan?.plan ?? {});
+              }}
+            >
+              {words.old.take}
+            </Button>
+            <Button
+              size="lg"
+              variant="default"
+              disabled={busy}
+              data-testid="begin-anew"
+              onClick={() => {
+                put({ format_version: plan?.plan["format_version"], vertebrae: [] });
+              }}
+            >
+              {words.old.anew}
+            </Button>
+          </div>
+        </Alert>
+      )}
+      {conflict !== null && (
+        <Alert
+          className="consequence"
+          role="alert"
+          title={words.conflict.title}
+          data-testid="conflict"
+          withCloseButton
+          closeButtonLabel={words.close}
+          onClose={forget}
+        >
+          {words.conflict.by} {conflict.made_by} · {words.version} {conflict.version}.{" "}
+          {words.conflict.sentence}
+        </Alert>
+      )}
+      {conflict === null && <RefusalNote refusal={refusal} />}
+    </div>
+  );
+}

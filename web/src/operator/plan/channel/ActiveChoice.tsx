@@ -1,0 +1,57 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { answered, server } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { usePlanning } from "../state/PlanContext";
+import type { PlannedChannel } from "../state/shape";
+import { anglesOf, draftOf, lengthMm } from "./draft";
+
+/** What the channel is, and whether it is the one that is drilled now. */
+export function ActiveChoice({
+  vertebra,
+  planned,
+}: {
+  vertebra: string;
+  planned: PlannedChannel;
+}): ReactNode {
+  const words = useWords().plan.channel;
+  const { plan, change, busy, by } = usePlanning();
+  const { side } = planned;
+  const active = plan?.active_channel ?? null;
+  const isActive = active !== null && active.vertebra === vertebra && active.side === side;
+  const draft = draftOf(planned.channel);
+  const { transverseDeg, sagittalDeg } = anglesOf(draft, side);
+  const { made_by } = by;
+  const choose = (): void => {
+    void change(() =>
+      isActive
+        ? answered(server.DELETE("/api/plan/active-channel", { params: { query: { made_by } } }))
+        : answered(server.POST("/api/plan/active-channel", { body: { made_by, vertebra, side } })),
+    );
+  };
+  return (
+    <section className="active-choice" data-active={isActive || undefined}>
+      <p data-testid="channel-numbers">
+        {planned.by_hand ? words.isByHand : words.isMeasured} · Ø {shownNumber(draft.diameterMm, 1)} mm ·{" "}
+        {shownNumber(lengthMm(draft), 1)} mm · {words.transverse} {shownNumber(transverseDeg, 1)}° ·{" "}
+        {words.sagittal} {shownNumber(sagittalDeg, 1)}°
+      </p>
+      {isActive && (
+        <p className="is-active" data-testid="is-active">
+          ● {words.isActive}
+        </p>
+      )}
+      <Button
+        size="xl"
+        fullWidth
+        disabled={busy}
+        variant={isActive ? "default" : "filled"}
+        data-testid="activate"
+        onClick={choose}
+      >
+        {isActive ? words.deactivate : words.activate}
+      </Button>
+    </section>
+  );
+}

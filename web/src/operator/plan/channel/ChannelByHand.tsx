@@ -1,0 +1,131 @@
+import { Button, SegmentedControl } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { answered, server } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { ArrowPad } from "../slices/ArrowPad";
+import { downOf, normalOf, rightOf } from "../slices/place";
+import { useSlices } from "../slices/SlicesContext";
+import { plus, times } from "../slices/vectors";
+import { usePlanning } from "../state/PlanContext";
+import type { PlannedChannel } from "../state/shape";
+import { useWork } from "../state/WorkContext";
+import { Stepper } from "../Stepper";
+import {
+  anglesOf,
+  isSame,
+  LEAST_DIAMETER_MM,
+  lengthened,
+  lengthMm,
+  MOST_DIAMETER_MM,
+  shifted,
+  turnedBy,
+  type Draft,
+  type Moved,
+} from "./draft";
+
+const STEP_MM = 0.5;
+const MOVED: readonly Moved[] = ["whole", "entry", "target"];
+
+interface ChannelByHandProps {
+  of: string;
+  draft: Draft;
+  planned: PlannedChannel | null;
+}
+
+/** The channel moved in half millimetres and degrees on the large slice, then kept or let go. */
+export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): ReactNode {
+  const words = useWords().plan.byHand;
+  const { vertebra, side, change, busy } = usePlanning();
+  const { setDraft } = useWork();
+  const { largePlace } = useSlices();
+  const [what, setWhat] = useState<Moved>("whole");
+  const put = (channel: Draft): void => {
+    setDraft({ of, channel });
+  };
+  const { transverseDeg, sagittalDeg } = anglesOf(draft, side);
+  const isUnchanged = planned !== null && isSame(draft, planned.channel);
+  const keep = (): void => {
+    if (vertebra === null) return;
+    const path = { name: vertebra.name, side };
+    const by_hand = {
+      entry_lps_mm: [...draft.entry],
+      target_lps_mm: [...draft.target],
+      diameter_mm: draft.diameterMm,
+    };
+    void change((by) =>
+      answered(
+        server.PUT("/api/plan/vertebrae/{name}/channels/{side}", {
+          params: { path },
+          body: { ...by, by_hand },
+        }),
+      ),
+    ).then((made) => {
+      if (made) setDraft(null);
+    });
+  };
+  return (
+    <section className="by-hand" aria-label={words.title} data-testid="by-hand">
+      <p>{words.hint}</p>
+      <SegmentedControl
+        size="lg"
+        fullWidth
+        value={what}
+        aria-label={words.what}
+        data={MOVED.map((one) => ({ value: one, label: words.moved[one] }))}
+        onChange={setWhat}
+      />
+      <ArrowPad
+        name="channel"
+        label={words.moved[what]}
+        onMove={(right, down) => {
+          const place = largePlace();
+          if (place === null) return;
+          const shift = plus(times(rightOf(place), right * STEP_MM), times(downOf(place), down * STEP_MM));
+          put(shifted(draft, what, shift));
+        }}
+      />
+      <Stepper
+        name="turn"
+        label={words.turn}
+        value={`${words.transverse} ${shownNumber(transverseDeg, 1)}° · ${words.sagittal} ${shownNumber(sagittalDeg, 1)}°`}
+        onStep={(direction) => {
+          const place = largePlace();
+          if (place !== null) put(turnedBy(draft, normalOf(place), direction));
+        }}
+      />
+      <Stepper
+        name="reach"
+        label={words.length}
+        value={`${shownNumber(lengthMm(draft), 1)} mm`}
+        onStep={(direction) => {
+          put(lengthened(draft, direction));
+        }}
+      />
+      <Stepper
+        name="bore"
+        label={words.diameter}
+        value={`${shownNumber(draft.diameterMm, 1)} mm`}
+        onStep={(direction) => {
+          const wanted = draft.diameterMm + direction * STEP_MM;
+          put({ ...draft, diameterMm: Math.min(MOST_DIAMETER_MM, Math.max(LEAST_DIAMETER_MM, wanted)) });
+        }}
+      />
+      <div className="buttons">
+        <Button size="xl" disabled={busy || isUnchanged} data-testid="keep-channel" onClick={keep}>
+          {words.keep}
+        </Button>
+        <Button
+          size="xl"
+          variant="default"
+          data-testid="discard-channel"
+          onClick={() => {
+            setDraft(null);
+          }}
+        >
+          {words.discard}
+        </Button>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,104 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { SideChooser } from "../pedicle/SideChooser";
+import { VertebraChooser } from "../pedicle/VertebraChooser";
+import { useSlices } from "../slices/SlicesContext";
+import { plus } from "../slices/vectors";
+import { usePlanning } from "../state/PlanContext";
+import { channelOf, recordOf } from "../state/shape";
+import { useWork } from "../state/WorkContext";
+import { ActiveChoice } from "./ActiveChoice";
+import { ChannelByHand } from "./ChannelByHand";
+import { draftOf } from "./draft";
+import { ScrewChoice } from "./ScrewChoice";
+
+/** A channel through the pedicle: laid along it or by hand, with its screw, and whether it is drilled now. */
+export function ChannelPart(): ReactNode {
+  const words = useWords().plan.channel;
+  const { vertebra, side, change, busy } = usePlanning();
+  const { draft, setDraft } = useWork();
+  const { look } = useSlices();
+  if (vertebra === null) return <p>{words.noVertebra}</p>;
+  const { name } = vertebra;
+  const of = `${name} ${side}`;
+  const planned = channelOf(vertebra, side);
+  const isMeasured = recordOf(vertebra, side) !== null;
+  const path = { name, side };
+  const layAlongPedicle = (): void => {
+    void change((by) =>
+      answered(server.PUT("/api/plan/vertebrae/{name}/channels/{side}", { params: { path }, body: by })),
+    ).then((made) => {
+      if (made) setDraft(null);
+    });
+  };
+  const remove = (): void => {
+    void change((by) =>
+      answered(server.DELETE("/api/plan/vertebrae/{name}/channels/{side}", { params: { path, query: by } })),
+    );
+  };
+  const moved = draft?.of === of ? draft.channel : null;
+  const beginAt = (): void => {
+    setDraft({ of, channel: { entry: look.cursor, target: plus(look.cursor, [0, -40, 0]), diameterMm: 6 } });
+  };
+  return (
+    <>
+      <VertebraChooser />
+      <SideChooser />
+      {planned === null && moved === null && (
+        <>
+          <p>{isMeasured ? words.none : words.notMeasured}</p>
+          <Button
+            size="xl"
+            fullWidth
+            disabled={busy || !isMeasured}
+            data-testid="lay-channel"
+            onClick={layAlongPedicle}
+          >
+            {words.lay}
+          </Button>
+          <Button size="lg" fullWidth variant="default" disabled={busy} onClick={beginAt}>
+            {words.byHandHere}
+          </Button>
+        </>
+      )}
+      {moved !== null ? (
+        <ChannelByHand of={of} draft={moved} planned={planned} />
+      ) : (
+        planned !== null && (
+          <>
+            <ActiveChoice vertebra={name} planned={planned} />
+            <ScrewChoice key={of} vertebra={name} planned={planned} isMeasured={isMeasured} />
+            <div className="buttons">
+              <Button
+                size="lg"
+                variant="default"
+                data-testid="move-channel"
+                onClick={() => {
+                  setDraft({ of, channel: draftOf(planned.channel) });
+                }}
+              >
+                {words.move}
+              </Button>
+              {planned.by_hand && isMeasured && (
+                <Button size="lg" variant="default" disabled={busy} onClick={layAlongPedicle}>
+                  {words.back}
+                </Button>
+              )}
+              <Button
+                size="lg"
+                variant="default"
+                disabled={busy}
+                data-testid="remove-channel"
+                onClick={remove}
+              >
+                {words.remove}
+              </Button>
+            </div>
+          </>
+        )
+      )}
+    </>
+  );
+}

@@ -1,0 +1,100 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useAsked } from "../../../rest/useAsked";
+import { useWords } from "../../../words/WordsContext";
+import { usePlanning } from "../state/PlanContext";
+import type { PlannedChannel } from "../state/shape";
+import { Stepper } from "../Stepper";
+import { neighbourOf } from "./catalogue";
+import { ScrewNumbers } from "./ScrewNumbers";
+
+interface ScrewChoiceProps {
+  vertebra: string;
+  planned: PlannedChannel;
+  isMeasured: boolean;
+}
+
+/** A screw of the catalogue: the proposed one, or thicker, thinner, longer, shorter. */
+export function ScrewChoice({ vertebra, planned, isMeasured }: ScrewChoiceProps): ReactNode {
+  const words = useWords().plan.screw;
+  const { change, busy } = usePlanning();
+  const catalogue = useAsked((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
+  const path = { name: vertebra, side: planned.side };
+  const screw = planned.screws[0] ?? null;
+  const choose = (size: { diameter_mm: number; length_mm: number } | null): void => {
+    void change((by) =>
+      answered(
+        server.PUT("/api/plan/vertebrae/{name}/channels/{side}/screw", {
+          params: { path },
+          body: { ...by, ...(size ?? {}) },
+        }),
+      ),
+    );
+  };
+  const remove = (): void => {
+    void change((by) =>
+      answered(
+        server.DELETE("/api/plan/vertebrae/{name}/channels/{side}/screw", { params: { path, query: by } }),
+      ),
+    );
+  };
+  if (!isMeasured) return <p className="soft">{words.notMeasured}</p>;
+  return (
+    <section className="screw" aria-label={words.title}>
+      <h3>{words.title}</h3>
+      {screw === null ? (
+        <Button
+          size="xl"
+          fullWidth
+          disabled={busy}
+          data-testid="propose-screw"
+          onClick={() => {
+            choose(null);
+          }}
+        >
+          {words.propose}
+        </Button>
+      ) : (
+        <>
+          <Stepper
+            name="diameter"
+            label={words.diameter}
+            value={`${screw.diameter_mm} mm`}
+            disabled={busy || catalogue === null}
+            onStep={(direction) => {
+              const diameter_mm = neighbourOf(catalogue?.diameters_mm ?? [], screw.diameter_mm, direction);
+              if (diameter_mm !== null) choose({ diameter_mm, length_mm: screw.length_mm });
+            }}
+          />
+          <Stepper
+            name="length"
+            label={words.length}
+            value={`${screw.length_mm} mm`}
+            disabled={busy || catalogue === null}
+            onStep={(direction) => {
+              const length_mm = neighbourOf(catalogue?.lengths_mm ?? [], screw.length_mm, direction);
+              if (length_mm !== null) choose({ diameter_mm: screw.diameter_mm, length_mm });
+            }}
+          />
+          <ScrewNumbers screw={screw} />
+          <div className="buttons">
+            <Button
+              size="lg"
+              variant="default"
+              disabled={busy}
+              onClick={() => {
+                choose(null);
+              }}
+            >
+              {words.propose}
+            </Button>
+            <Button size="lg" variant="default" disabled={busy} onClick={remove}>
+              {words.remove}
+            </Button>
+          </div>
+        </>
+      )}
+    </section>
+  );
+}

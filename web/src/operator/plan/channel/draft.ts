@@ -1,0 +1,77 @@
+// A channel while it is moved by hand, before it is kept.
+import { dot, lengthOf, minus, plus, times, turned, unit, type Vec3 } from "../slices/vectors";
+import type { Channel } from "../state/shape";
+
+export interface Draft {
+  entry: Vec3;
+  target: Vec3;
+  diameterMm: number;
+}
+
+export const MOST_DIAMETER_MM = 20;
+export const LEAST_DIAMETER_MM = 1;
+
+export function draftOf(channel: Channel): Draft {
+  return {
+    entry: channel.entry_in_vertebra_mm,
+    target: channel.target_in_vertebra_mm,
+    diameterMm: 2 * channel.radius_mm,
+  };
+}
+
+export function isSame(draft: Draft, channel: Channel): boolean {
+  const off = Math.max(
+    lengthOf(minus(draft.entry, channel.entry_in_vertebra_mm)),
+    lengthOf(minus(draft.target, channel.target_in_vertebra_mm)),
+    Math.abs(draft.diameterMm - 2 * channel.radius_mm),
+  );
+  return off < 1e-6;
+}
+
+export type Moved = "whole" | "entry" | "target";
+
+export function shifted(draft: Draft, what: Moved, by: Vec3): Draft {
+  return {
+    ...draft,
+    entry: what === "target" ? draft.entry : plus(draft.entry, by),
+    target: what === "entry" ? draft.target : plus(draft.target, by),
+  };
+}
+
+/** Turned about its entry, as seen on a slice whose normal points away from the viewer: positive is clockwise. */
+export function turnedBy(draft: Draft, normal: Vec3, angleDeg: number): Draft {
+  return { ...draft, target: plus(draft.entry, turned(minus(draft.target, draft.entry), normal, angleDeg)) };
+}
+
+/** Longer at its end. */
+export function lengthened(draft: Draft, byMm: number): Draft {
+  const length = lengthMm(draft);
+  return { ...draft, target: plus(draft.entry, times(axisOf(draft), Math.max(1, length + byMm))) };
+}
+
+export function lengthMm(draft: Draft): number {
+  return lengthOf(minus(draft.target, draft.entry));
+}
+
+export function axisOf(draft: Draft): Vec3 {
+  return unit(minus(draft.target, draft.entry));
+}
+
+/** As on an axial and a sagittal slice: from straight forwards, to the middle and to the head positive. */
+export function anglesOf(
+  draft: Draft,
+  side: "left" | "right",
+): { transverseDeg: number; sagittalDeg: number } {
+  const axis = axisOf(draft);
+  const medial = side === "left" ? -axis[0] : axis[0];
+  return {
+    transverseDeg: (Math.atan2(medial, -axis[1]) * 180) / Math.PI,
+    sagittalDeg: (Math.atan2(axis[2], -axis[1]) * 180) / Math.PI,
+  };
+}
+
+/** How far a point lies beside the axis. */
+export function besideMm(draft: Draft, point: Vec3): number {
+  const away = minus(point, draft.entry);
+  return lengthOf(minus(away, times(axisOf(draft), dot(away, axisOf(draft)))));
+}

@@ -1,0 +1,109 @@
+import { Alert, Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { JobProgress } from "../../../rest/JobProgress";
+import { useAsked } from "../../../rest/useAsked";
+import { useDo } from "../../../rest/useDo";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { isOver, useJob } from "../../../rest/useJob";
+import { useWords } from "../../../words/WordsContext";
+import { useMadeBy } from "../state/madeBy";
+import { FileButtons } from "./FileButtons";
+import { ReadingPreview } from "./ReadingPreview";
+import { seriesOf, SeriesChoice } from "./SeriesChoice";
+import { UploadProgress } from "./UploadProgress";
+import { useUpload } from "./useUpload";
+
+interface CtIntakeProps {
+  /** Whether a CT is there already, on which other things stand. */
+  isSecond: boolean;
+  onTaken: () => void;
+}
+
+/** A CT comes into the case: sent, read, and its series chosen where there are several. */
+export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
+  const words = useWords().plan.ct;
+  const madeBy = useMadeBy();
+  const [uploadId, setUploadId] = useState("");
+  const [isAgreed, setAgreed] = useState(false);
+  const rehearsal = useAsked((signal) => answered(server.GET("/api/rehearsal", { signal })));
+  const choosing = useDo();
+  const job = useJob((ended) => {
+    if (ended.state === "done" && seriesOf(ended).length === 0) onTaken();
+  });
+  const upload = useUpload(
+    () => `/api/ct?${new URLSearchParams({ made_by: madeBy }).toString()}`,
+    (begun) => {
+      setUploadId(begun.upload_id ?? "");
+      job.follow(begun);
+    },
+  );
+  const isBusy = upload.phase !== null || (job.job !== null && !isOver(job.job));
+  const series = job.job?.state === "done" ? seriesOf(job.job) : [];
+
+  const choose = (one: string): void => {
+    void choosing.run(async () => {
+      const path = { upload_id: uploadId, series: one };
+      job.follow(
+        await answered(server.POST("/api/ct/uploads/{upload_id}/series/{series}", { params: { path } })),
+      );
+    });
+  };
+
+  if (isSecond && !isAgreed && !isBusy) {
+    return (
+      <Alert className="consequence" title={words.second.title} data-testid="second-ct">
+        <p>{words.second.sentence}</p>
+        <Button
+          size="xl"
+          mt="sm"
+          onClick={() => {
+            setAgreed(true);
+          }}
+        >
+          {words.second.agree}
+        </Button>
+      </Alert>
+    );
+  }
+  return (
+    <div className="ct-intake" data-testid="ct-intake">
+      {!isBusy && series.length === 0 && (
+        <>
+          <p>{words.hint}</p>
+          <FileButtons
+            words={words.buttons}
+            disabled={isBusy}
+            onFiles={(files) => {
+              job.forget();
+              upload.send(files);
+            }}
+          />
+          {rehearsal.data !== null && (
+            <div className="rehearsal-offer">
+              <p>{words.rehearsal.hint}</p>
+              <Button
+                size="xl"
+                variant="default"
+                data-testid="rehearsal-ct"
+                onClick={() => {
+                  job.forget();
+                  upload.sendFrom("/api/rehearsal/ct");
+                }}
+              >
+                {words.rehearsal.take}
+              </Button>
+            </div>
+          )}
+        </>
+      )}
+      <UploadProgress upload={upload} />
+      <RefusalNote refusal={choosing.refusal} />
+      <JobProgress followed={job} />
+      {job.job !== null && !isOver(job.job) && (
+        <ReadingPreview key={uploadId} uploadId={uploadId} of={job.job} />
+      )}
+      <SeriesChoice series={series} busy={choosing.busy} onChoose={choose} />
+    </div>
+  );
+}

@@ -1,0 +1,55 @@
+import { useState, type ReactNode } from "react";
+import { Alert, Button } from "@mantine/core";
+import { shownNumber } from "../../../live/rounding";
+import { useWords } from "../../../words/WordsContext";
+import { useSlices } from "../slices/SlicesContext";
+import { CtIntake } from "./CtIntake";
+
+/** The CT that is planned on: what it is, what to know of it, and the way to another one. */
+export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
+  const words = useWords().plan.ct;
+  const { ct } = useSlices();
+  const [isReplacing, setReplacing] = useState(false);
+  const { description } = ct;
+  const told = [description["words"], description["modality"], description["kernel"]].filter(
+    (one): one is string => typeof one === "string" && one !== "",
+  );
+  return (
+    <>
+      <h3>{words.title}</h3>
+      <p>{told.join(" · ")}</p>
+      <dl className="figures">
+        <dt>{words.voxels}</dt>
+        <dd>{ct.size_ijk.join(" × ")}</dd>
+        <dt>{words.spacing}</dt>
+        <dd>{ct.spacing_mm.map((one) => shownNumber(one, 2)).join(" × ")} mm</dd>
+        <dt>{words.madeBy}</dt>
+        <dd>
+          {ct.heading.made_by}, {new Date(ct.heading.made_at).toLocaleString()}
+        </dd>
+      </dl>
+      {ct.warnings.map((warning) => (
+        <Alert key={warning} className="consequence" title={warning} />
+      ))}
+      {ct.left_out.map((one) => (
+        <p key={String(one["reason"])} className="warning">
+          {String(one["count"])} {words.leftOut}: {String(one["reason"])}
+        </p>
+      ))}
+      {isReplacing ? (
+        <CtIntake isSecond onTaken={onTaken} />
+      ) : (
+        <Button
+          size="lg"
+          variant="default"
+          data-testid="other-ct"
+          onClick={() => {
+            setReplacing(true);
+          }}
+        >
+          {words.other}
+        </Button>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,58 @@
+import { Button } from "@mantine/core";
+import { useRef, type ReactNode } from "react";
+
+interface FileButtonsProps {
+  words: { file: string; folder?: string };
+  accept?: string;
+  disabled: boolean;
+  onFiles: (files: readonly File[]) => void;
+}
+
+/** One file, or all of a folder. */
+export function FileButtons({ words, accept, disabled, onFiles }: FileButtonsProps): ReactNode {
+  const file = useRef<HTMLInputElement>(null);
+  const folder = useRef<HTMLInputElement>(null);
+  const taken = (input: HTMLInputElement): void => {
+    onFiles([...(input.files ?? [])]);
+    // The same file again is a choice as well.
+    input.value = "";
+  };
+  return (
+    <div className="file-buttons">
+      <input
+        ref={file}
+        type="file"
+        hidden
+        multiple={words.folder !== undefined}
+        accept={accept}
+        data-testid="file-input"
+        onChange={(event) => {
+          taken(event.currentTarget);
+        }}
+      />
+      <Button size="xl" disabled={disabled} onClick={() => file.current?.click()}>
+        {words.file}
+      </Button>
+      {words.folder !== undefined && (
+        <>
+          <input
+            ref={(input) => {
+              folder.current = input;
+              if (input !== null) input.webkitdirectory = true;
+            }}
+            type="file"
+            hidden
+            multiple
+            data-testid="folder-input"
+            onChange={(event) => {
+              taken(event.currentTarget);
+            }}
+          />
+          <Button size="xl" variant="default" disabled={disabled} onClick={() => folder.current?.click()}>
+            {words.folder}
+          </Button>
+        </>
+      )}
+    </div>
+  );
+}

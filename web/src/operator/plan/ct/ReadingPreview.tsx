@@ -1,0 +1,29 @@
+import { useState, type ReactNode } from "react";
+import type { Job } from "../../../rest/useJob";
+import { useWords } from "../../../words/WordsContext";
+
+const TRIES_EVERY_RATIO = 0.05;
+
+/** The first slice, as soon as it is read: whether this is the right patient's part is seen early. */
+export function ReadingPreview({ uploadId, of }: { uploadId: string; of: Job }): ReactNode {
+  const words = useWords().plan.ct;
+  const [isThere, setThere] = useState(false);
+  // Asked again as the reading goes on, until it is there.
+  const round = isThere ? "kept" : String(Math.floor(of.progress_ratio / TRIES_EVERY_RATIO));
+  const [kept, setKept] = useState("");
+  const source = kept !== "" ? kept : `/api/ct/uploads/${uploadId}/preview.png?round=${round}`;
+  // Before anything is read there is surely none.
+  if (of.progress_ratio === 0) return null;
+  return (
+    <img
+      className="ct-preview"
+      src={source}
+      alt={words.previewAlt}
+      hidden={!isThere}
+      onLoad={() => {
+        setThere(true);
+        setKept(source);
+      }}
+    />
+  );
+}

@@ -1,0 +1,74 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import type { Job } from "../../../rest/useJob";
+import { useWords } from "../../../words/WordsContext";
+
+/** What is told of a series before it is read. */
+export interface Series {
+  series: string;
+  modality: string;
+  words: string;
+  number: number;
+  patient: number;
+  images: number;
+  size_wh_px: [number, number];
+  pixel_mm: [number, number];
+  thickness_mm: number;
+  kernel: string;
+  trouble: string;
+}
+
+/** The series that a job found in an upload; none where it read the CT. */
+export function seriesOf(job: Job): Series[] {
+  const result = job.result as { series?: Series[] } | null;
+  return Array.isArray(result?.series) ? result.series : [];
+}
+
+interface SeriesChoiceProps {
+  series: readonly Series[];
+  busy: boolean;
+  onChoose: (series: string) => void;
+}
+
+/** Several series were sent: what each is, and one to be chosen. */
+export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): ReactNode {
+  const words = useWords().plan.ct.series;
+  if (series.length === 0) return null;
+  const patients = new Set(series.map((one) => one.patient)).size;
+  return (
+    <section aria-label={words.title}>
+      <h3>{words.title}</h3>
+      <p>{words.hint}</p>
+      <ul className="series">
+        {series.map((one) => (
+          <li key={one.series} data-trouble={one.trouble !== "" || undefined}>
+            <div>
+              <strong>
+                {one.number > 0 && `${one.number} · `}
+                {one.words || words.unnamed} {one.modality}
+              </strong>
+              <p>
+                {one.images} {words.images} · {one.size_wh_px.join(" × ")} ·{" "}
+                {shownNumber(one.thickness_mm, 2)} mm {words.thick}
+                {one.kernel !== "" && ` · ${one.kernel}`}
+                {patients > 1 && ` · ${words.patient} ${one.patient}`}
+              </p>
+              {one.trouble !== "" && <p className="warning">{one.trouble}</p>}
+            </div>
+            <Button
+              size="lg"
+              variant={one.trouble === "" ? "filled" : "default"}
+              disabled={busy}
+              onClick={() => {
+                onChoose(one.series);
+              }}
+            >
+              {words.choose}
+            </Button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

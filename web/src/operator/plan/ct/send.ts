@@ -1,0 +1,44 @@
+// Sends a large file with its progress: fetch tells nothing of what went up, XMLHttpRequest does.
+import { Refusal, type Trouble } from "../../../rest/client";
+
+/**
+ * What the server answers to a POST of this body.
+ *
+ * @throws Refusal
+ * @throws DOMException - AbortError, after `stop`.
+ */
+export function sent<Answer>(
+  address: string,
+  body: Blob,
+  onSent: (ratio: number) => void,
+  stop: AbortSignal,
+): Promise<Answer> {
+  return new Promise((resolve, reject) => {
+    const request = new XMLHttpRequest();
+    const noAnswer = new Refusal({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+    request.open("POST", address);
+    request.setRequestHeader("Content-Type", "application/octet-stream");
+    request.upload.onprogress = (event) => {
+      if (event.lengthComputable) onSent(event.loaded / event.total);
+    };
+    request.onload = () => {
+      try {
+        const answer = JSON.parse(request.responseText) as unknown;
+        if (request.status < 300) resolve(answer as Answer);
+        else reject(new Refusal(answer as Trouble));
+      } catch {
+        reject(noAnswer);
+      }
+    };
+    request.onerror = () => {
+      reject(noAnswer);
+    };
+    request.onabort = () => {
+      reject(new DOMException("stopped", "AbortError"));
+    };
+    stop.addEventListener("abort", () => {
+      request.abort();
+    });
+    request.send(body);
+  });
+}

@@ -1,0 +1,94 @@
+// From files on the tablet to a job on the server: packed where there are several, sent, and stopped if wished.
+import { useRef, useState } from "react";
+import { Refusal } from "../../../rest/client";
+import type { Job } from "../../../rest/useJob";
+import { sent } from "./send";
+import { MOST_BYTES, MOST_FILES, zipped } from "./zip";
+
+export type Phase = "packing" | "sending" | "fetching";
+
+export interface Uploading {
+  phase: Phase | null;
+  ratio: number;
+  refusal: Refusal | null;
+  wasStopped: boolean;
+  /** Too much for one zip: what to do is said on the page. */
+  isTooMuch: boolean;
+}
+
+const IDLE: Uploading = { phase: null, ratio: 0, refusal: null, wasStopped: false, isTooMuch: false };
+
+export interface Upload extends Uploading {
+  send: (files: readonly File[]) => void;
+  /** Fetch a file from the server itself and send it, as a person would. */
+  sendFrom: (address: string) => void;
+  stop: () => void;
+}
+
+/** The job that reads what was sent; of a CT with the id by which a series is chosen. */
+export type Begun = Job & { upload_id?: string };
+
+export function useUpload(address: () => string, onTaken: (begun: Begun) => void): Upload {
+  const [state, setState] = useState<Uploading>(IDLE);
+  const stopping = useRef<AbortController | null>(null);
+
+  const run = async (body: (stop: AbortSignal) => Promise<Blob | null>): Promise<void> => {
+    if (stopping.current !== null) return;
+    const stop = new AbortController();
+    stopping.current = stop;
+    try {
+      const content = await body(stop.signal);
+      if (content === null) return;
+      setState({ ...IDLE, phase: "sending" });
+      const answer = await sent<Begun>(
+        address(),
+        content,
+        (ratio) => {
+          setState({ ...IDLE, phase: "sending", ratio });
+        },
+        stop.signal,
+      );
+      setState(IDLE);
+      onTaken(answer);
+    } catch (error) {
+      if (error instanceof Refusal) setState({ ...IDLE, refusal: error });
+      else if (stop.signal.aborted) setState({ ...IDLE, wasStopped: true });
+      else throw error;
+    } finally {
+      stopping.current = null;
+    }
+  };
+
+  const send = (files: readonly File[]): void => {
+    const [first] = files;
+    if (first === undefined) return;
+    if (files.length === 1) {
+      void run(() => Promise.resolve(first));
+      return;
+    }
+    const bytes = files.reduce((sum, file) => sum + file.size, 0);
+    if (files.length > MOST_FILES || bytes > MOST_BYTES) {
+      setState({ ...IDLE, isTooMuch: true });
+      return;
+    }
+    const named = files.map((file) => ({ name: file.webkitRelativePath || file.name, content: file }));
+    void run((stop) =>
+      zipped(
+        named,
+        (done) => {
+          if (done % 10 === 0) setState({ ...IDLE, phase: "packing", ratio: done / named.length });
+        },
+        stop,
+      ),
+    );
+  };
+  const sendFrom = (from: string): void => {
+    void run(async (stop) => {
+      setState({ ...IDLE, phase: "fetching" });
+      const answer = await fetch(from, { signal: stop });
+      if (!answer.ok) throw new Refusal((await answer.json()) as Refusal["trouble"]);
+      return answer.blob();
+    });
+  };
+  return { ...state, send, sendFrom, stop: () => stopping.current?.abort() };
+}

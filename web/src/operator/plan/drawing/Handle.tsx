@@ -1,0 +1,76 @@
+import { useDrag } from "@use-gesture/react";
+import { useRef, type KeyboardEvent, type ReactNode } from "react";
+import type { Projection } from "../slices/projection";
+import { plus, minus, type Vec3 } from "../slices/vectors";
+
+/** Under a glove. */
+const TOUCH_RADIUS_PX = 28;
+/** The knob stands beside its point, so that the finger does not hide it. */
+const KNOB_AWAY_PX = 46;
+const STEP_MM = 0.5;
+const KEYS = new Map<string, readonly [number, number]>([
+  ["ArrowLeft", [-1, 0]],
+  ["ArrowRight", [1, 0]],
+  ["ArrowUp", [0, -1]],
+  ["ArrowDown", [0, 1]],
+]);
+
+interface HandleProps {
+  projection: Projection;
+  point: Vec3;
+  /** Towards where the knob stands, in pixels; its length does not matter. */
+  towards: readonly [number, number];
+  label: string;
+  name: string;
+  onMove: (point: Vec3) => void;
+}
+
+/** A point that is dragged by a knob beside it: it moves as the finger does, from where it was. */
+export function Handle({ projection, point, towards, label, name, onMove }: HandleProps): ReactNode {
+  const knob = useRef<SVGGElement>(null);
+  const [x, y] = projection.at(point);
+  const length = Math.hypot(...towards) || 1;
+  const [kx, ky] = [x + (towards[0] / length) * KNOB_AWAY_PX, y + (towards[1] / length) * KNOB_AWAY_PX];
+  // What the point has off the slice it keeps: only what is seen of it moves.
+  const movedBy = (from: Vec3, dx: number, dy: number): Vec3 => {
+    const [fx, fy] = projection.at(from);
+    const shift = minus(projection.lpsAt([fx + dx, fy + dy]), projection.lpsAt([fx, fy]));
+    return plus(from, shift);
+  };
+  useDrag(
+    ({ movement: [dx, dy], memo, first, event }) => {
+      event.stopPropagation();
+      const from = first ? point : ((memo as Vec3 | undefined) ?? point);
+      if (dx !== 0 || dy !== 0) onMove(movedBy(from, dx, dy));
+      return from;
+    },
+    { target: knob, pointer: { keys: false, capture: true }, eventOptions: { passive: false } },
+  );
+  const onKeyDown = (event: KeyboardEvent): void => {
+    const step = KEYS.get(event.key);
+    if (step === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const px = STEP_MM * projection.pxPerMm;
+    onMove(movedBy(point, step[0] * px, step[1] * px));
+  };
+  return (
+    <g
+      ref={knob}
+      className="draw-handle"
+      data-handle={name}
+      data-testid={`handle-${name}`}
+      role="slider"
+      aria-label={label}
+      aria-valuetext={point.map((one) => one.toFixed(1)).join(", ")}
+      aria-valuenow={0}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+    >
+      <line x1={x} y1={y} x2={kx} y2={ky} />
+      <circle className="draw-handle-touch" cx={kx} cy={ky} r={TOUCH_RADIUS_PX} />
+      <circle className="draw-handle-knob" cx={kx} cy={ky} r={14} />
+      <circle className="draw-handle-point" cx={x} cy={y} r={4} />
+    </g>
+  );
+}

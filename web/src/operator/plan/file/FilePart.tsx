@@ -1,0 +1,73 @@
+import { Alert, Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, Refusal, server } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { FileButtons } from "../ct/FileButtons";
+import { usePlanning } from "../state/PlanContext";
+
+/** The plan out to a file, and in from one. */
+export function FilePart(): ReactNode {
+  const words = useWords().plan.file;
+  const { plan, change, busy, forget, refusal } = usePlanning();
+  const [content, setContent] = useState<{ name: string; text: string } | null>(null);
+  const isOfOtherCt = refusal?.trouble.code === "PLAN_OF_ANOTHER_CT";
+  const read = (text: string, forOtherCt: boolean): void => {
+    void change((by) => {
+      const query = { ...by, for_other_ct: forOtherCt };
+      return answered(
+        server.POST("/api/plan/import", {
+          params: { query },
+          body: text as never,
+          bodySerializer: (body: unknown) => body as string,
+          headers: { "Content-Type": "application/json" },
+        }),
+      );
+    });
+  };
+  return (
+    <>
+      <h3>{words.title}</h3>
+      <p>{words.hint}</p>
+      {plan === null ? (
+        <p className="soft">{words.none}</p>
+      ) : (
+        <Button size="xl" fullWidth component="a" href="/api/plan/export" download data-testid="export">
+          {words.out}
+        </Button>
+      )}
+      <FileButtons
+        words={{ file: words.in }}
+        accept=".json,application/json"
+        disabled={busy}
+        onFiles={(files) => {
+          const [file] = files;
+          if (file === undefined) return;
+          forget();
+          void file.text().then((text) => {
+            setContent({ name: file.name, text });
+            read(text, false);
+          });
+        }}
+      />
+      {plan !== null && <p className="soft">{words.replaces}</p>}
+      {isOfOtherCt && content !== null && (
+        <Alert className="consequence" title={words.otherCt}>
+          <p>{words.otherCtHint}</p>
+          <Button
+            size="lg"
+            mt="sm"
+            disabled={busy}
+            onClick={() => {
+              read(content.text, true);
+            }}
+          >
+            {words.takeAllTheSame}
+          </Button>
+        </Alert>
+      )}
+      {refusal instanceof Refusal && !isOfOtherCt && content !== null && (
+        <p className="soft">{content.name}</p>
+      )}
+    </>
+  );
+}

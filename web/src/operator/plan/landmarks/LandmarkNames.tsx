@@ -1,0 +1,65 @@
+import { Button, Modal, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+
+interface LandmarkNamesProps {
+  opened: boolean;
+  taken: readonly string[];
+  onClose: () => void;
+  onName: (name: string) => void;
+}
+
+/** A name for a landmark: one of the usual ones by a tap, or typed. */
+export function LandmarkNames({ opened, taken, onClose, onName }: LandmarkNamesProps): ReactNode {
+  const words = useWords().plan.landmarks;
+  const [typed, setTyped] = useState("");
+  const name = typed.trim();
+  return (
+    <Modal
+      opened={opened}
+      onClose={onClose}
+      title={words.which}
+      size="lg"
+      closeButtonProps={{ size: 48, "aria-label": words.close }}
+    >
+      <div className="landmark-names">
+        {Object.values(words.usual)
+          .filter((one) => !taken.includes(one))
+          .map((one) => (
+            <Button
+              key={one}
+              size="lg"
+              variant="default"
+              onClick={() => {
+                onName(one);
+              }}
+            >
+              {one}
+            </Button>
+          ))}
+      </div>
+      <form
+        className="landmark-typed"
+        onSubmit={(event) => {
+          event.preventDefault();
+          if (name === "" || taken.includes(name)) return;
+          setTyped("");
+          onName(name);
+        }}
+      >
+        <TextInput
+          size="lg"
+          label={words.other}
+          maxLength={60}
+          value={typed}
+          onChange={(event) => {
+            setTyped(event.currentTarget.value);
+          }}
+        />
+        <Button size="lg" type="submit" disabled={name === "" || taken.includes(name)}>
+          {words.take}
+        </Button>
+      </form>
+    </Modal>
+  );
+}

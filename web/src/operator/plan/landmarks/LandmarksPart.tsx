@@ -1,0 +1,110 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useAsked } from "../../../rest/useAsked";
+import { useWords } from "../../../words/WordsContext";
+import { VertebraChooser } from "../pedicle/VertebraChooser";
+import { CursorPad } from "../slices/CursorPad";
+import { useSlices } from "../slices/SlicesContext";
+import { usePlanning } from "../state/PlanContext";
+import type { Landmark } from "../state/shape";
+import { LandmarkNames } from "./LandmarkNames";
+import { RehearsedLandmarks } from "./RehearsedLandmarks";
+
+/** Points of the bone that are found again on the patient: set at the cross, named, listed. */
+export function LandmarksPart(): ReactNode {
+  const words = useWords().plan.landmarks;
+  const { vertebra, change, busy } = usePlanning();
+  const { look, goTo } = useSlices();
+  const catalogue = useAsked((signal) => answered(server.GET("/api/plan/catalogue", { signal }))).data;
+  const [isNaming, setNaming] = useState(false);
+  if (vertebra === null) return <p>{words.noVertebra}</p>;
+  const { name, landmarks } = vertebra;
+  const put = (next: readonly Landmark[]): void => {
+    const body = next.map((one) => ({ name: one.name, point_lps_mm: [...one.point_lps_mm] }));
+    void change((by) =>
+      answered(
+        server.PUT("/api/plan/vertebrae/{name}/landmarks", {
+          params: { path: { name } },
+          body: { ...by, landmarks: body },
+        }),
+      ),
+    );
+  };
+  const least = catalogue?.least_landmarks ?? null;
+  const isEnough = least !== null && landmarks.length >= least;
+  return (
+    <>
+      <VertebraChooser />
+      <p>{words.hint}</p>
+      <p className={isEnough ? "enough" : "warning"} data-testid="landmark-count">
+        {landmarks.length} {words.set}
+        {least !== null && ` · ${words.needed} ${least}`} · {words.better}
+      </p>
+      <CursorPad />
+      <Button
+        size="xl"
+        fullWidth
+        disabled={busy}
+        data-testid="set-landmark"
+        onClick={() => {
+          setNaming(true);
+        }}
+      >
+        {words.setHere}
+      </Button>
+      <LandmarkNames
+        opened={isNaming}
+        taken={landmarks.map((one) => one.name)}
+        onClose={() => {
+          setNaming(false);
+        }}
+        onName={(named) => {
+          setNaming(false);
+          put([...landmarks, { name: named, point_lps_mm: look.cursor }]);
+        }}
+      />
+      <ol className="landmarks">
+        {landmarks.map((one) => (
+          <li key={one.name}>
+            <button
+              type="button"
+              className="landmark-name"
+              aria-label={`${words.show}: ${one.name}`}
+              onClick={() => {
+                goTo(one.point_lps_mm);
+              }}
+            >
+              {one.name}
+            </button>
+            <button
+              type="button"
+              disabled={busy}
+              aria-label={`${words.moveHere}: ${one.name}`}
+              title={words.moveHere}
+              onClick={() => {
+                put(
+                  landmarks.map((other) => (other === one ? { ...one, point_lps_mm: look.cursor } : other)),
+                );
+              }}
+            >
+              ⌖
+            </button>
+            <button
+              type="button"
+              disabled={busy}
+              aria-label={`${words.remove}: ${one.name}`}
+              title={words.remove}
+              onClick={() => {
+                put(landmarks.filter((other) => other !== one));
+              }}
+            >
+              ✕
+            </button>
+          </li>
+        ))}
+      </ol>
+      <RehearsedLandmarks busy={busy} onTake={put} />
+    </>
+  );
+}

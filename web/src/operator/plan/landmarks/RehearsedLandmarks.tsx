@@ -1,0 +1,46 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { useAsked } from "../../../rest/useAsked";
+import { useDo } from "../../../rest/useDo";
+import { useWords } from "../../../words/WordsContext";
+import { vec3 } from "../slices/vectors";
+import type { Landmark } from "../state/shape";
+
+/** In a rehearsal: the landmarks that its drill will touch, so that the registration can be practised. */
+export function RehearsedLandmarks({
+  busy,
+  onTake,
+}: {
+  busy: boolean;
+  onTake: (landmarks: Landmark[]) => void;
+}): ReactNode {
+  const words = useWords().plan.landmarks;
+  const rehearsal = useAsked((signal) => answered(server.GET("/api/rehearsal", { signal })));
+  const asking = useDo();
+  if (rehearsal.data === null) return null;
+  const take = (): void => {
+    void asking.run(async () => {
+      const told = await answered(server.GET("/api/rehearsal", { params: { query: { truth: true } } }));
+      if (told.truth === null) return;
+      const all = [...told.truth.landmarks, told.truth.check_landmark];
+      onTake(all.map((one) => ({ name: one.name, point_lps_mm: vec3(one.point_lps_mm) ?? [0, 0, 0] })));
+    });
+  };
+  return (
+    <div className="rehearsal-offer">
+      <p>{words.rehearsal}</p>
+      <Button
+        size="lg"
+        variant="default"
+        disabled={busy || asking.busy}
+        data-testid="rehearsed-landmarks"
+        onClick={take}
+      >
+        {words.takeRehearsed}
+      </Button>
+      <RefusalNote refusal={asking.refusal} />
+    </div>
+  );
+}

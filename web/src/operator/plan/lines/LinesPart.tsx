@@ -1,0 +1,94 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { answered, server } from "../../../rest/client";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { useDo } from "../../../rest/useDo";
+import { useWords } from "../../../words/WordsContext";
+import { VertebraChooser } from "../pedicle/VertebraChooser";
+import { CursorPad } from "../slices/CursorPad";
+import { useSlices } from "../slices/SlicesContext";
+import { vec3 } from "../slices/vectors";
+import { sliceIndexAt } from "../slices/voxels";
+import { usePlanning } from "../state/PlanContext";
+import { useWork } from "../state/WorkContext";
+import { Stepper } from "../Stepper";
+
+const STEP_MM = 0.5;
+
+/** The slice that stands for a vertebra, and the three lines by which needles are registered. */
+export function LinesPart(): ReactNode {
+  const words = useWords().plan.lines;
+  const { plan, vertebra, change, busy } = usePlanning();
+  const { ct, look, goTo, setPlane } = useSlices();
+  const { apartMm, setApartMm } = useWork();
+  const asking = useDo();
+  if (vertebra === null) return <p>{words.noVertebra}</p>;
+  const { name } = vertebra;
+  const reference = vertebra.references[0] ?? null;
+  const showProposal = (): void => {
+    void asking.run(async () => {
+      const query = { vertebra: name };
+      const proposed = await answered(server.GET("/api/plan/proposals/slice", { params: { query } }));
+      const middle = vec3(proposed.middle_lps_mm) ?? look.cursor;
+      setPlane("axial");
+      goTo([middle[0], middle[1], proposed.at_mm]);
+    });
+  };
+  const lay = (): void => {
+    const body = {
+      slice_index: sliceIndexAt(ct, look.cursor),
+      middle_lps_mm: [...look.cursor],
+      apart_mm: apartMm,
+    };
+    void change((by) =>
+      answered(
+        server.PUT("/api/plan/vertebrae/{name}/reference", {
+          params: { path: { name } },
+          body: { ...by, ...body },
+        }),
+      ),
+    );
+  };
+  return (
+    <>
+      <VertebraChooser />
+      <p>{words.hint}</p>
+      <Button
+        size="lg"
+        variant="default"
+        fullWidth
+        disabled={asking.busy}
+        data-testid="propose-slice"
+        onClick={showProposal}
+      >
+        {words.propose}
+      </Button>
+      <RefusalNote refusal={asking.refusal} />
+      <CursorPad />
+      <Stepper
+        name="apart"
+        label={words.apart}
+        value={`${shownNumber(apartMm, 1)} mm`}
+        onStep={(direction) => {
+          setApartMm(Math.min(100, Math.max(1, apartMm + direction * STEP_MM)));
+        }}
+      />
+      <Button size="xl" fullWidth disabled={busy} data-testid="lay-lines" onClick={lay}>
+        {reference === null ? words.lay : words.layAnew}
+      </Button>
+      {reference !== null && (
+        <figure className="reference">
+          <img
+            src={`/api/plan/vertebrae/${encodeURIComponent(name)}/reference.png?version=${plan?.heading.version ?? 0}`}
+            alt={words.alt}
+            data-testid="reference"
+          />
+          <figcaption>
+            {words.slice} {reference.slice_index} · {shownNumber(reference.apart_mm, 1)} mm {words.toSides}
+          </figcaption>
+        </figure>
+      )}
+    </>
+  );
+}

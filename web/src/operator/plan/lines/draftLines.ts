@@ -1,0 +1,34 @@
+// The three lines before they are laid, as the server will lay them: vertical on the slice, a distance apart.
+import type { SliceLine } from "../state/shape";
+import type { Vec3 } from "../slices/vectors";
+
+const AHEAD_MM = 50;
+const BEHIND_MM = 60;
+
+/** Middle, left and right (of the patient) through a point of an axial slice. */
+export function draftLines(middle: Vec3, apartMm: number): SliceLine[] {
+  const [x, y, z] = middle;
+  const shifts = { middle: 0, left: apartMm, right: -apartMm };
+  return Object.entries(shifts).map(([name, shift]) => ({
+    name,
+    ends_lps_mm: [
+      [x + shift, y - AHEAD_MM, z],
+      [x + shift, y + BEHIND_MM, z],
+    ],
+  }));
+}
+
+const SAME_MM = 0.05;
+
+/** Whether lines that were laid lie where these would. */
+export function areSame(lines: readonly SliceLine[], laid: readonly SliceLine[]): boolean {
+  return lines.every((line) => {
+    const other = laid.find((one) => one.name === line.name);
+    return line.ends_lps_mm.every((end, i) =>
+      end.every((value, axis) => {
+        const there = other?.ends_lps_mm[i as 0 | 1][axis as 0 | 1 | 2];
+        return there !== undefined && Math.abs(there - value) < SAME_MM;
+      }),
+    );
+  });
+}

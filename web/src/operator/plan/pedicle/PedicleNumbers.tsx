@@ -1,0 +1,132 @@
+import { Alert, Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { answered, server } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { useSlices } from "../slices/SlicesContext";
+import { usePlanning } from "../state/PlanContext";
+import { NUMBERS, type NumberName, type Numbers, type PedicleRecord } from "../state/shape";
+import { Stepper } from "../Stepper";
+
+const STEP: Numbers = { width_mm: 0.5, height_mm: 0.5, transverse_deg: 1, sagittal_deg: 1, length_mm: 1 };
+const unitOf = (name: NumberName): string => (name.endsWith("_deg") ? "°" : "mm");
+
+/** What was measured, how sure it is, what to know of it; and other numbers in its place, by hand. */
+export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; vertebra: string }): ReactNode {
+  const words = useWords().plan.pedicle;
+  const { change, busy } = usePlanning();
+  const { goTo } = useSlices();
+  const { measured, corrected } = record;
+  const [draft, setDraft] = useState<Partial<Numbers> | null>(null);
+  const path = { name: vertebra, side: measured.side };
+  const keep = (numbers: Partial<Numbers>): void => {
+    void change((by) =>
+      answered(
+        server.PUT("/api/plan/vertebrae/{name}/pedicles/{side}/corrections", {
+          params: { path },
+          body: { ...by, corrected: numbers },
+        }),
+      ),
+    );
+  };
+  const now = draft ?? corrected;
+  const isCorrected = Object.keys(corrected).length > 0;
+  return (
+    <section className="pedicle-numbers" aria-label={words.numbers}>
+      {draft === null ? (
+        <dl className="figures" data-testid="pedicle-numbers">
+          {NUMBERS.map((name) => (
+            <div key={name} className="figure">
+              <dt>{words.number[name]}</dt>
+              <dd>
+                {shownNumber(corrected[name] ?? measured[name], 1)} {unitOf(name)}
+                <span className="soft">
+                  {corrected[name] === undefined
+                    ? ` ± ${shownNumber(measured.sd[name], 1)}`
+                    : ` ${words.byHand} (${shownNumber(measured[name], 1)})`}
+                </span>
+              </dd>
+            </div>
+          ))}
+        </dl>
+      ) : (
+        NUMBERS.map((name) => (
+          <Stepper
+            key={name}
+            name={name}
+            label={words.number[name]}
+            value={`${shownNumber(now[name] ?? measured[name], 1)} ${unitOf(name)}`}
+            onStep={(direction) => {
+              const value = (now[name] ?? measured[name]) + direction * STEP[name];
+              setDraft({ ...now, [name]: Math.round(value * 10) / 10 });
+            }}
+          />
+        ))
+      )}
+      {measured.warnings.map((warning) => (
+        <Alert key={warning} className="consequence" title={sentence(warning)} />
+      ))}
+      <div className="buttons">
+        <Button
+          size="lg"
+          variant="default"
+          onClick={() => {
+            goTo(measured.isthmus_lps_mm);
+          }}
+        >
+          {words.show}
+        </Button>
+        {draft === null ? (
+          <Button
+            size="lg"
+            variant="default"
+            data-testid="correct"
+            onClick={() => {
+              setDraft({ ...corrected });
+            }}
+          >
+            {words.correct}
+          </Button>
+        ) : (
+          <>
+            <Button
+              size="lg"
+              disabled={busy}
+              data-testid="keep-corrections"
+              onClick={() => {
+                keep(draft);
+              }}
+            >
+              {words.keep}
+            </Button>
+            <Button
+              size="lg"
+              variant="default"
+              onClick={() => {
+                setDraft(null);
+              }}
+            >
+              {words.discard}
+            </Button>
+          </>
+        )}
+        {isCorrected && draft === null && (
+          <Button
+            size="lg"
+            variant="default"
+            disabled={busy}
+            onClick={() => {
+              keep({});
+            }}
+          >
+            {words.asMeasured}
+          </Button>
+        )}
+      </div>
+    </section>
+  );
+}
+
+function sentence(text: string): string {
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
+}

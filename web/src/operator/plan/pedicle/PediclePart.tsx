@@ -1,0 +1,104 @@
+import { Button } from "@mantine/core";
+import { useRef, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { JobProgress } from "../../../rest/JobProgress";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { useDo } from "../../../rest/useDo";
+import { isOver, useJob } from "../../../rest/useJob";
+import { useWords } from "../../../words/WordsContext";
+import { CursorPad } from "../slices/CursorPad";
+import { useSlices } from "../slices/SlicesContext";
+import { vec3 } from "../slices/vectors";
+import { usePlanning } from "../state/PlanContext";
+import { recordOf } from "../state/shape";
+import { useWork } from "../state/WorkContext";
+import { PedicleNumbers } from "./PedicleNumbers";
+import { SideChooser } from "./SideChooser";
+import { VertebraChooser } from "./VertebraChooser";
+
+/** A level is named, its pedicle tapped on, adjusted, measured. */
+export function PediclePart(): ReactNode {
+  const words = useWords().plan.pedicle;
+  const { plan, vertebra, side, by, change, changedTo, busy } = usePlanning();
+  const { look, goTo } = useSlices();
+  const { setPart } = useWork();
+  const asking = useDo();
+  const documentBefore = useRef<string | null>(null);
+  const job = useJob((ended) => {
+    const made = (ended.result as { version?: number } | null)?.version;
+    if (ended.state === "done" && made !== undefined) changedTo(made, documentBefore.current);
+  });
+  if (vertebra === null) {
+    return (
+      <>
+        <h3>{words.title}</h3>
+        <p>{words.noVertebra}</p>
+        <VertebraChooser />
+      </>
+    );
+  }
+  const { name } = vertebra;
+  const record = recordOf(vertebra, side);
+  const isMeasuring = asking.busy || (job.job !== null && !isOver(job.job));
+  const measure = (): void => {
+    documentBefore.current = plan?.heading.id ?? null;
+    void asking.run(async () => {
+      const body = { ...by, seed_lps_mm: [...look.cursor] };
+      job.follow(
+        await answered(
+          server.POST("/api/plan/vertebrae/{name}/pedicles/{side}", {
+            params: { path: { name, side } },
+            body,
+          }),
+        ),
+      );
+    });
+  };
+  const layChannel = (): void => {
+    const path = { name, side };
+    void change((on) =>
+      answered(server.PUT("/api/plan/vertebrae/{name}/channels/{side}", { params: { path }, body: on })),
+    ).then((made) => {
+      if (made) setPart("channel");
+    });
+  };
+  const doubtfulAt = vec3(job.job?.trouble?.context["isthmus_lps_mm"]);
+  return (
+    <>
+      <VertebraChooser />
+      <SideChooser />
+      <p>{words.tap[side]}</p>
+      <CursorPad />
+      <Button size="xl" fullWidth disabled={isMeasuring || busy} data-testid="measure" onClick={measure}>
+        {record === null ? words.measure[side] : words.again[side]}
+      </Button>
+      <RefusalNote refusal={asking.refusal} />
+      <JobProgress followed={job} />
+      {doubtfulAt !== null && (
+        <Button
+          size="lg"
+          variant="default"
+          onClick={() => {
+            goTo(doubtfulAt);
+          }}
+        >
+          {words.showDoubtful}
+        </Button>
+      )}
+      {record !== null && (
+        <>
+          <PedicleNumbers
+            key={`${name} ${side} ${plan?.heading.version ?? 0}`}
+            record={record}
+            vertebra={name}
+          />
+          {!vertebra.channels.some((one) => one.side === side) && (
+            <Button size="xl" fullWidth disabled={busy} data-testid="lay-channel" onClick={layChannel}>
+              {words.layChannel}
+            </Button>
+          )}
+        </>
+      )}
+    </>
+  );
+}

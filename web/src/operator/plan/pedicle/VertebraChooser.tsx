@@ -1,0 +1,82 @@
+import { Button, Modal } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../../rest/client";
+import { useWords } from "../../../words/WordsContext";
+import { usePlanning } from "../state/PlanContext";
+
+const range = (letter: string, last: number): string[] =>
+  Array.from({ length: last }, (_, i) => `${letter}${i + 1}`);
+const LEVELS = [range("C", 7), range("T", 12), range("L", 5), ["S1"]];
+
+/** Which vertebra is planned, and one more by a tap on its level. */
+export function VertebraChooser(): ReactNode {
+  const words = useWords().plan.vertebra;
+  const { vertebrae, vertebra, setVertebra, change, busy } = usePlanning();
+  const [isAdding, setAdding] = useState(false);
+  const add = (name: string): void => {
+    setAdding(false);
+    void change((by) => answered(server.POST("/api/plan/vertebrae", { body: { ...by, name } }))).then(
+      (made) => {
+        if (made) setVertebra(name);
+      },
+    );
+  };
+  return (
+    <div className="vertebrae" role="group" aria-label={words.title}>
+      {vertebrae.map((one) => (
+        <button
+          key={one.name}
+          type="button"
+          className="chip"
+          aria-pressed={one === vertebra}
+          data-testid={`vertebra-${one.name}`}
+          onClick={() => {
+            setVertebra(one.name);
+          }}
+        >
+          {one.name}
+        </button>
+      ))}
+      <button
+        type="button"
+        className="chip chip-add"
+        disabled={busy}
+        data-testid="add-vertebra"
+        onClick={() => {
+          setAdding(true);
+        }}
+      >
+        + {words.add}
+      </button>
+      <Modal
+        opened={isAdding}
+        onClose={() => {
+          setAdding(false);
+        }}
+        title={words.which}
+        size="lg"
+        closeButtonProps={{ size: 48, "aria-label": words.close }}
+      >
+        {LEVELS.map((levels) => (
+          <div key={levels[0]} className="levels">
+            {levels.map((name) => (
+              <Button
+                key={name}
+                size="lg"
+                variant="default"
+                px={0}
+                disabled={vertebrae.some((one) => one.name === name)}
+                data-testid={`level-${name}`}
+                onClick={() => {
+                  add(name);
+                }}
+              >
+                {name}
+              </Button>
+            ))}
+          </div>
+        ))}
+      </Modal>
+    </div>
+  );
+}

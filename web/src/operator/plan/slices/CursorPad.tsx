@@ -1,0 +1,36 @@
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { useWords } from "../../../words/WordsContext";
+import { ArrowPad } from "./ArrowPad";
+import { downOf, rightOf } from "./place";
+import { useSlices } from "./SlicesContext";
+import { plus, times } from "./vectors";
+
+const STEP_MM = 0.5;
+
+/** The cross moved by half a millimetre on the large slice: what a glove covers is set with these. */
+export function CursorPad(): ReactNode {
+  const words = useWords().plan.cross;
+  const { look, goTo, largePlace } = useSlices();
+  const move = (right: number, down: number): void => {
+    const place = largePlace();
+    if (place === null) return;
+    const shift = plus(times(rightOf(place), right * STEP_MM), times(downOf(place), down * STEP_MM));
+    goTo(plus(look.cursor, shift));
+  };
+  return (
+    <div className="cursor-pad">
+      <ArrowPad name="cross" label={words.title} onMove={move} />
+      <p data-testid="cursor">
+        {words.at}
+        <br />
+        {words.axes.map((axis, i) => (
+          <span key={axis} className="coordinate">
+            {axis} {shownNumber(look.cursor[i as 0 | 1 | 2], 1)}
+          </span>
+        ))}
+        <span className="soft">{words.step}</span>
+      </p>
+    </div>
+  );
+}

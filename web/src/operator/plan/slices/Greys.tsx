@@ -1,0 +1,62 @@
+import { Button, Slider } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { useSlices } from "./SlicesContext";
+
+/** Which Hounsfield units are black and which white: by name, or by two sliders. */
+export function Greys(): ReactNode {
+  const words = useWords().plan.slices;
+  const { ct, look, setGreys } = useSlices();
+  const { window_hu, level_hu } = look.greys;
+  return (
+    <div className="greys">
+      <div className="greys-presets">
+        {Object.entries(ct.presets).map(([name, one]) => (
+          <Button
+            key={name}
+            size="lg"
+            variant={one.window_hu === window_hu && one.level_hu === level_hu ? "filled" : "default"}
+            aria-pressed={one.window_hu === window_hu && one.level_hu === level_hu}
+            onClick={() => {
+              setGreys(one);
+            }}
+          >
+            {name in words.preset ? words.preset[name as keyof typeof words.preset] : name}
+          </Button>
+        ))}
+      </div>
+      <p id="greys-window">
+        {words.window}: {window_hu} HU
+      </p>
+      <Slider
+        size="xl"
+        thumbSize={40}
+        min={50}
+        max={6000}
+        step={10}
+        label={null}
+        value={window_hu}
+        thumbProps={{ "aria-labelledby": "greys-window" }}
+        onChange={(value) => {
+          setGreys({ window_hu: value, level_hu });
+        }}
+      />
+      <p id="greys-level">
+        {words.level}: {level_hu} HU
+      </p>
+      <Slider
+        size="xl"
+        thumbSize={40}
+        min={-1000}
+        max={3000}
+        step={10}
+        label={null}
+        value={level_hu}
+        thumbProps={{ "aria-labelledby": "greys-level" }}
+        onChange={(value) => {
+          setGreys({ window_hu, level_hu: value });
+        }}
+      />
+    </div>
+  );
+}

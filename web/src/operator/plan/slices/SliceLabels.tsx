@@ -1,0 +1,44 @@
+import type { ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { useWords } from "../../../words/WordsContext";
+import { isFlat, type PlaneName } from "./address";
+import type { Projection } from "./projection";
+import { rulerMm } from "./zoom";
+
+interface SliceLabelsProps {
+  plane: PlaneName;
+  projection: Projection;
+  /** Under which the shown picture was asked for. */
+  address: string;
+  isLate: boolean;
+  isLarge: boolean;
+}
+
+/** Which side of the patient lies where, how long a millimetre is, and where the shown slice lies. */
+export function SliceLabels({ plane, projection, address, isLate, isLarge }: SliceLabelsProps): ReactNode {
+  const words = useWords().plan.slices;
+  const { edges, at_mm } = projection.place;
+  const asked = new URL(address, location.origin).searchParams;
+  const ruler = rulerMm(projection.pxPerMm, isLarge ? 140 : 70);
+  const where = isFlat(plane)
+    ? `${words.axis[plane]} ${shownNumber(at_mm, 1)} mm`
+    : plane === "along"
+      ? `${words.turned} ${asked.get("turn_deg") ?? ""}°`
+      : `${words.deep} ${shownNumber(Number(asked.get("depth_mm")), 1)} mm`;
+  return (
+    <>
+      <span className="slice-edge slice-edge-left">{edges.left}</span>
+      <span className="slice-edge slice-edge-right">{edges.right}</span>
+      <span className="slice-edge slice-edge-top">{edges.top}</span>
+      <span className="slice-edge slice-edge-bottom">{edges.bottom}</span>
+      <p className="slice-where" data-testid={`where-${plane}`}>
+        <strong>{words.plane[plane]}</strong> {where}
+        {isLate && <span className="slice-late"> · {words.late}</span>}
+      </p>
+      <p className="slice-ruler">
+        <span style={{ width: `${ruler * projection.pxPerMm}px` }} />
+        {ruler} mm
+      </p>
+    </>
+  );
+}

@@ -1,0 +1,66 @@
+import { Button, Popover, SegmentedControl } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../../../words/WordsContext";
+import { Greys } from "./Greys";
+import { useSlices, type Hand } from "./SlicesContext";
+
+const HANDS: readonly Hand[] = ["scroll", "greys", "move"];
+
+/** What one finger does, one slice on or back, the greys, and the whole picture. */
+export function SliceTools(): ReactNode {
+  const words = useWords().plan.slices;
+  const { plane, hand, setHand, scroll, setZoom } = useSlices();
+  return (
+    <div className="slice-tools" role="toolbar" aria-label={words.tools}>
+      <Button
+        size="lg"
+        variant="default"
+        aria-label={words.back}
+        data-testid="slice-back"
+        onClick={() => {
+          scroll(plane, -1);
+        }}
+      >
+        −
+      </Button>
+      <Button
+        size="lg"
+        variant="default"
+        aria-label={words.on}
+        data-testid="slice-on"
+        onClick={() => {
+          scroll(plane, 1);
+        }}
+      >
+        +
+      </Button>
+      <SegmentedControl
+        size="md"
+        value={hand}
+        aria-label={words.finger}
+        data={HANDS.map((one) => ({ value: one, label: words.hand[one] }))}
+        onChange={setHand}
+      />
+      <Popover position="top" width={360} withArrow>
+        <Popover.Target>
+          <Button size="lg" variant="default" data-testid="greys">
+            {words.greys}
+          </Button>
+        </Popover.Target>
+        <Popover.Dropdown>
+          <Greys />
+        </Popover.Dropdown>
+      </Popover>
+      <Button
+        size="lg"
+        variant="default"
+        data-testid="whole"
+        onClick={() => {
+          setZoom(plane, null);
+        }}
+      >
+        {words.whole}
+      </Button>
+    </div>
+  );
+}

@@ -1,0 +1,190 @@
+import { Button } from "@mantine/core";
+import { useElementSize, useMergedRef } from "@mantine/hooks";
+import {
+  useEffect,
+  useLayoutEffect,
+  useRef,
+  type KeyboardEvent,
+  type ReactNode,
+  type RefObject,
+} from "react";
+import { Refusal } from "../../../rest/client";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { useWords } from "../../../words/WordsContext";
+import { addressOf, neighboursOf, type PlaneName } from "./address";
+import { SliceLabels } from "./SliceLabels";
+import { frameOf, planeFromLps, type Vec2 } from "./place";
+import { projectionOf, type Projection } from "./projection";
+import { useSlices } from "./SlicesContext";
+import { useSlice } from "./useSlice";
+import { useSliceGestures } from "./useSliceGestures";
+import { showing, whole, zoomedAt, type Stage, type Zoom } from "./zoom";
+
+interface SliceViewProps {
+  plane: PlaneName;
+  isLarge: boolean;
+  /** What is drawn over it, in pixels of the stage. */
+  drawing: (projection: Projection) => ReactNode;
+}
+
+const KEY_STEPS = new Map([
+  ["ArrowUp", -1],
+  ["ArrowDown", 1],
+  ["PageUp", -5],
+  ["PageDown", 5],
+]);
+
+/** One slice, scrolled, zoomed and tapped on; what is printed on it is its own place, not the asked one. */
+export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNode {
+  const words = useWords().plan.slices;
+  const slices = useSlices();
+  const { ct, look, zooms, setZoom, goTo, scroll, setGreys } = slices;
+  const address = addressOf(plane, look, ct);
+  const { wanted, shown, trouble, again } = useSlice(address, neighboursOf(plane, look, ct, isLarge ? 2 : 0));
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const stage = useRef<HTMLDivElement>(null);
+  const { ref, width, height } = useElementSize<HTMLDivElement>();
+  const merged = useMergedRef(ref, stage);
+
+  const size: Stage = { width, height };
+  const place = shown?.slice.place ?? null;
+  const frame = place === null ? null : frameOf(place);
+  const isReady = frame !== null && width > 0 && height > 0;
+  const fit = isReady ? whole(frame, size) : null;
+  const zoom = isLarge && isReady ? (zooms[plane] ?? fit) : fit;
+  const crossAt = place === null ? null : planeFromLps(place, look.cursor);
+  const projection = place === null || zoom === null ? null : projectionOf(place, zoom, size);
+
+  useFollowedCross(plane, isLarge, zoom, size, crossAt, look.cursor, setZoom);
+  usePaintedSlice(canvas, shown?.slice.pixels ?? null, zoom, frame, size);
+  useSliceGestures({
+    stage,
+    size,
+    frame,
+    zoom,
+    hand: isLarge ? slices.hand : "scroll",
+    greys: look.greys,
+    onTap: (at: Vec2) => {
+      if (projection !== null) goTo(projection.lpsAt(at));
+    },
+    onScroll: (steps) => {
+      scroll(plane, steps);
+    },
+    onZoom: (next) => {
+      if (isLarge) setZoom(plane, next);
+    },
+    onGreys: setGreys,
+  });
+
+  const { tellLargePlace } = slices;
+  useEffect(() => {
+    if (isLarge) tellLargePlace(place);
+  }, [isLarge, place, tellLargePlace]);
+
+  const onKeyDown = (event: KeyboardEvent): void => {
+    const steps = KEY_STEPS.get(event.key);
+    const factor = event.key === "+" ? 1.25 : event.key === "-" ? 0.8 : null;
+    if (steps !== undefined && !event.shiftKey) scroll(plane, steps);
+    else if (factor !== null && zoom !== null && frame !== null) {
+      setZoom(plane, zoomedAt(zoom, size, frame, [width / 2, height / 2], factor));
+    } else return;
+    event.preventDefault();
+  };
+
+  const isLate = shown !== null && shown.key !== wanted;
+  return (
+    <div
+      className="slice-stage"
+      data-plane={plane}
+      data-late={isLate || undefined}
+      data-testid={`slice-${plane}`}
+      ref={merged}
+      role="application"
+      aria-label={words.viewLabel[plane]}
+      aria-roledescription={words.viewRole}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+    >
+      <canvas ref={canvas} aria-hidden="true" />
+      {projection !== null && (
+        <svg width={width} height={height} aria-hidden="true">
+          {drawing(projection)}
+        </svg>
+      )}
+      {projection !== null && shown !== null && (
+        <SliceLabels
+          plane={plane}
+          projection={projection}
+          address={shown.key}
+          isLate={isLate}
+          isLarge={isLarge}
+        />
+      )}
+      {trouble instanceof Refusal && (
+        <div className="slice-trouble">
+          <RefusalNote refusal={trouble} />
+          <Button size="lg" onClick={again}>
+            {words.again}
+          </Button>
+        </div>
+      )}
+      {shown === null && trouble === null && <p className="slice-waiting">{words.waiting}</p>}
+    </div>
+  );
+}
+
+/** Where the cross went out of sight, the picture follows it; where somebody moves the picture, it stays. */
+function useFollowedCross(
+  plane: PlaneName,
+  isLarge: boolean,
+  zoom: Zoom | null,
+  size: Stage,
+  crossAt: Vec2 | null,
+  cursor: readonly number[],
+  setZoom: (plane: PlaneName, zoom: Zoom) => void,
+): void {
+  const followed = useRef("");
+  useEffect(() => {
+    const key = `${plane} ${cursor.join(" ")}`;
+    if (!isLarge || zoom === null || crossAt === null || followed.current === key) return;
+    followed.current = key;
+    const next = showing(zoom, size, crossAt, 0.06);
+    if (next !== zoom) setZoom(plane, next);
+  });
+}
+
+/** Draws in the same turn in which the labels change, so that both are always of one slice. */
+function usePaintedSlice(
+  canvas: RefObject<HTMLCanvasElement | null>,
+  pixels: ImageBitmap | null,
+  zoom: Zoom | null,
+  frame: ReturnType<typeof frameOf> | null,
+  size: Stage,
+): void {
+  useLayoutEffect(() => {
+    if (canvas.current !== null) paint(canvas.current, pixels, zoom, frame, size);
+  });
+}
+
+function paint(
+  canvas: HTMLCanvasElement,
+  pixels: ImageBitmap | null,
+  zoom: Zoom | null,
+  frame: ReturnType<typeof frameOf> | null,
+  size: Stage,
+): void {
+  const ratio = window.devicePixelRatio;
+  canvas.width = Math.round(size.width * ratio);
+  canvas.height = Math.round(size.height * ratio);
+  if (pixels === null || zoom === null || frame === null) return;
+  const k = zoom.pxPerMm * ratio;
+  canvas
+    .getContext("2d")
+    ?.drawImage(
+      pixels,
+      canvas.width / 2 + (frame.x - zoom.centre[0]) * k,
+      canvas.height / 2 + (frame.y - zoom.centre[1]) * k,
+      frame.width * k,
+      frame.height * k,
+    );
+}

@@ -1,0 +1,123 @@
+// What all views of the CT share: the cross, the greys, the plane that is shown large.
+import { createContext, use, useCallback, useMemo, useRef, useState, type ReactNode } from "react";
+import {
+  depthOf,
+  FLAT,
+  reachOf,
+  scrolled,
+  type Ct,
+  type Greys,
+  type Look,
+  type PlaneName,
+  type Way,
+} from "./address";
+import type { Place } from "./place";
+import type { Vec3 } from "./vectors";
+import type { Zoom } from "./zoom";
+
+export type Hand = "scroll" | "greys" | "move";
+
+interface SlicesValue {
+  ct: Ct;
+  look: Look;
+  /** The plane that is shown large. */
+  plane: PlaneName;
+  hand: Hand;
+  zooms: Partial<Record<PlaneName, Zoom | null>>;
+  setPlane: (plane: PlaneName) => void;
+  setHand: (hand: Hand) => void;
+  setZoom: (plane: PlaneName, zoom: Zoom | null) => void;
+  /** Put the cross there: all planes go through it. */
+  goTo: (point: Vec3) => void;
+  scroll: (plane: PlaneName, steps: number) => void;
+  setGreys: (greys: Greys) => void;
+  setWay: (way: Way | null) => void;
+  /** Where the large picture lies that stands there now; told by it, read when somebody touches something. */
+  largePlace: () => Place | null;
+  tellLargePlace: (place: Place | null) => void;
+}
+
+const SlicesContext = createContext<SlicesValue | null>(null);
+
+const BONE: Greys = { window_hu: 1800, level_hu: 400 };
+
+export function SlicesProvider({ ct, children }: { ct: Ct; children: ReactNode }): ReactNode {
+  const [look, setLook] = useState<Look>(() => ({
+    cursor: middleOf(ct),
+    greys: ct.presets["bone"] ?? BONE,
+    way: null,
+    turnDeg: 0,
+    depthMm: 0,
+  }));
+  const [plane, setPlane] = useState<PlaneName>("axial");
+  const [hand, setHand] = useState<Hand>("scroll");
+  const [zooms, setZooms] = useState<Partial<Record<PlaneName, Zoom | null>>>({});
+
+  const setZoom = useCallback((of: PlaneName, zoom: Zoom | null) => {
+    setZooms((before) => ({ ...before, [of]: zoom }));
+  }, []);
+  const goTo = useCallback((point: Vec3) => {
+    setLook((before) => ({
+      ...before,
+      cursor: point,
+      depthMm: before.way === null ? before.depthMm : depthOf(before.way, point),
+    }));
+  }, []);
+  const scroll = useCallback(
+    (of: PlaneName, steps: number) => {
+      setLook((before) => scrolled(of, before, ct, steps));
+    },
+    [ct],
+  );
+  const setGreys = useCallback((greys: Greys) => {
+    setLook((before) => ({ ...before, greys }));
+  }, []);
+  const setWay = useCallback((way: Way | null) => {
+    setLook((before) => ({ ...before, way }));
+  }, []);
+
+  const large = useRef<Place | null>(null);
+  const largePlace = useCallback(() => large.current, []);
+  const tellLargePlace = useCallback((place: Place | null) => {
+    large.current = place;
+  }, []);
+
+  const isOblique = plane === "along" || plane === "across";
+  const shownPlane = isOblique && look.way === null ? "axial" : plane;
+  const value = useMemo(
+    () => ({
+      ct,
+      look,
+      plane: shownPlane,
+      hand,
+      zooms,
+      setPlane,
+      setHand,
+      setZoom,
+      goTo,
+      scroll,
+      setGreys,
+      setWay,
+      largePlace,
+      tellLargePlace,
+    }),
+    [ct, look, shownPlane, hand, zooms, setZoom, goTo, scroll, setGreys, setWay, largePlace, tellLargePlace],
+  );
+  return <SlicesContext value={value}>{children}</SlicesContext>;
+}
+
+export function useSlices(): SlicesValue {
+  const value = use(SlicesContext);
+  if (value === null) throw new Error("useSlices stands outside SlicesProvider");
+  return value;
+}
+
+function middleOf(ct: Ct): Vec3 {
+  const middle = Object.fromEntries(
+    FLAT.map((plane) => {
+      const { from_mm, to_mm, step_mm } = reachOf(plane, ct);
+      return [plane, from_mm + Math.round((to_mm - from_mm) / 2 / step_mm) * step_mm];
+    }),
+  );
+  return [middle["sagittal"] ?? 0, middle["coronal"] ?? 0, middle["axial"] ?? 0];
+}

@@ -1,0 +1,106 @@
+import { beforeEach, describe, expect, test } from "vitest";
+import { SliceLine, SliceShelf } from "./sliceLine";
+
+/** A server that answers when it is told to. */
+class Slow {
+  asked: string[] = [];
+  private waiting = new Map<string, { give: (slice: string) => void; refuse: (why: Error) => void }>();
+
+  load = (key: string): Promise<string> => {
+    this.asked.push(key);
+    return new Promise((give, refuse) => this.waiting.set(key, { give, refuse }));
+  };
+
+  async answer(key: string): Promise<void> {
+    this.waiting.get(key)?.give(`slice ${key}`);
+    await settled();
+  }
+
+  async refuse(key: string): Promise<void> {
+    this.waiting.get(key)?.refuse(new Error("no"));
+    await settled();
+  }
+}
+
+const settled = async (): Promise<void> => {
+  for (let i = 0; i < 5; i += 1) await Promise.resolve();
+};
+
+let server: Slow;
+let line: SliceLine<string>;
+beforeEach(() => {
+  server = new Slow();
+  line = new SliceLine(server.load, new SliceShelf(10));
+});
+
+describe("slices while a finger moves", () => {
+  test("one is asked for at a time, and what was passed over is never asked for", async () => {
+    for (const key of ["1", "2", "3", "4"]) line.ask(key);
+    expect(server.asked).toEqual(["1"]);
+    await server.answer("1");
+    expect(line.snapshot().shown?.key).toBe("1");
+    expect(server.asked).toEqual(["1", "4"]);
+    await server.answer("4");
+    expect(line.snapshot()).toMatchObject({ wanted: "4", shown: { key: "4", slice: "slice 4" } });
+  });
+
+  test("an older picture does not take the place of a newer one from the shelf", async () => {
+    line.ask("1");
+    await server.answer("1");
+    line.ask("2");
+    line.ask("1");
+    expect(line.snapshot().shown?.key).toBe("1");
+    await server.answer("2");
+    expect(line.snapshot().shown?.key).toBe("1");
+  });
+
+  test("a picture that was only fetched ahead is not shown", async () => {
+    line.ask("1", ["2", "0"]);
+    await server.answer("1");
+    await server.answer("2");
+    expect(line.snapshot().shown?.key).toBe("1");
+    await server.answer("0");
+    line.ask("2");
+    expect(line.snapshot().shown?.key).toBe("2");
+    expect(server.asked).toEqual(["1", "2", "0"]);
+  });
+
+  test("while one is fetched ahead, what is wanted comes right after it", async () => {
+    line.ask("1", ["2", "3"]);
+    await server.answer("1");
+    line.ask("9", []);
+    await server.answer("2");
+    expect(line.snapshot().shown?.key).toBe("1");
+    expect(server.asked).toEqual(["1", "2", "9"]);
+  });
+});
+
+describe("a slice that cannot be had", () => {
+  test("leaves the one before it, says so, and is asked for again when somebody wishes", async () => {
+    line.ask("1");
+    await server.answer("1");
+    line.ask("2");
+    await server.refuse("2");
+    expect(line.snapshot()).toMatchObject({ shown: { key: "1" }, trouble: new Error("no") });
+    line.again();
+    await server.answer("2");
+    expect(line.snapshot()).toMatchObject({ shown: { key: "2" }, trouble: null });
+  });
+
+  test("is no trouble where only a neighbour is refused", async () => {
+    line.ask("1", ["2", "3"]);
+    await server.answer("1");
+    await server.refuse("2");
+    expect(line.snapshot().trouble).toBeNull();
+    expect(server.asked).toEqual(["1", "2", "3"]);
+  });
+});
+
+test("the longest unused slice goes first", () => {
+  const shelf = new SliceShelf<number>(2);
+  shelf.put("a", 1);
+  shelf.put("b", 2);
+  shelf.get("a");
+  shelf.put("c", 3);
+  expect([shelf.get("a"), shelf.get("b"), shelf.get("c")]).toEqual([1, undefined, 3]);
+});

@@ -1,0 +1,143 @@
+// The plan, one change at a time, and the way back.
+import { createContext, use, useCallback, useState, type ReactNode } from "react";
+import { answered, Refusal, server } from "../../../rest/client";
+import { useDo } from "../../../rest/useDo";
+import { useMadeBy } from "./madeBy";
+import { vertebraeOf, type PlanAnswer, type Side, type Vertebra } from "./shape";
+import { lastStep, read, withChange, withoutLast, type Step } from "./undo";
+import { usePlan } from "./usePlan";
+
+export interface By {
+  made_by: string;
+  expected_version: number;
+}
+
+interface PlanValue {
+  caseId: string;
+  plan: PlanAnswer | null;
+  planRefusal: Refusal | null;
+  asking: boolean;
+  vertebrae: Vertebra[];
+  /** The vertebra that is worked on; null while there is none. */
+  vertebra: Vertebra | null;
+  side: Side;
+  busy: boolean;
+  refusal: Refusal | null;
+  /** Who changed the plan in between, after a change here was refused for it. */
+  conflict: PlanAnswer["heading"] | null;
+  setVertebra: (name: string) => void;
+  setSide: (side: Side) => void;
+  /** Makes a change on the version that is shown; true when it was kept. */
+  change: (action: (by: By) => Promise<PlanAnswer>) => Promise<boolean>;
+  /** Long work has changed the plan: it made this version. */
+  changedTo: (madeVersion: number, documentBefore: string | null) => void;
+  by: By;
+  canUndo: boolean;
+  undo: () => void;
+  forget: () => void;
+}
+
+const PlanContext = createContext<PlanValue | null>(null);
+const STEPS = "coaxial.plan.steps";
+
+export function PlanProvider({ caseId, children }: { caseId: string; children: ReactNode }): ReactNode {
+  const { plan, refusal: planRefusal, asking, take, again } = usePlan(caseId);
+  const doing = useDo();
+  const [steps, setSteps] = useState<Step[]>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
+  const [conflict, setConflict] = useState<PlanAnswer["heading"] | null>(null);
+  const [chosen, setVertebra] = useState<string | null>(null);
+  const [side, setSide] = useState<Side>("left");
+  const madeBy = useMadeBy();
+
+  const remember = (next: Step[]): void => {
+    setSteps(next);
+    sessionStorage.setItem(`${STEPS}.${caseId}`, JSON.stringify(next));
+  };
+  const version = plan?.heading.version ?? 0;
+  const by: By = { made_by: madeBy, expected_version: version };
+
+  const run = async (action: () => Promise<PlanAnswer>): Promise<PlanAnswer | null> => {
+    let made: PlanAnswer | null = null;
+    setConflict(null);
+    await doing.run(async () => {
+      try {
+        made = await action();
+        take(made);
+      } catch (error) {
+        if (!(error instanceof Refusal) || error.trouble.code !== "VERSION_CONFLICT") throw error;
+        setConflict((await again())?.heading ?? null);
+      }
+    });
+    return made;
+  };
+  const change = async (action: (by: By) => Promise<PlanAnswer>): Promise<boolean> => {
+    const made = await run(() => action(by));
+    if (made !== null && made.heading.version > version) {
+      remember(withChange(steps, plan?.heading.id ?? null, made.heading.version));
+    }
+    return made !== null;
+  };
+  const changedTo = (madeVersion: number, documentBefore: string | null): void => {
+    remember(withChange(steps, documentBefore, madeVersion));
+    void again();
+  };
+  const step = lastStep(steps, version);
+  const undo = (): void => {
+    if (step === null) return;
+    void run(async () => {
+      const before = await contentOf(caseId, step.documentId, plan);
+      return answered(server.PUT("/api/plan", { body: { ...by, plan: before } }));
+    }).then((made) => {
+      if (made !== null) remember(withoutLast(steps, made.heading.version));
+    });
+  };
+  const { forget: forgetDoing } = doing;
+  const forget = useCallback(() => {
+    setConflict(null);
+    forgetDoing();
+  }, [forgetDoing]);
+
+  const vertebrae = vertebraeOf(plan);
+  const value: PlanValue = {
+    caseId,
+    plan,
+    planRefusal,
+    asking,
+    vertebrae,
+    side,
+    conflict,
+    setVertebra,
+    setSide,
+    change,
+    changedTo,
+    by,
+    undo,
+    forget,
+    vertebra: vertebrae.find((one) => one.name === chosen) ?? vertebrae[0] ?? null,
+    busy: doing.busy,
+    refusal: doing.refusal,
+    // On another CT an older plan would be taken over unseen.
+    canUndo: step !== null && !doing.busy && plan?.heading.current !== false,
+  };
+  return <PlanContext value={value}>{children}</PlanContext>;
+}
+
+/** The plan as it stood in an older document; an empty one where there was none. */
+async function contentOf(
+  caseId: string,
+  documentId: string | null,
+  plan: PlanAnswer | null,
+): Promise<Record<string, unknown>> {
+  if (documentId === null) return { format_version: plan?.plan["format_version"], vertebrae: [] };
+  const path = { case_id: caseId, document_id: documentId };
+  const document = await answered(
+    server.GET("/api/cases/{case_id}/documents/{document_id}", { params: { path } }),
+  );
+  return document.content;
+}
+
+export function usePlanning(): PlanValue {
+  const value = use(PlanContext);
+  if (value === null) throw new Error("usePlanning stands outside PlanProvider");
+  return value;
+}

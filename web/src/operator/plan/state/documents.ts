@@ -1,0 +1,24 @@
+// What a case holds: asked before it is asked for, so that what is not there yet is no error.
+import { answered, server } from "../../../rest/client";
+import type { components } from "../../../schema";
+
+type Kind = components["schemas"]["DocumentKind"];
+
+/** The case's one CT, plan or surface has this name. */
+const MAIN = "main";
+
+/**
+ * Whether the case has one of this kind.
+ *
+ * @throws Refusal
+ */
+export async function hasDocument(caseId: string, kind: Kind, signal?: AbortSignal): Promise<boolean> {
+  const { documents } = await answered(
+    server.GET("/api/cases/{case_id}/documents", {
+      params: { path: { case_id: caseId } },
+      ...(signal === undefined ? {} : { signal }),
+    }),
+  );
+  const versions = documents.filter((one) => one.kind === kind && one.name === MAIN);
+  return versions.length > 0 && versions.at(-1)?.withdrawn === null;
+}

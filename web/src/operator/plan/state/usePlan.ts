@@ -1,0 +1,64 @@
+// The newest plan, asked for every few seconds, because two tablets may plan at once.
+import { useCallback, useEffect, useRef, useState } from "react";
+import { answered, Refusal, server } from "../../../rest/client";
+import { hasDocument } from "./documents";
+import type { PlanAnswer } from "./shape";
+
+const ASK_EVERY_MS = 3000;
+
+export interface PlanAsked {
+  plan: PlanAnswer | null;
+  /** Why there is none that could be shown; null where there simply is none yet. */
+  refusal: Refusal | null;
+  /** Whether the first answer is still awaited. */
+  asking: boolean;
+  /** The answer to a change: what was asked before it does not count any more. */
+  take: (plan: PlanAnswer) => void;
+  again: () => Promise<PlanAnswer | null>;
+}
+
+interface Known {
+  plan: PlanAnswer | null;
+  refusal: Refusal | null;
+  asking: boolean;
+}
+
+export function usePlan(caseId: string): PlanAsked {
+  const [known, setKnown] = useState<Known>({ plan: null, refusal: null, asking: true });
+  const changes = useRef(0);
+  const isThere = useRef(false);
+
+  const again = useCallback(async (): Promise<PlanAnswer | null> => {
+    const before = changes.current;
+    const next = await asked(caseId, isThere.current);
+    isThere.current = next.plan !== null;
+    if (before === changes.current) setKnown(next);
+    return next.plan;
+  }, [caseId]);
+  const take = useCallback((plan: PlanAnswer) => {
+    changes.current += 1;
+    setKnown({ plan, refusal: null, asking: false });
+  }, []);
+
+  useEffect(() => {
+    const timer = setInterval(() => void again(), ASK_EVERY_MS);
+    const soon = setTimeout(() => void again());
+    return () => {
+      clearInterval(timer);
+      clearTimeout(soon);
+    };
+  }, [again]);
+  return { ...known, take, again };
+}
+
+async function asked(caseId: string, wasThere: boolean): Promise<Known> {
+  try {
+    if (!wasThere && !(await hasDocument(caseId, "plan")))
+      return { plan: null, refusal: null, asking: false };
+    return { plan: await answered(server.GET("/api/plan")), refusal: null, asking: false };
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+    const isNone = error.trouble.code === "PLAN_MISSING";
+    return { plan: null, refusal: isNone ? null : error, asking: false };
+  }
+}

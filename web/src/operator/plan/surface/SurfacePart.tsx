@@ -1,0 +1,101 @@
+import { Alert, Button, NativeSelect } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { shownNumber } from "../../../live/rounding";
+import { answered, server } from "../../../rest/client";
+import { JobProgress } from "../../../rest/JobProgress";
+import { RefusalNote } from "../../../rest/RefusalNote";
+import { useAsked } from "../../../rest/useAsked";
+import { useDo } from "../../../rest/useDo";
+import { isOver, useJob } from "../../../rest/useJob";
+import { useWords } from "../../../words/WordsContext";
+import { FileButtons } from "../ct/FileButtons";
+import { UploadProgress } from "../ct/UploadProgress";
+import { useUpload } from "../ct/useUpload";
+import { hasDocument } from "../state/documents";
+import { usePlanning } from "../state/PlanContext";
+import { useMadeBy } from "../state/madeBy";
+import { useWork } from "../state/WorkContext";
+import { SurfaceNumbers } from "./SurfaceNumbers";
+
+const UNITS = ["mm", "cm", "m", "inch", "um"] as const;
+
+/** The bone's surface, made out of the CT or sent as triangles; shown in the 3-D scene beside. */
+export function SurfacePart(): ReactNode {
+  const words = useWords().plan.surface;
+  const madeBy = useMadeBy();
+  const [unit, setUnit] = useState("");
+  const { caseId } = usePlanning();
+  const { tellSurface } = useWork();
+  const surface = useAsked(async (signal) => {
+    const isThere = await hasDocument(caseId, "surface", signal);
+    return isThere ? answered(server.GET("/api/surface", { signal })) : "none";
+  });
+  const asking = useDo();
+  const job = useJob((ended) => {
+    if (ended.state !== "done") return;
+    surface.again();
+    tellSurface();
+  });
+  const upload = useUpload(() => {
+    const query = new URLSearchParams({ made_by: madeBy, ...(unit === "" ? {} : { unit }) });
+    return `/api/surface?${query.toString()}`;
+  }, job.follow);
+  const isBusy = asking.busy || upload.phase !== null || (job.job !== null && !isOver(job.job));
+  const make = (): void => {
+    void asking.run(async () => {
+      job.follow(
+        await answered(
+          server.POST("/api/surface/from-ct", {
+            body: { made_by: madeBy, largest_part_only: true, smoothing_rounds: 10, most_faces: 60_000 },
+          }),
+        ),
+      );
+    });
+  };
+  const found = surface.data === "none" ? null : surface.data;
+  const proposed = job.job?.trouble?.context["proposed_unit"];
+  return (
+    <>
+      <h3>{words.title}</h3>
+      <p>{words.hint}</p>
+      {surface.data === "none" && <p className="soft">{words.none}</p>}
+      <RefusalNote refusal={surface.refusal} />
+      {found !== null && <SurfaceNumbers surface={found} />}
+      <Button size="xl" fullWidth disabled={isBusy} data-testid="make-surface" onClick={make}>
+        {found === null ? words.make : words.makeAnew}
+      </Button>
+      <RefusalNote refusal={asking.refusal} />
+      <JobProgress followed={job} />
+      {typeof proposed === "string" && (
+        <Alert className="consequence" title={`${words.proposedUnit} ${proposed}`}>
+          {words.sayUnit}
+        </Alert>
+      )}
+      <UploadProgress upload={upload} />
+      <NativeSelect
+        size="lg"
+        label={words.unit}
+        value={unit}
+        data={[
+          { value: "", label: words.unitUnsaid },
+          ...UNITS.map((one) => ({ value: one, label: words.units[one] })),
+        ]}
+        onChange={(event) => {
+          setUnit(event.currentTarget.value);
+        }}
+      />
+      <FileButtons
+        words={{ file: words.send }}
+        accept=".stl,.obj,.ply"
+        disabled={isBusy}
+        onFiles={(files) => {
+          job.forget();
+          upload.send(files);
+        }}
+      />
+      <p className="soft">
+        {shownNumber(100, 0)} MB {words.most}
+      </p>
+    </>
+  );
+}

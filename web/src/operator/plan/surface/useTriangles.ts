@@ -1,0 +1,31 @@
+import { answered, Refusal, server } from "../../../rest/client";
+import { useAsked } from "../../../rest/useAsked";
+import { hasDocument } from "../state/documents";
+import { trianglesOf, type Triangles } from "./triangles";
+
+/** The last that was fetched: all views of the CT draw the same one. */
+let kept: { id: string; triangles: Promise<Triangles | null> } | null = null;
+
+/** The triangles of the surface in the case; asked for again when another one was made on this page. */
+export function useTriangles(caseId: string, surfacesMade: number): Triangles | null {
+  return useAsked(
+    async (signal) => {
+      if (!(await hasDocument(caseId, "surface", signal))) return null;
+      const { heading } = await answered(server.GET("/api/surface", { signal }));
+      if (kept?.id !== heading.id) kept = { id: heading.id, triangles: fetched() };
+      return kept.triangles;
+    },
+    { key: `${caseId} ${surfacesMade}` },
+  ).data;
+}
+
+async function fetched(): Promise<Triangles | null> {
+  try {
+    const answer = await fetch("/api/surface.ply");
+    if (answer.ok) return trianglesOf(await answer.arrayBuffer());
+  } catch {
+    // Told below, as any other line that is lost.
+  }
+  kept = null;
+  throw new Refusal({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+}

@@ -1,0 +1,68 @@
+import { Table } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownFigure } from "../../live/rounding";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { StandsOn } from "../parts/StandsOn";
+import { channelsIn } from "./plan";
+
+interface PlanReportProps {
+  caseId: string;
+  heading: components["schemas"]["HeadingMessage"];
+}
+
+/** The planned channels with their screws. */
+export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
+  const all = useWords();
+  const words = all.report;
+  const { data, refusal } = useAsked(
+    (signal) => {
+      const params = { path: { case_id: caseId, document_id: heading.id } };
+      return answered(server.GET("/api/cases/{case_id}/documents/{document_id}", { signal, params }));
+    },
+    { key: heading.id },
+  );
+  const channels = data === null ? [] : channelsIn(data.content);
+  return (
+    <section className="stack">
+      <h4>{words.plan}</h4>
+      <StandsOn heading={heading} documents={[]} />
+      <RefusalNote refusal={refusal} />
+      {data !== null && channels.length === 0 && <p className="soft">{words.noChannels}</p>}
+      {channels.length > 0 && (
+        <Table.ScrollContainer minWidth={480}>
+          <Table>
+            <Table.Thead>
+              <Table.Tr>
+                <Table.Th scope="col">{words.vertebra}</Table.Th>
+                <Table.Th scope="col">{words.side}</Table.Th>
+                <Table.Th scope="col">{words.channel}</Table.Th>
+                <Table.Th scope="col">{words.screw}</Table.Th>
+              </Table.Tr>
+            </Table.Thead>
+            <Table.Tbody>
+              {channels.map((one) => (
+                <Table.Tr key={`${one.vertebra} ${one.side}`}>
+                  <Table.Th scope="row">{one.vertebra}</Table.Th>
+                  <Table.Td>{words.sides[one.side] ?? one.side}</Table.Td>
+                  <Table.Td className="figure">
+                    ⌀ {shownFigure(one.diameterMm, 1)} mm, {shownFigure(one.lengthMm, 1)} mm
+                    {one.byHand && ` · ${words.byHand}`}
+                  </Table.Td>
+                  <Table.Td className="figure">
+                    {one.screw === null
+                      ? "—"
+                      : `⌀ ${shownFigure(one.screw.diameterMm, 1)} × ${shownFigure(one.screw.lengthMm, 0)} mm`}
+                  </Table.Td>
+                </Table.Tr>
+              ))}
+            </Table.Tbody>
+          </Table>
+        </Table.ScrollContainer>
+      )}
+    </section>
+  );
+}

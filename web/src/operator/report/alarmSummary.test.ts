@@ -1,0 +1,29 @@
+import { expect, test } from "vitest";
+import { alarmsIn } from "./alarmSummary";
+
+const line = (change: string, condition: string, at: string, by?: string): Record<string, unknown> => ({
+  change,
+  condition,
+  at,
+  ...(by === undefined ? {} : { by }),
+});
+
+test("each condition with how often it was raised, when, and who acknowledged it", () => {
+  const lines = [
+    line("raised", "DRILL_UNSEEN", "1"),
+    line("raised", "BREACH", "2"),
+    line("acknowledged", "BREACH", "3", "M. Ito"),
+    line("acknowledged", "BREACH", "4", "M. Ito"),
+    line("cleared", "BREACH", "5"),
+    line("raised", "BREACH", "6"),
+    { change: "sound_paused", at: "7", by: "M. Ito" },
+  ];
+  expect(alarmsIn(lines)).toEqual([
+    { condition: "BREACH", raised: 2, firstAt: "2", lastAt: "6", acknowledgedBy: ["M. Ito"] },
+    { condition: "DRILL_UNSEEN", raised: 1, firstAt: "1", lastAt: "1", acknowledgedBy: [] },
+  ]);
+});
+
+test("a log that is cut off before an alarm was raised counts none of it", () => {
+  expect(alarmsIn([line("cleared", "BREACH", "1"), {}])).toEqual([]);
+});

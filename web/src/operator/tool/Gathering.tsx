@@ -1,0 +1,97 @@
+import { Button, Loader } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { Refusal } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { filled } from "../parts/shown";
+import { TwiceButton } from "../parts/TwiceButton";
+import { useMaker } from "../parts/useMaker";
+import { GatheringMeasures } from "./GatheringMeasures";
+import { keptTool, type KnownTool, type ToolGate } from "./kept";
+import { isShape, Shape, type ShapeMm } from "./Shape";
+
+const ASK_EVERY_MS = 400;
+
+interface GatheringProps {
+  tools: readonly KnownTool[];
+  gate: ToolGate;
+  onOver: () => void;
+}
+
+/** Poses as they are gathered: how far it has come, what is missing, and what they give so far. */
+export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
+  const words = useWords().tool;
+  const madeBy = useMaker();
+  const doing = useDo();
+  const [shape, setShape] = useState<ShapeMm>({ diameterMm: "", lengthMm: "" });
+  const { data, refusal } = useAsked((signal) => answered(server.GET("/api/tools/collection", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const end = (): void => {
+    void doing
+      .run(async () => {
+        await answered(server.DELETE("/api/tools/collection"));
+      })
+      .then(onOver);
+  };
+  if (data === null) {
+    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
+  }
+  const known = tools.find((tool) => tool.name === data.tool) ?? null;
+  const before = known?.kept == null ? null : keptTool(known.kept.content);
+  const needsShape = data.purpose === "pivot" && (before?.radiusMm ?? known?.radius_mm ?? null) === null;
+  const given = isShape(shape);
+  const enough = data.missing.length === 0;
+  const keep = (): void => {
+    const size = needsShape && given ? { radius_mm: given.diameterMm / 2, length_mm: given.lengthMm } : {};
+    void doing
+      .run(async () => {
+        await answered(
+          server.POST("/api/tools/collection/conclusion", { body: { made_by: madeBy, ...size } }),
+        );
+      })
+      .then((done) => {
+        if (done) onOver();
+      });
+  };
+  return (
+    <Card title={`${words.doing[data.purpose]}: ${data.tool}`} testId="gathering">
+      <p className="card-lead">{words.how[data.purpose]}</p>
+      <p className="newest" data-taking={data.newest} role="status">
+        {data.running ? words.takings[data.newest] : words.ended}
+      </p>
+      <RefusalNote refusal={data.trouble === null ? null : new Refusal(data.trouble)} />
+      <GatheringMeasures gathered={data} gate={gate} />
+      <ul className="missing" aria-label={words.missing} data-testid="missing" data-enough={enough}>
+        {data.missing.map((one) => (
+          <li key={one.need}>
+            {filled(words.needs[one.need], { there: Math.floor(one.there), wanted: Math.ceil(one.wanted) })}
+          </li>
+        ))}
+        {enough && <li className="good">✓ {words.enough}</li>}
+      </ul>
+      {needsShape && <Shape shape={shape} onChange={setShape} />}
+      <div className="row">
+        <Button
+          size="lg"
+          variant={enough ? "filled" : "default"}
+          disabled={data.outcome === null || (needsShape && given === null)}
+          loading={doing.busy}
+          data-testid="keep"
+          onClick={keep}
+        >
+          {words.keep[data.purpose]}
+        </Button>
+        <TwiceButton again={words.throwAwaySure} onTwice={end} testId="throw-away">
+          {words.throwAway}
+        </TwiceButton>
+      </div>
+      {needsShape && given === null && <p className="soft">{words.shapeFirst}</p>}
+      <RefusalNote refusal={doing.refusal} />
+    </Card>
+  );
+}

@@ -1,0 +1,106 @@
+import type { ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+import { Measure } from "../parts/Measure";
+import { sentence } from "../parts/shown";
+import type { Gathered, ToolGate } from "./kept";
+
+const KINDS = ["not_seen", "too_uncertain", "jumped", "nothing_new"] as const;
+
+/** The numbers of a gathering against the gate, and how many images were passed over and why. */
+export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate: ToolGate }): ReactNode {
+  const words = useWords().tool;
+  const { outcome, purpose } = gathered;
+  const tilt = { kind: "least", value: gate.least_tilt_deg } as const;
+  const rms = { kind: "most", value: gate.most_rms_3d_mm } as const;
+  const passedOver = KINDS.filter((kind) => (gathered.passed_over[kind] ?? 0) > 0);
+  return (
+    <>
+      <dl className="measures">
+        <Measure
+          name={words.poses}
+          value={gathered.taken}
+          unit=""
+          decimals={0}
+          limit={{ kind: "least", value: gate.least_poses }}
+          bar
+          testId="poses"
+        />
+        {purpose === "spin" ? (
+          <Measure
+            name={words.spinRange}
+            value={gathered.spin_range_deg}
+            unit="°"
+            decimals={0}
+            limit={{ kind: "least", value: gate.least_spin_deg }}
+            bar
+          />
+        ) : (
+          <>
+            <Measure
+              name={words.tilt}
+              value={gathered.tilt_range_deg}
+              unit="°"
+              decimals={0}
+              limit={tilt}
+              bar
+            />
+            <Measure
+              name={words.tiltAcross}
+              value={gathered.tilt_range_across_deg}
+              unit="°"
+              decimals={0}
+              limit={tilt}
+              bar
+            />
+          </>
+        )}
+        {purpose === "spin" ? (
+          <>
+            <Measure
+              name={words.axisSd}
+              value={outcome?.axis_sd_deg ?? null}
+              unit="°"
+              limit={{ kind: "most", value: gate.most_axis_sd_deg }}
+            />
+            <Measure
+              name={words.wobble}
+              value={outcome?.wobble_deg ?? null}
+              unit="°"
+              limit={{ kind: "most", value: gate.most_wobble_deg }}
+            />
+          </>
+        ) : (
+          <Measure
+            name={words.tipRms}
+            value={outcome?.rms_3d_mm ?? null}
+            unit="mm"
+            limit={rms}
+            testId="rms"
+          />
+        )}
+        {purpose === "pivot" && (
+          <Measure
+            name={words.tipSd}
+            value={outcome?.tip_sd_mm ?? null}
+            unit="mm"
+            limit={{ kind: "most", value: gate.most_tip_sd_mm }}
+          />
+        )}
+        {purpose === "tip_check" && (
+          <Measure name={words.checkMost} value={outcome?.most_mm ?? null} unit="mm" />
+        )}
+      </dl>
+      {gathered.outcome_trouble !== null && gathered.taken > 0 && (
+        <p className="soft">{sentence(gathered.outcome_trouble.message)}</p>
+      )}
+      {passedOver.length > 0 && (
+        <p className="soft">
+          {words.passedOver}:{" "}
+          {passedOver
+            .map((kind) => `${words.passed[kind]} ${String(gathered.passed_over[kind] ?? 0)}`)
+            .join(" · ")}
+        </p>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,81 @@
+import { Button, Select, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { Link } from "wouter";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { NAME } from "../parts/name";
+import type { Purpose } from "./kept";
+
+interface NewToolProps {
+  first: boolean;
+  taken: readonly string[];
+  busy: boolean;
+  onBegin: (tool: string, purpose: Purpose, marker: string | null) => void;
+}
+
+/** Another tool: what it is called, and behind which marker it is held. */
+export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNode {
+  const words = useWords().tool;
+  const [typed, setTyped] = useState<string | null>(null);
+  const [chosen, setChosen] = useState<string | null>(null);
+  const { data, refusal } = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
+    everyMs: 3000,
+  });
+  const markers = (data?.markers ?? []).map((one) => one.name);
+  const marker = chosen !== null && markers.includes(chosen) ? chosen : (markers[0] ?? null);
+  // The first tool is mostly called as its marker is.
+  const name = typed ?? (marker !== null && !taken.includes(marker) ? marker : "");
+  const isNew = !taken.includes(name);
+  return (
+    <Card title={first ? words.firstTitle : words.newTitle} testId="new-tool">
+      {first && <p className="card-lead">{words.firstLead}</p>}
+      <RefusalNote refusal={refusal} />
+      {data !== null && markers.length === 0 ? (
+        <p>
+          {words.noMarker}{" "}
+          <Link className="way" href="/operator/camera">
+            {words.toMarkers}
+          </Link>
+        </p>
+      ) : (
+        <div className="row">
+          <TextInput
+            className="grow"
+            size="lg"
+            label={words.name}
+            description={words.nameHint}
+            value={name}
+            error={name !== "" && !NAME.test(name) ? words.nameWrong : isNew ? null : words.nameTaken}
+            onChange={(event) => {
+              setTyped(event.currentTarget.value);
+            }}
+          />
+          <Select
+            className="grow"
+            size="lg"
+            label={words.marker}
+            description={words.markerHint}
+            allowDeselect={false}
+            data={markers}
+            value={marker}
+            onChange={setChosen}
+          />
+          <Button
+            size="lg"
+            variant={first ? "filled" : "default"}
+            disabled={busy || marker === null || !NAME.test(name) || !isNew}
+            data-testid="begin-new"
+            onClick={() => {
+              onBegin(name, "pivot", marker);
+            }}
+          >
+            {words.begin.pivot}
+          </Button>
+        </div>
+      )}
+    </Card>
+  );
+}

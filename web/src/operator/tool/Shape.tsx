@@ -1,0 +1,63 @@
+import { NumberInput } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../../words/WordsContext";
+
+export interface ShapeMm {
+  diameterMm: number | string;
+  lengthMm: number | string;
+}
+
+/** The shape as numbers, if both are such that a tool can have them. */
+export function isShape({ diameterMm, lengthMm }: ShapeMm): { diameterMm: number; lengthMm: number } | null {
+  if (typeof diameterMm !== "number" || typeof lengthMm !== "number") return null;
+  return diameterMm > 0 && diameterMm <= 100 && lengthMm > 0 && lengthMm <= 1000
+    ? { diameterMm, lengthMm }
+    : null;
+}
+
+/** How thick and how long the tool is: what tilting it cannot tell. */
+export function Shape({
+  shape,
+  onChange,
+}: {
+  shape: ShapeMm;
+  onChange: (shape: ShapeMm) => void;
+}): ReactNode {
+  const words = useWords().tool;
+  return (
+    <div className="row">
+      <NumberInput
+        hideControls
+        inputMode="decimal"
+        className="grow"
+        size="lg"
+        label={`${words.diameter} (mm)`}
+        description={words.diameterHint}
+        min={0.1}
+        max={100}
+        step={0.5}
+        decimalScale={2}
+        value={shape.diameterMm}
+        onChange={(diameterMm) => {
+          onChange({ ...shape, diameterMm });
+        }}
+      />
+      <NumberInput
+        hideControls
+        inputMode="decimal"
+        className="grow"
+        size="lg"
+        label={`${words.length} (mm)`}
+        description={words.lengthHint}
+        min={1}
+        max={1000}
+        step={5}
+        decimalScale={1}
+        value={shape.lengthMm}
+        onChange={(lengthMm) => {
+          onChange({ ...shape, lengthMm });
+        }}
+      />
+    </div>
+  );
+}

@@ -1,0 +1,108 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { Measure } from "../parts/Measure";
+import { StandsOn } from "../parts/StandsOn";
+import { shownTime } from "../parts/shown";
+import { keptTool, nextPurpose, number, type KnownTool, type Purpose, type ToolGate } from "./kept";
+
+const PURPOSES: readonly Purpose[] = ["pivot", "spin", "tip_check"];
+
+interface ToolCardProps {
+  tool: KnownTool;
+  gate: ToolGate;
+  documents: readonly components["schemas"]["HeadingMessage"][];
+  busy: boolean;
+  onBegin: (tool: string, purpose: Purpose, marker: string | null) => void;
+}
+
+/** One tool: what is known of it, with its limits, and what can be done with it. */
+export function ToolCard({ tool, gate, documents, busy, onBegin }: ToolCardProps): ReactNode {
+  const all = useWords();
+  const words = all.tool;
+  const kept = tool.kept === null ? null : keptTool(tool.kept.content);
+  const radiusMm = kept?.radiusMm ?? tool.radius_mm;
+  const next = nextPurpose(tool);
+  const canPivotOnly = tool.kept?.heading.current !== true;
+  return (
+    <Card title={tool.name} testId={`tool-${tool.name}`}>
+      {tool.kept === null && <p className="soft">{tool.of_settings ? words.ofSettings : words.nothing}</p>}
+      {tool.kept !== null && (
+        <>
+          <StandsOn heading={tool.kept.heading} documents={documents} />
+          <p className="soft">
+            {words.made} {shownTime(tool.kept.heading.made_at, all.language)} · {tool.kept.heading.made_by}
+          </p>
+        </>
+      )}
+      <dl className="measures">
+        {kept !== null && (
+          <>
+            <Measure
+              name={words.tipRms}
+              value={kept.tipRmsMm}
+              unit="mm"
+              limit={{ kind: "most", value: gate.most_rms_3d_mm }}
+            />
+            <Measure
+              name={words.tilt}
+              value={kept.tiltDeg}
+              unit="°"
+              decimals={0}
+              limit={{ kind: "least", value: gate.least_tilt_deg }}
+            />
+            <Measure
+              name={words.axisSd}
+              value={kept.axisSdDeg}
+              unit="°"
+              limit={{ kind: "most", value: gate.most_axis_sd_deg }}
+            />
+            <Measure
+              name={words.wobble}
+              value={kept.wobbleDeg}
+              unit="°"
+              limit={{ kind: "most", value: gate.most_wobble_deg }}
+            />
+          </>
+        )}
+        <Measure
+          name={words.diameter}
+          value={radiusMm === null ? null : 2 * radiusMm}
+          unit="mm"
+          decimals={1}
+        />
+        <Measure name={words.length} value={kept?.lengthMm ?? tool.length_mm} unit="mm" decimals={0} />
+        {tool.check?.heading.current === true && (
+          <Measure name={words.checkMost} value={number(tool.check.content["most_mm"])} unit="mm" />
+        )}
+        {tool.check?.heading.current === true && (
+          <Measure
+            name={words.checkRms}
+            value={number(tool.check.content["rms_3d_mm"])}
+            unit="mm"
+            limit={{ kind: "most", value: gate.most_rms_3d_mm }}
+          />
+        )}
+      </dl>
+      {kept?.hasAxis === false && <p className="bad">▲ {words.noAxis}</p>}
+      <div className="row">
+        {PURPOSES.map((purpose) => (
+          <Button
+            key={purpose}
+            size="lg"
+            variant={purpose === next ? "filled" : "default"}
+            disabled={busy || (canPivotOnly && purpose !== "pivot")}
+            data-testid={`begin-${purpose}`}
+            onClick={() => {
+              onBegin(tool.name, purpose, null);
+            }}
+          >
+            {purpose === "pivot" && tool.kept !== null ? words.pivotAnew : words.begin[purpose]}
+          </Button>
+        ))}
+      </div>
+    </Card>
+  );
+}

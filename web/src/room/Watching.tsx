@@ -1,0 +1,38 @@
+import type { ReactNode } from "react";
+import { useWords } from "../words/WordsContext";
+import type { LineTo } from "./messages";
+import { useRoomWords } from "./RoomContext";
+
+const SYMBOL: Record<LineTo, string> = { good: "●", slow: "◐", silent: "▲" };
+
+/** Who is watching: how many, who, in which role, and how their line does. */
+export function Watching(): ReactNode {
+  const words = useWords().room;
+  const { stands, people } = useRoomWords();
+  if (!stands) {
+    return (
+      <p className="watching" data-testid="watching" data-known="false">
+        {words.unknown}
+      </p>
+    );
+  }
+  return (
+    <div className="watching" data-testid="watching" data-known="true">
+      <p className="watching-count">
+        {words.watching} <strong>{people.length}</strong>
+      </p>
+      <ul>
+        {people.map((one) => (
+          <li key={`${one.name} ${one.role} ${one.since}`} data-line={one.line}>
+            <span aria-hidden="true" className="watching-line">
+              {SYMBOL[one.line]}
+            </span>{" "}
+            <b>{one.name}</b> <span className="watching-role">{words.role[one.role]}</span>
+            {one.is_you && <span className="watching-role"> · {words.you}</span>}
+            {one.line !== "good" && <em> · {words.line[one.line]}</em>}
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}

@@ -1,0 +1,101 @@
+// The room as this page lives in it: one line, one state; marks are painted past React, words go through it.
+import type { ViewName } from "../app/views";
+import type { Hold, Person, RoomMessage, Said, Signable, You } from "./messages";
+import { RoomLine, type RoomSocket } from "./roomLine";
+import { afterMessage, at, NOBODY, type RoomState } from "./roomState";
+
+/** What words are made of; another object only when one of them changed. */
+export interface RoomWords {
+  stands: boolean;
+  you: You | null;
+  people: readonly Person[];
+  hold: Hold | null;
+  signable: readonly Signable[] | null;
+}
+
+const LOOK_EVERY_MS = 500;
+
+export class Room {
+  private state: RoomState = NOBODY;
+  private said: RoomWords = { stands: false, you: null, people: [], hold: null, signable: null };
+  private readonly listeners = new Set<() => void>();
+  private readonly painters = new Set<() => void>();
+  private readonly line: RoomLine;
+
+  constructor(view: ViewName) {
+    this.line = new RoomLine({
+      open: () => new WebSocket(addressOf(view)) as RoomSocket,
+      later: (action, waitMs) => {
+        setTimeout(action, waitMs);
+      },
+      now: () => performance.now(),
+      onMessage: (message) => {
+        this.take(message);
+      },
+      onLine: (stands) => {
+        if (!stands) this.forget();
+      },
+    });
+  }
+
+  start(): () => void {
+    this.line.start();
+    const timer = setInterval(() => {
+      this.line.look();
+    }, LOOK_EVERY_MS);
+    return () => {
+      clearInterval(timer);
+      this.line.stop();
+    };
+  }
+
+  /** False where nobody is told of it. */
+  say(said: Said): boolean {
+    return this.line.say(said);
+  }
+
+  /** What stands now; what went by itself is left out. */
+  now(): RoomState {
+    this.state = at(this.state, performance.now());
+    return this.state;
+  }
+
+  words = (): RoomWords => this.said;
+
+  onWords = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  /** Called when pointers or drawings may be others. */
+  onMarks(painter: () => void): () => void {
+    this.painters.add(painter);
+    return () => this.painters.delete(painter);
+  }
+
+  private take(message: RoomMessage): void {
+    this.state = afterMessage(this.state, message, performance.now());
+    this.tell({ stands: true, ...wordsOf(this.state) });
+    for (const paint of this.painters) paint();
+  }
+
+  private forget(): void {
+    this.state = NOBODY;
+    this.tell({ stands: false, ...wordsOf(NOBODY) });
+    for (const paint of this.painters) paint();
+  }
+
+  private tell(next: RoomWords): void {
+    if (JSON.stringify(next) === JSON.stringify(this.said)) return;
+    this.said = next;
+    for (const listener of this.listeners) listener();
+  }
+}
+
+function wordsOf({ you, people, hold, signable }: RoomState): Omit<RoomWords, "stands"> {
+  return { you, people, hold, signable };
+}
+
+function addressOf(view: ViewName): string {
+  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/room?view=${view}`;
+}

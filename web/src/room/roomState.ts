@@ -1,0 +1,91 @@
+// What this page knows of the room. Pure: a message and a time go in, the next state comes out.
+import type { Hold, Person, Point, RoomMessage, Shape, Signable, You } from "./messages";
+
+/** As on the server: a pointer that does not move says nothing any more. */
+export const POINTER_GOES_AFTER_MS = 2000;
+
+export interface Pointer {
+  seat: number;
+  name: string;
+  at: Point;
+  goesAtMs: number;
+}
+
+export interface Mark {
+  key: string;
+  seat: number;
+  name: string;
+  yours: boolean;
+  shape: Shape;
+  points: readonly Point[];
+  madeAtMs: number;
+  goesAtMs: number;
+}
+
+export interface RoomState {
+  you: You | null;
+  people: readonly Person[];
+  pointers: readonly Pointer[];
+  marks: readonly Mark[];
+  hold: Hold | null;
+  /** Null where nothing is kept, or nothing was told yet. */
+  signable: readonly Signable[] | null;
+}
+
+export const NOBODY: RoomState = {
+  you: null,
+  people: [],
+  pointers: [],
+  marks: [],
+  hold: null,
+  signable: null,
+};
+
+export function afterMessage(state: RoomState, message: RoomMessage, nowMs: number): RoomState {
+  return {
+    you: message.you,
+    people: message.people ?? state.people,
+    pointers: message.pointers.map((one) => ({
+      seat: one.seat,
+      name: one.name,
+      at: pointOf(one.at_px),
+      goesAtMs: nowMs + POINTER_GOES_AFTER_MS - one.still_ms,
+    })),
+    marks: marksAfter(state.marks, message, nowMs),
+    hold: message.hold,
+    signable: message.signable ?? state.signable,
+  };
+}
+
+/** Without what went by itself since; the same object where nothing did. */
+export function at(state: RoomState, nowMs: number): RoomState {
+  const pointers = state.pointers.filter((one) => one.goesAtMs > nowMs);
+  const marks = state.marks.filter((one) => one.goesAtMs > nowMs);
+  if (pointers.length === state.pointers.length && marks.length === state.marks.length) return state;
+  return { ...state, pointers, marks };
+}
+
+function marksAfter(marks: readonly Mark[], message: RoomMessage, nowMs: number): Mark[] {
+  const known = new Map(marks.map((one) => [one.key, one]));
+  for (const one of message.grown) {
+    const before = known.get(one.key)?.points ?? [];
+    // What is told from a point on that is not here was told to another line: it cannot be drawn whole.
+    if (one.from_point > before.length) continue;
+    const goesAtMs = nowMs + one.left_s * 1000;
+    known.set(one.key, {
+      key: one.key,
+      seat: one.seat,
+      name: one.name,
+      yours: one.is_yours,
+      shape: one.shape,
+      points: [...before.slice(0, one.from_point), ...one.points_px.map(pointOf)],
+      madeAtMs: goesAtMs - message.fades_after_s * 1000,
+      goesAtMs,
+    });
+  }
+  return message.drawings.flatMap((key) => known.get(key) ?? []);
+}
+
+function pointOf(px: readonly number[]): Point {
+  return [px[0] ?? NaN, px[1] ?? NaN];
+}

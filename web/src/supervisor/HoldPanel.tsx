@@ -1,0 +1,60 @@
+import type { ReactNode } from "react";
+import { answered, server } from "../rest/client";
+import { RefusalNote } from "../rest/RefusalNote";
+import { useDo } from "../rest/useDo";
+import { useRoomWords } from "../room/RoomContext";
+import { useWords } from "../words/WordsContext";
+import { TwoSteps } from "./TwoSteps";
+
+/** Asks those in theatre to hold: big, in two steps so that a slip does nothing. */
+export function HoldPanel(): ReactNode {
+  const words = useWords().supervisor.hold;
+  const { hold, you } = useRoomWords();
+  const { busy, refusal, run } = useDo();
+  const asked = hold?.asked_by ?? [];
+  const mine = hold?.is_yours === true;
+  const mayRelease = mine || you?.role === "operator";
+  return (
+    <section className="hold" aria-label={words.title} data-testid="hold" data-asked={asked.length > 0}>
+      {asked.length > 0 && (
+        <p className="hold-asked" role="status">
+          <span aria-hidden="true">▲▲</span> {words.asked} <strong>{asked.join(", ")}</strong>
+        </p>
+      )}
+      {!mine && (
+        <TwoSteps
+          className="hold-ask"
+          testid="hold-ask"
+          first={words.ask}
+          second={words.sure}
+          busy={busy}
+          onDone={() =>
+            void run(async () => {
+              await answered(server.POST("/api/alarms/hold", { body: {} }));
+            })
+          }
+        />
+      )}
+      {asked.length > 0 &&
+        (mayRelease ? (
+          <button
+            type="button"
+            className="hold-release"
+            data-testid="hold-release"
+            disabled={busy}
+            onClick={() =>
+              void run(async () => {
+                await answered(server.POST("/api/alarms/release", { body: {} }));
+              })
+            }
+          >
+            {you?.role === "operator" ? words.releaseAll : words.release}
+          </button>
+        ) : (
+          <p className="soft">{words.othersOnly}</p>
+        ))}
+      <p className="soft">{words.hint}</p>
+      <RefusalNote refusal={refusal} />
+    </section>
+  );
+}

@@ -1,0 +1,55 @@
+import type { ReactNode } from "react";
+import { answered, server } from "../rest/client";
+import { RefusalNote } from "../rest/RefusalNote";
+import { useAsked } from "../rest/useAsked";
+import { useWords } from "../words/WordsContext";
+import type { Words } from "../words/en";
+import { shownTime } from "./shownTime";
+
+type Line = Record<string, unknown>;
+
+const LINES = 100;
+
+/** The alarm log of the open case, the newest first; asked for only while it is open. */
+export function LogPanel(): ReactNode {
+  const words = useWords();
+  const own = words.supervisor.log;
+  const { data, refusal, again } = useAsked((signal) =>
+    answered(server.GET("/api/alarms/log", { params: { query: { last: LINES } }, signal })),
+  );
+  return (
+    <>
+      <button type="button" onClick={again}>
+        {own.again}
+      </button>
+      <RefusalNote refusal={refusal} />
+      {data?.lines.length === 0 && <p className="soft">{own.none}</p>}
+      <ul className="log" data-testid="log">
+        {[...(data?.lines ?? [])].reverse().map((line, index) => (
+          <li key={`${text(line, "at")} ${index}`}>
+            <time>{shownTime(text(line, "at"))}</time> {said(line, words)}
+          </li>
+        ))}
+      </ul>
+    </>
+  );
+}
+
+function said(line: Line, words: Words): string {
+  const condition = text(line, "condition");
+  const change = text(line, "change");
+  const { change: changes, by } = words.supervisor.log;
+  const parts = [
+    condition in words.alarms.conditions
+      ? words.alarms.conditions[condition as keyof Words["alarms"]["conditions"]].state
+      : condition,
+    change in changes ? changes[change as keyof typeof changes] : change,
+    text(line, "by") === "" ? "" : `${by} ${text(line, "by")}`,
+  ];
+  return parts.filter((part) => part !== "").join(" · ");
+}
+
+function text(line: Line, key: string): string {
+  const value = line[key];
+  return typeof value === "string" ? value : "";
+}

@@ -1,0 +1,108 @@
+import type { ReactNode } from "react";
+import { shownNumber } from "../live/rounding";
+import { answered, server } from "../rest/client";
+import { RefusalNote } from "../rest/RefusalNote";
+import { useAsked } from "../rest/useAsked";
+import type { Signable } from "../room/messages";
+import { useWords } from "../words/WordsContext";
+import { vertebraeOf, type ChannelShown, type VertebraShown } from "./planRecords";
+import { SignBox } from "./SignBox";
+
+/** The plan in words and pictures, and its co-signature. */
+export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
+  const words = useWords().supervisor;
+  const key = signable.document_id ?? "";
+  const { data, refusal } = useAsked(
+    (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/plan", { signal }))),
+    { key },
+  );
+  if (key === "") return <p className="soft">{words.plan.none}</p>;
+  if (refusal !== null) return <RefusalNote refusal={refusal} />;
+  if (data === null) return <p className="soft">{words.loading}</p>;
+  const active = data.active_channel;
+  return (
+    <>
+      <p className="plan-active">
+        {active === null ? (
+          words.plan.noneDrilled
+        ) : (
+          <>
+            {words.plan.drilled}:{" "}
+            <b>
+              {active.vertebra} {words.plan.side[active.side]}
+            </b>
+          </>
+        )}
+      </p>
+      {vertebraeOf(data.plan).map((vertebra) => (
+        <Vertebra key={vertebra.name} vertebra={vertebra} version={data.heading.id} />
+      ))}
+      {/* What was read is what is signed: another version has another key, and is read again first. */}
+      {data.heading.id === signable.document_id && <SignBox signable={signable} />}
+    </>
+  );
+}
+
+function Vertebra({ vertebra, version }: { vertebra: VertebraShown; version: string }): ReactNode {
+  const words = useWords().supervisor.plan;
+  const picture = `/api/plan/vertebrae/${encodeURIComponent(vertebra.name)}/reference.png?version=${version}`;
+  return (
+    <article className="vertebra">
+      <div>
+        <h3>
+          {vertebra.name}{" "}
+          <small>
+            {vertebra.landmarks} {words.landmarks}
+          </small>
+        </h3>
+        {vertebra.channels.map((channel) => (
+          <Channel key={channel.side} channel={channel} />
+        ))}
+      </div>
+      {vertebra.hasReference ? (
+        <img src={picture} alt={`${words.picture}, ${vertebra.name}`} loading="lazy" />
+      ) : (
+        <p className="soft">{words.noPicture}</p>
+      )}
+    </article>
+  );
+}
+
+function Channel({ channel }: { channel: ChannelShown }): ReactNode {
+  const words = useWords().supervisor.plan;
+  const { screw } = channel;
+  return (
+    <dl className="channel" data-side={channel.side}>
+      <dt>
+        {words.channel} {words.side[channel.side]}
+      </dt>
+      <dd>
+        {channel.diameterMm !== null && `⌀ ${shownNumber(channel.diameterMm)} mm`}
+        {channel.lengthMm !== null && ` × ${shownNumber(channel.lengthMm)} mm`}
+        {` · ${channel.byHand ? words.byHand : words.measured}`}
+      </dd>
+      <dt>{words.screw}</dt>
+      <dd>
+        {screw === null
+          ? words.noScrew
+          : `⌀ ${shownNumber(screw.diameterMm)} × ${shownNumber(screw.lengthMm, 0)} mm`}
+      </dd>
+      {screw?.leastMm != null && (
+        <>
+          <dt>{words.clearance}</dt>
+          <dd data-bad={screw.leastMm < 0}>
+            {screw.leastMm < 0 && <span aria-hidden="true">▲ </span>}
+            {shownNumber(screw.leastMm)} mm {screw.leastWall !== null && words.wall[screw.leastWall]}
+            {screw.grade !== "" && ` · ${words.grade} ${screw.grade}`}
+          </dd>
+        </>
+      )}
+      {screw?.meanHu != null && (
+        <>
+          <dt>{words.density}</dt>
+          <dd>{shownNumber(screw.meanHu, 0)} HU</dd>
+        </>
+      )}
+    </dl>
+  );
+}

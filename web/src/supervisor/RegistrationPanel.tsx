@@ -1,0 +1,47 @@
+import type { ReactNode } from "react";
+import { shownNumber } from "../live/rounding";
+import { answered, server } from "../rest/client";
+import { RefusalNote } from "../rest/RefusalNote";
+import { useAsked } from "../rest/useAsked";
+import type { Signable } from "../room/messages";
+import { useWords } from "../words/WordsContext";
+import { rowsOf } from "./registrationRows";
+import { SignBox } from "./SignBox";
+
+/** The registration with its numbers and what was allowed, and its co-signature. */
+export function RegistrationPanel({ signable }: { signable: Signable }): ReactNode {
+  const words = useWords().supervisor;
+  const own = words.registration;
+  const key = signable.document_id ?? "";
+  const { data, refusal } = useAsked(
+    (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/registration", { signal }))),
+    { key },
+  );
+  if (key === "") return <p className="soft">{own.none}</p>;
+  if (refusal !== null) return <RefusalNote refusal={refusal} />;
+  if (data === null) return <p className="soft">{words.loading}</p>;
+  return (
+    <>
+      <p>
+        <b>{data.vertebra}</b> · {own.by} {data.method} · {own.fixedTo} {data.reference ?? own.camera}
+      </p>
+      <table className="registration-numbers">
+        <tbody>
+          {rowsOf(data.numbers).map((row) => (
+            <tr key={row.name} data-past={row.past}>
+              <th scope="row">{own.numbers[row.name]}</th>
+              <td>
+                {row.past && <span aria-hidden="true">▲ </span>}
+                {shownNumber(row.value, row.unit === "" ? 0 : 2)} {row.unit}
+              </td>
+              <td className="soft">
+                {row.most !== null && `${own.allowed} ${shownNumber(row.most, 2)} ${row.unit}`}
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+      {data.heading.id === signable.document_id && <SignBox signable={signable} />}
+    </>
+  );
+}

@@ -1,0 +1,38 @@
+import type { ReactNode } from "react";
+import { useProcedure, type Step } from "../operator/procedure";
+import { RefusalNote } from "../rest/RefusalNote";
+import { useWords } from "../words/WordsContext";
+
+const SYMBOL: Record<Step["state"], string> = {
+  done: "✓",
+  due: "↻",
+  missing: "○",
+  out_of_date: "!",
+  failed: "✕",
+};
+
+/** How every step of the procedure stands, in the server's own sentences. */
+export function StepsShown(): ReactNode {
+  const words = useWords();
+  const { data, refusal, asking } = useProcedure();
+  const own = words.supervisor;
+  if (refusal !== null) return <RefusalNote refusal={refusal} />;
+  if (data === null) return <p className="soft">{asking ? own.loading : own.steps.notAnswered}</p>;
+  if (data.case_id === null) return <p className="soft">{own.steps.noCase}</p>;
+  return (
+    <ol className="steps-shown" data-testid="steps">
+      {data.steps.map((step) => (
+        <li key={step.step} data-state={step.lacks === null ? step.state : "missing"} data-step={step.step}>
+          <span aria-hidden="true" className="steps-mark">
+            {step.lacks === null ? SYMBOL[step.state] : "✎"}
+          </span>
+          <div>
+            <b>{words.operator.page[step.step]}</b> ·{" "}
+            {step.lacks === null ? words.operator.state[step.state] : own.steps.lacks}
+            <p className="soft">{step.said}</p>
+          </div>
+        </li>
+      ))}
+    </ol>
+  );
+}

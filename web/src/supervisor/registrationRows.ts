@@ -1,0 +1,46 @@
+// The numbers of a registration that a person reads, each with what was allowed where that was kept beside it.
+import type { SupervisorWords } from "../words/supervisor/en";
+
+type NumberName = keyof SupervisorWords["registration"]["numbers"];
+
+export interface Row {
+  name: NumberName;
+  value: number;
+  unit: "mm" | "°" | "";
+  most: number | null;
+  past: boolean;
+}
+
+const LIMIT_OF: Partial<Record<NumberName, string>> = {
+  fre_rms_mm: "most_fre_mm",
+  left_out_mm: "most_left_out_mm",
+  tre_at_entry_mm: "most_tre_mm",
+  surface_rms_mm: "most_surface_rms_mm",
+};
+const NAMES: readonly NumberName[] = [
+  "points",
+  "needles",
+  "fre_rms_mm",
+  "left_out_mm",
+  "worst_offset_mm",
+  "surface_rms_mm",
+  "tre_at_entry_mm",
+  "depth_sd_mm",
+  "across_sd_mm",
+  "tilt_sd_deg",
+  "turn_sd_deg",
+  "nudges",
+  "nudged_mm",
+  "nudged_deg",
+];
+
+export function rowsOf(numbers: Record<string, unknown>): Row[] {
+  return NAMES.flatMap((name) => {
+    const value = numbers[name];
+    if (typeof value !== "number") return [];
+    const limit = LIMIT_OF[name] === undefined ? null : numbers[LIMIT_OF[name]];
+    const most = typeof limit === "number" ? limit : null;
+    const unit = name.endsWith("_mm") ? "mm" : name.endsWith("_deg") ? "°" : "";
+    return [{ name, value, unit, most, past: most !== null && value > most }];
+  });
+}

@@ -1,0 +1,12 @@
+import type { LineWords } from "./en";
+
+export const lineDe: LineWords = {
+  size: "Bildgröße",
+  sizes: { auto: "Automatisch", full: "Voll", half: "Halb", quarter: "Viertel" },
+  thin: "Langsame Leitung",
+  slow: "Langsames Gerät",
+  reduced: "Verkleinertes Bild",
+  rate: "Bilder/s",
+  ages: "Wie alt alles ist",
+  age: { picture: "Bild", numbers: "Zahlen", scene: "3-D", clock: "Uhr des Servers, voraus um" },
+};

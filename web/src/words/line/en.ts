@@ -1,0 +1,12 @@
+export const lineEn = {
+  size: "Picture size",
+  sizes: { auto: "Auto", full: "Full", half: "Half", quarter: "Quarter" },
+  thin: "Thin line",
+  slow: "Slow device",
+  reduced: "Reduced picture",
+  rate: "images/s",
+  ages: "How old everything is",
+  age: { picture: "Picture", numbers: "Numbers", scene: "3-D", clock: "Clock of the server, ahead by" },
+};
+
+export type LineWords = typeof lineEn;

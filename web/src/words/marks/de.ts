@@ -1,0 +1,15 @@
+import type { MarksWords } from "./en";
+
+export const marksDe: MarksWords = {
+  layer:
+    "Das Video. Zum Zeigen darüberfahren; mit gewähltem Werkzeug drücken und zeichnen. Pfeiltasten bewegen den Zeiger.",
+  tools: "Zeigen und zeichnen",
+  tool: { point: "Zeigen", pen: "Stift", arrow: "Pfeil", circle: "Kreis" },
+  undo: "Rückgängig",
+  clear: "Meine löschen",
+  clearAll: "Alle löschen",
+  ago: "vor # s",
+  seenBy: "Alle, die zusehen, sehen es. Zeichnungen verschwinden von selbst.",
+  lineGone: "Die Leitung ist weg: Niemand sieht, was Sie zeigen.",
+  noPicture: "Es gibt kein Live-Bild, auf dem man zeichnen könnte.",
+};

@@ -1,0 +1,14 @@
+export const marksEn = {
+  layer: "The video. Move over it to point; with a tool chosen, press and draw. Arrow keys move the pointer.",
+  tools: "Point and draw",
+  tool: { point: "Point", pen: "Pen", arrow: "Arrow", circle: "Circle" },
+  undo: "Undo",
+  clear: "Clear mine",
+  clearAll: "Clear all",
+  ago: "# s ago",
+  seenBy: "Everybody who watches sees it. Drawings go by themselves.",
+  lineGone: "The line is gone: nobody sees what you mark.",
+  noPicture: "There is no live picture to mark on.",
+};
+
+export type MarksWords = typeof marksEn;

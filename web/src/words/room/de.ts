@@ -1,0 +1,9 @@
+import type { RoomWords } from "./en";
+
+export const roomDe: RoomWords = {
+  watching: "Es sehen zu",
+  unknown: "Wer zusieht, ist gerade nicht bekannt.",
+  you: "Sie",
+  role: { operator: "Bedienung", supervisor: "Aufsicht", viewer: "Zuschauer", screen: "Saalbildschirm" },
+  line: { good: "gute Leitung", slow: "langsame Leitung", silent: "antwortet nicht" },
+};

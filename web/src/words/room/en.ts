@@ -1,0 +1,9 @@
+export const roomEn = {
+  watching: "Watching",
+  unknown: "Who is watching is not known now.",
+  you: "you",
+  role: { operator: "operator", supervisor: "supervisor", viewer: "viewer", screen: "theatre screen" },
+  line: { good: "good line", slow: "slow line", silent: "not answering" },
+};
+
+export type RoomWords = typeof roomEn;
