@@ -33,6 +33,9 @@ GET     /api/alarms
 GET     /api/alarms/sound/{priority}.wav
 GET     /api/procedure
 GET     /video/{camera}.mjpg
+GET     /api/supervision/room
+GET     /api/supervision/signatures
+WS      /ws/room
 WS      /ws/live
 WS      /ws/view
 GET     /scene
@@ -99,10 +102,12 @@ POST    /api/alarms/resumption
 POST    /api/alarms/screens
 """
 
-# A colleague far away asks to hold, and takes that back. Nothing moves by it.
+# A colleague far away asks to hold, takes that back, and signs what was checked. Nothing moves by it.
 DONE_BY_OVERSEERS = """
 POST    /api/alarms/hold
 POST    /api/alarms/release
+POST    /api/supervision/signatures
+DELETE  /api/supervision/signatures/{signature_id}
 """
 
 DONE_BY_OPERATORS = """
@@ -110,6 +115,7 @@ POST    /api/people/invitations
 DELETE  /api/people/invitations/{invitation_id}
 DELETE  /api/people/sessions/{session_id}
 PUT     /api/rehearsal
+POST    /api/procedure/confirmation
 POST    /api/cases
 POST    /api/cases/archive
 PATCH   /api/cases/{case_id}

@@ -40,6 +40,7 @@ import "./theme/calibration.css";
 import "./theme/planning.css";
 import "./theme/registration.css";
 import "./theme/supervisor.css";
+import "./theme/people.css";
 import "./theme/line.css";
 
 import { MantineProvider } from "@mantine/core";

@@ -11,7 +11,6 @@ from typer.testing import CliRunner
 
 from server.cli.commands import app
 from server.security.audit import AuditLog, Entry, note, noting
-from server.security.audit import log as audit_log
 from server.security.person import ANYBODY
 from server.store import Change, StoreError
 from tests.server.security.doors import Clock
@@ -132,15 +131,15 @@ def test_a_line_whose_end_was_not_kept_beside_it_is_taken_as_it_is(log: AuditLog
 def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
     log: AuditLog, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    full = True
+    full = [True]
     write = os.write
 
     def writing(descriptor: int, content: bytes) -> int:
-        if full:
+        if full[0]:
             raise OSError(errno.ENOSPC, "No space left on device")
         return write(descriptor, content)
 
-    monkeypatch.setattr(audit_log.os, "write", writing)
+    monkeypatch.setattr(os, "write", writing)
     with pytest.raises(StoreError) as told:
         log.append(Entry(who=ANYBODY, what="first"))
     assert told.value.code == "STORE_FULL"
@@ -149,7 +148,7 @@ def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
     with pytest.raises(StoreError):
         log.catch_up()
     assert log.verify().fault is None
-    full = False
+    full[0] = False
     log.append(Entry(who=ANYBODY, what="second"))
     assert log.is_well
     assert [json.loads(line)["what"] for line in log.newest(2)] == ["first", "second"]

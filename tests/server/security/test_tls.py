@@ -182,7 +182,7 @@ def test_video_goes_through_tls_and_a_stalled_viewer_is_let_go(under_tls: tuple[
         stalled.sendall(
             f"GET /video/main.mjpg HTTP/1.1\r\nHost: localhost:{port}\r\nCookie: {cookie[1]}\r\n\r\n".encode()
         )
-        sizes = []
+        sizes: list[int] = []
         while sum(size > 100_000 for size in sizes) < 3:
             view.send('{"next": true}')
             sizes.append(len(view.recv(timeout=60)))

@@ -4,13 +4,15 @@ import { CameraPage } from "./camera/CameraPage";
 import { CasePage } from "./case/CasePage";
 import { CheckPage } from "./check/CheckPage";
 import { NavigatePage } from "./navigate/NavigatePage";
+import { PeoplePage } from "./people/PeoplePage";
 import { PlanPage } from "./plan/PlanPage";
 import type { Step } from "./procedure";
 import { RegistrationPage } from "./registration/RegistrationPage";
 import { ReportPage } from "./report/ReportPage";
 import { ToolPage } from "./tool/ToolPage";
 
-export type PageName = "case" | "camera" | "tool" | "plan" | "register" | "check" | "navigate" | "report";
+export type PageName =
+  "case" | "camera" | "tool" | "plan" | "register" | "check" | "navigate" | "report" | "people";
 
 export interface OperatorPage {
   name: PageName;
@@ -28,6 +30,7 @@ export const PAGES: readonly OperatorPage[] = [
   { name: "check", step: "check", Page: CheckPage },
   { name: "navigate", step: "navigate", Page: NavigatePage },
   { name: "report", step: null, Page: ReportPage },
+  { name: "people", step: null, Page: PeoplePage },
 ];
 
 export function pageAt(path: string): OperatorPage | null {

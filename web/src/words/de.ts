@@ -8,6 +8,7 @@ import { lineDe } from "./line/de";
 import { navigateDe } from "./navigate/de";
 import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
+import { peopleDe } from "./people/de";
 import { planDe } from "./plan/de";
 import { reasonsDe } from "./reasons/de";
 import { registrationDe } from "./registration/de";
@@ -146,6 +147,7 @@ export const de: Words = {
   case: caseDe,
   camera: cameraDe,
   tool: toolDe,
+  people: peopleDe,
   plan: planDe,
   registration: registrationDe,
   check: checkDe,

@@ -8,6 +8,7 @@ import { lineEn } from "./line/en";
 import { navigateEn } from "./navigate/en";
 import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
+import { peopleEn } from "./people/en";
 import { planEn } from "./plan/en";
 import { reasonsEn } from "./reasons/en";
 import { registrationEn } from "./registration/en";
@@ -148,6 +149,7 @@ export const en: Words = {
   case: caseEn,
   camera: cameraEn,
   tool: toolEn,
+  people: peopleEn,
   plan: planEn,
   registration: registrationEn,
   check: checkEn,

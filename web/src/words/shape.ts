@@ -19,6 +19,7 @@ import type { LineWords } from "./line/en";
 import type { MarksWords } from "./marks/en";
 import type { NavigateWords } from "./navigate/en";
 import type { OperatorWords } from "./operator/en";
+import type { PeopleWords } from "./people/en";
 import type { PlanWords } from "./plan/en";
 import type { RegistrationWords } from "./registration/en";
 import type { ReportWords } from "./report/en";
@@ -133,6 +134,7 @@ export interface Words {
   case: CaseWords;
   camera: CameraWords;
   tool: ToolWords;
+  people: PeopleWords;
   plan: PlanWords;
   registration: RegistrationWords;
   check: CheckWords;

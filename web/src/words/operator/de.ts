@@ -15,6 +15,7 @@ export const operatorDe: OperatorWords = {
     check: "Prüfung",
     navigate: "Navigation",
     report: "Bericht",
+    people: "Personen",
   },
   state: {
     missing: "offen",

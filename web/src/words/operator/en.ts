@@ -13,6 +13,7 @@ export const operatorEn = {
     check: "Check",
     navigate: "Navigate",
     report: "Report",
+    people: "People",
   },
   state: { missing: "to do", out_of_date: "out of date", failed: "failed", due: "due again", done: "done" },
 };

@@ -1,0 +1,94 @@
+import { Alert, Button, Table } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useWords } from "../../words/WordsContext";
+import { auditRow } from "./auditRow";
+import { clockTime } from "./clockTime";
+
+const LINES = 25;
+
+/** The audit log, the newest line first, and whether it is whole. */
+export function AuditLog(): ReactNode {
+  const all = useWords();
+  const words = all.people;
+  const [before, setBefore] = useState<number | null>(null);
+  const query = before === null ? { last: LINES } : { last: LINES, before };
+  const { data, refusal, again } = useAsked(
+    (signal) => answered(server.GET("/api/audit", { params: { query }, signal })),
+    { key: String(before) },
+  );
+  const rows = (data?.lines ?? []).map(auditRow).reverse();
+  const oldest = rows.at(-1)?.number ?? 0;
+  return (
+    <section aria-labelledby="audit">
+      <h3 id="audit">{words.log}</h3>
+      <RefusalNote refusal={refusal} />
+      {data?.is_whole === true && (
+        <p>
+          ✓ {words.whole} · {data.count} {words.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>
+        </p>
+      )}
+      {data?.is_whole === false && (
+        <Alert role="alert" title={`${words.broken} ${String(data.fault_line)}: ${data.fault}`}>
+          {words.brokenRemedy}
+        </Alert>
+      )}
+      <div className="people-scroll" tabIndex={0} role="region" aria-label={words.log}>
+        <Table>
+          <Table.Thead>
+            <Table.Tr>
+              <Table.Th>#</Table.Th>
+              <Table.Th>{words.when}</Table.Th>
+              <Table.Th>{words.who}</Table.Th>
+              <Table.Th>{words.what}</Table.Th>
+              <Table.Th>{words.result}</Table.Th>
+            </Table.Tr>
+          </Table.Thead>
+          <Table.Tbody>
+            {rows.map((row) => (
+              <Table.Tr key={row.number}>
+                <Table.Td>{row.number}</Table.Td>
+                <Table.Td>{row.at === "" ? "" : clockTime(row.at, all.language)}</Table.Td>
+                <Table.Td>{row.who}</Table.Td>
+                <Table.Td>
+                  {row.what}
+                  {row.changes.map((change) => (
+                    <small key={change}>{change}</small>
+                  ))}
+                </Table.Td>
+                <Table.Td>{row.result}</Table.Td>
+              </Table.Tr>
+            ))}
+          </Table.Tbody>
+        </Table>
+      </div>
+      <div className="people-row">
+        <Button
+          size="lg"
+          variant="default"
+          disabled={oldest <= 1}
+          onClick={() => {
+            setBefore(oldest);
+          }}
+        >
+          {words.older}
+        </Button>
+        <Button
+          size="lg"
+          variant="default"
+          onClick={() => {
+            setBefore(null);
+            again();
+          }}
+        >
+          {words.newest}
+        </Button>
+        <Button size="lg" variant="default" component="a" href="/api/audit/export" download>
+          {words.export}
+        </Button>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,50 @@
+import { Alert, Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+
+interface Props {
+  invited: components["schemas"]["InvitedMessage"];
+  onDone: () => void;
+}
+
+/** The link of a new invitation, as a picture that a phone reads, and as words; shown once. */
+export function InvitationLink({ invited, onDone }: Props): ReactNode {
+  const all = useWords();
+  const words = all.people;
+  const [copied, setCopied] = useState(false);
+  const { name, role, for_machine } = invited.invitation;
+  return (
+    <section aria-labelledby="invited" className="people-link">
+      <h3 id="invited">
+        {name} · {all.enter.role[role]}
+      </h3>
+      {!invited.is_reachable && <Alert title={words.here} />}
+      {!for_machine && (
+        <figure>
+          <img src={`data:image/svg+xml,${encodeURIComponent(invited.qr_svg)}`} alt={words.scan} />
+          <figcaption>{words.scan}</figcaption>
+        </figure>
+      )}
+      <p>{words.shown}</p>
+      <code data-testid="invitation-link">{invited.link}</code>
+      <div className="people-row">
+        <Button
+          size="lg"
+          variant="default"
+          onClick={() => {
+            // Without TLS a browser may not have it; then the words above are there to be marked.
+            void (navigator.clipboard as Clipboard | undefined)?.writeText(invited.link).then(() => {
+              setCopied(true);
+            });
+          }}
+        >
+          {copied ? words.copied : words.copy}
+        </Button>
+        <Button size="lg" onClick={onDone}>
+          {words.done}
+        </Button>
+      </div>
+    </section>
+  );
+}

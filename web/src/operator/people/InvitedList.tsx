@@ -1,0 +1,55 @@
+import { Button } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { clockTime } from "./clockTime";
+
+interface Props {
+  invitations: components["schemas"]["InvitationMessage"][];
+  onRevoked: () => void;
+}
+
+/** Who was invited, how each invitation stands, and a way to take an open one back. */
+export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
+  const all = useWords();
+  const words = all.people;
+  const { busy, refusal, run } = useDo();
+  const revoke = async (invitation_id: string): Promise<void> => {
+    const params = { path: { invitation_id } };
+    await answered(server.DELETE("/api/people/invitations/{invitation_id}", { params }));
+    onRevoked();
+  };
+  return (
+    <section aria-labelledby="invitations">
+      <h3 id="invitations">{words.invitations}</h3>
+      <RefusalNote refusal={refusal} />
+      {invitations.length === 0 && <p>{words.noInvitations}</p>}
+      <ul className="people-list">
+        {invitations.map((one) => (
+          <li key={one.id} data-state={one.state}>
+            <span>
+              <strong>{one.name}</strong> · {all.enter.role[one.role]} · {words.state[one.state]}
+              <small>
+                {words.until} {clockTime(one.expires_at, all.language)}
+              </small>
+            </span>
+            {one.state === "open" && (
+              <Button
+                size="lg"
+                variant="default"
+                disabled={busy}
+                aria-label={`${words.revokeHint} ${one.name}`}
+                onClick={() => void run(() => revoke(one.id))}
+              >
+                {words.revoke}
+              </Button>
+            )}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

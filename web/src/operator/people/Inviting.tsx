@@ -1,0 +1,111 @@
+import { Button, Checkbox, SegmentedControl, TextInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import type { Role } from "../../app/session";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import type { components } from "../../schema";
+import { useWords } from "../../words/WordsContext";
+import { InvitationLink } from "./InvitationLink";
+
+type Invited = components["schemas"]["InvitedMessage"];
+
+const ROLES: readonly Role[] = ["supervisor", "viewer", "screen", "operator"];
+const HOURS = [1, 24, 168];
+
+/** An invitation: who, as what, for how long; then its link, once. */
+export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
+  const all = useWords();
+  const words = all.people;
+  const [name, setName] = useState("");
+  const [role, setRole] = useState<Role>("supervisor");
+  const [hours, setHours] = useState(24);
+  const [singleUse, setSingleUse] = useState(true);
+  const [forMachine, setForMachine] = useState(false);
+  const [invited, setInvited] = useState<Invited | null>(null);
+  const { busy, refusal, run } = useDo();
+
+  const invite = async (): Promise<void> => {
+    const body = { name: name.trim(), role, lasts_h: hours, single_use: singleUse, for_machine: forMachine };
+    setInvited(await answered(server.POST("/api/people/invitations", { body })));
+    setName("");
+    onInvited();
+  };
+  if (invited !== null) {
+    return (
+      <InvitationLink
+        invited={invited}
+        onDone={() => {
+          setInvited(null);
+        }}
+      />
+    );
+  }
+  return (
+    <section aria-labelledby="invite">
+      <h3 id="invite">{words.invite}</h3>
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          void run(invite);
+        }}
+      >
+        <TextInput
+          size="lg"
+          label={words.name}
+          description={words.nameHint}
+          maxLength={80}
+          value={name}
+          onChange={(event) => {
+            setName(event.currentTarget.value);
+          }}
+        />
+        <div role="group" aria-label={words.role}>
+          <SegmentedControl
+            size="lg"
+            fullWidth
+            aria-label={words.role}
+            data={ROLES.map((one) => ({ value: one, label: all.enter.role[one] }))}
+            value={role}
+            onChange={setRole}
+          />
+          <p className="people-hint">{words.lets[role]}</p>
+        </div>
+        <div className="people-row">
+          <span>{words.lasts}</span>
+          <SegmentedControl
+            size="lg"
+            aria-label={words.lasts}
+            data={HOURS.map((one) => ({ value: String(one), label: `${String(one)} ${words.hours}` }))}
+            value={String(hours)}
+            onChange={(chosen) => {
+              setHours(Number(chosen));
+            }}
+          />
+        </div>
+        <div className="people-row">
+          <Checkbox
+            size="lg"
+            label={words.singleUse}
+            checked={singleUse}
+            onChange={(event) => {
+              setSingleUse(event.currentTarget.checked);
+            }}
+          />
+          <Checkbox
+            size="lg"
+            label={words.forMachine}
+            checked={forMachine}
+            onChange={(event) => {
+              setForMachine(event.currentTarget.checked);
+            }}
+          />
+        </div>
+        <RefusalNote refusal={refusal} />
+        <Button type="submit" size="lg" loading={busy} disabled={name.trim() === ""} data-testid="invite">
+          {words.make}
+        </Button>
+      </form>
+    </section>
+  );
+}

@@ -1,0 +1,34 @@
+import { Alert } from "@mantine/core";
+import type { ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { useWords } from "../../words/WordsContext";
+import { AuditLog } from "./AuditLog";
+import { Inviting } from "./Inviting";
+import { InvitedList } from "./InvitedList";
+import { SignedInList } from "./SignedInList";
+
+const ASK_EVERY_MS = 3000;
+
+/** Who is signed in, who is invited, and what was done. */
+export function PeoplePage(): ReactNode {
+  const words = useWords().people;
+  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/people", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  return (
+    <div className="people">
+      <RefusalNote refusal={refusal} />
+      {data?.sign_in_required === false && <Alert title={words.off} />}
+      {data?.sign_in_required === true && (
+        <>
+          <Inviting onInvited={again} />
+          <SignedInList sessions={data.sessions} onEnded={again} />
+          <InvitedList invitations={data.invitations} onRevoked={again} />
+        </>
+      )}
+      <AuditLog />
+    </div>
+  );
+}
