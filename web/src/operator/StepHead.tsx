@@ -7,7 +7,7 @@ import { useProcedure } from "./procedure";
 import { MARK_OF_STATE } from "./stepMarks";
 
 /** A remedy that names an address of the API is for programs: whoever is here has the page's own buttons. */
-const FOR_MACHINES = /\/api\//;
+const FOR_MACHINES = "/api/";
 
 /** What a step is for, how it stands with its numbers, and what to do next, as the server says it. */
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
@@ -28,7 +28,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
           </strong>{" "}
           {/* The server speaks English. */}
           <span lang="en">{sentence(step.said)}</span>
-          {step.remedy !== "" && !FOR_MACHINES.test(step.remedy) && (
+          {step.remedy !== "" && !step.remedy.includes(FOR_MACHINES) && (
             <span className="step-remedy" lang="en">
               {step.remedy}
             </span>
