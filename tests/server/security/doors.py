@@ -84,9 +84,7 @@ def guarded(
         with Home(folder) as home, CaseStore(home) as store:
             people = people_of(folder / "security", clock, required=required)
             store.tell_changes(people.audit.changed)
-            steps = Steps.of(
-                hub=hub, store=store, jobs=jobs, config=config, side_mm_from_marker={}, adopt=lambda _: None
-            )
+            steps = Steps.of(hub=hub, store=store, jobs=jobs, config=config, markers=(), adopt=lambda _: None)
             parts = AppParts(hub=hub, config=config, store=store, jobs=jobs, steps=steps, people=people)
             app = create_app(parts)
             with TestClient(app, base_url=f"http://{HOST}", raise_server_exceptions=False) as door:

@@ -131,11 +131,11 @@ def test_a_line_whose_end_was_not_kept_beside_it_is_taken_as_it_is(log: AuditLog
 def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
     log: AuditLog, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    full = [True]
+    full = ["the disk"]
     write = os.write
 
     def writing(descriptor: int, content: bytes) -> int:
-        if full[0]:
+        if full:
             raise OSError(errno.ENOSPC, "No space left on device")
         return write(descriptor, content)
 
@@ -143,14 +143,14 @@ def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
     with pytest.raises(StoreError) as told:
         log.append(Entry(who=ANYBODY, what="first"))
     assert told.value.code == "STORE_FULL"
-    assert not log.is_well
+    assert [log.is_well] == [False]
     assert not (folder / "audit-reserve").exists()
     with pytest.raises(StoreError):
         log.catch_up()
     assert log.verify().fault is None
-    full[0] = False
+    full.clear()
     log.append(Entry(who=ANYBODY, what="second"))
-    assert log.is_well
+    assert [log.is_well] == [True]
     assert [json.loads(line)["what"] for line in log.newest(2)] == ["first", "second"]
     assert log.verify().fault is None
     assert (folder / "audit-reserve").exists()
