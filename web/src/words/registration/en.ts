@@ -1,4 +1,5 @@
 import { needlesEn } from "./needlesEn";
+import { nudgesEn } from "./nudgesEn";
 
 export const registrationEn = {
   title: "Registration",
@@ -156,31 +157,7 @@ export const registrationEn = {
     conclude: "Register by this sweep",
     again: "Sweep anew",
   },
-  nudges: {
-    needsRegistration: "There is no registration to nudge. Register first.",
-    checkAgain: "Each nudge makes another registration: check it on a landmark before navigating.",
-    kind: "Shift or turn",
-    shift: "Shift",
-    turn: "Turn",
-    step: "Size of a step",
-    pad: "Nudge the drawn vertebra",
-    shiftTo: {
-      left: { minus: "to the right", plus: "to the left" },
-      back: { minus: "to the front", plus: "to the back" },
-      head: { minus: "to the feet", plus: "to the head" },
-    },
-    turnTo: {
-      left: { minus: "back side feetwards", plus: "back side headwards" },
-      back: { minus: "upper end to the right", plus: "upper end to the left" },
-      head: { minus: "left side forwards", plus: "left side backwards" },
-    },
-    sumMm: "Shifted in all",
-    sumDeg: "Turned in all",
-    allowed: "allowed",
-    undo: "Undo the last nudge",
-    log: "Nudges that hold",
-    logEmpty: "Nothing has been nudged.",
-  },
+  ...nudgesEn,
   ...needlesEn,
   rehearsal: {
     title: "Rehearsal",
