@@ -34,9 +34,7 @@ export function CheckOutcome({ outcome }: { outcome: components["schemas"]["Kept
         {way(head, words.head, words.feet)}
       </p>
       <p className="quiet">
-        {outcome.sd_mm === null
-          ? ""
-          : filled(words.sure, { sd: shownNumber(outcome.sd_mm, 1), images: outcome.images })}
+        {filled(words.sure, { sd: shownNumber(outcome.sd_mm, 1), images: outcome.images })}
       </p>
       {!outcome.passed && <p>{words.failedRemedy}</p>}
     </div>

@@ -18,7 +18,9 @@ export function RegistrationNow(): ReactNode {
   const step = data?.steps.find((one) => one.step === "register");
   const words = useWords().registration;
   if (data === null || step === undefined) return null;
-  if (step.document_id === null) return <p data-testid="registration-none">{words.now.none}</p>;
+  // One that was withdrawn is no registration to go on with; why is said at the head of the step.
+  if (step.document_id === null || step.state !== "done")
+    return <p data-testid="registration-none">{words.now.none}</p>;
   return <Newest key={step.document_id} caseId={data.case_id ?? ""} documentId={step.document_id} />;
 }
 

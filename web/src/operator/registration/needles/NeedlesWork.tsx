@@ -103,7 +103,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
           aria-label={words.how}
           value={mode}
           onChange={(value) => {
-            setMode(value as Mode);
+            setMode(value);
           }}
           data={[
             { value: "overlay", label: words.overlay },

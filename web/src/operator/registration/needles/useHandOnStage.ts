@@ -73,7 +73,7 @@ export function useHandOnStage(
   useEffect(() => {
     const element = stage.current;
     if (element === null) return;
-    element.style.touchAction = enabled ? "none" : "manipulation";
+    element.style.setProperty("touch-action", enabled ? "none" : "manipulation");
     const keep = (event: WheelEvent): void => {
       if (enabled) event.preventDefault();
     };

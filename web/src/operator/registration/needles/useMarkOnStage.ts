@@ -53,7 +53,6 @@ export function useMarkOnStage(
   );
 
   useEffect(() => {
-    const element = stage.current;
-    if (element !== null) element.style.touchAction = "none";
+    stage.current?.style.setProperty("touch-action", "none");
   }, [stage]);
 }

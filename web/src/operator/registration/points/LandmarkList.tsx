@@ -15,7 +15,7 @@ interface LandmarkListProps {
 /** Every landmark with its residual; a touch on one asks for it, or for it again. */
 export function LandmarkList({ points, wanted, onPick, onUse, onForget }: LandmarkListProps): ReactNode {
   const words = useWords().registration.points;
-  const strays = new Set(points.missing.map((one) => String(one.context["landmark"] ?? "")));
+  const strays = new Set(points.missing.map((one) => one.context["landmark"]));
   return (
     <ul className="landmarks" aria-label={words.landmarks}>
       {points.landmarks.map((one) => (
