@@ -39,7 +39,9 @@ from server.api.tools import tools_router
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
+from server.loop.publisher import Picture
 from server.loop.rehearsed import Rehearsed
+from server.overlay import draw_overlay
 from server.overlay.words import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.shown_bone import ShownBone
@@ -149,6 +151,12 @@ def create_app(parts: AppParts) -> FastAPI:
         ShownBone(parts.store, app.state.scene.show_surface, own=parts.surface)
     mount_page(app, camera=config.camera.name, folder=page_folder())
     return app
+
+
+def picture_of(app: FastAPI) -> Picture:
+    """How each image is drawn and encoded: once for all who watch through this application."""
+    pictures = app.state.pictures
+    return Picture(draw=draw_overlay, encode=pictures.encode, wanted=pictures.wants_full)
 
 
 def _add_guards(app: FastAPI, parts: AppParts) -> None:

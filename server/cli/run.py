@@ -67,10 +67,8 @@ def _serve(
         preparation = build_setup(config)
         _warn_without_markers(preparation)
         from server.alarms import AlarmDesk, StoredAlarmLog  # noqa: PLC0415
-        from server.app import AppParts, create_app  # noqa: PLC0415
+        from server.app import AppParts, create_app, picture_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
-        from server.loop.publisher import Picture  # noqa: PLC0415
-        from server.overlay import draw_overlay  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
         alarm_log = StoredAlarmLog(kept.store)
@@ -101,9 +99,7 @@ def _serve(
                 rehearsed=_rehearsed(config, preparation, tracked),
             )
         )
-        pictures = app.state.pictures
-        picture = Picture(draw=draw_overlay, encode=pictures.encode, wanted=pictures.wants_full)
-        tracked.publish(picture, look=alarms.look)
+        tracked.publish(picture_of(app), look=alarms.look)
         serve_until(app, listener, stopping, on_ready=lambda: _greet(listener, door.words), tls=door.tls)
 
 

@@ -85,20 +85,13 @@ class Steps:
         """
         brought = brought_by(config)
         marker_step = MarkerStep(store=store, brought=markers)
-        gate, cosign = config.registration, config.supervision.cosign
-        procedure = Procedure(
-            store,
-            brought=brought,
-            gate=gate,
-            run=new_run(),
-            cosign=cosign,
-            tracked_from_s=tracked_from_s,
-        )
+        procedure = _procedure(store, config, brought, tracked_from_s)
+        guiding = Guiding(store=store, jobs=jobs)
         in_use = CaseInUse(
             store,
             adopt,
             procedure=procedure,
-            guiding=Guiding(store=store, jobs=jobs),
+            guiding=guiding,
             brought=brought,
             markers=marker_step,
             know=know,
@@ -125,7 +118,7 @@ class Steps:
                 surfaces=surface,
                 procedure=procedure,
                 brought=brought,
-                gate=gate,
+                gate=config.registration,
             ),
             confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
         )
@@ -135,6 +128,19 @@ class Steps:
         self.camera.end()
         self.tool.end()
         self.registration.close()
+
+
+def _procedure(
+    store: CaseStore, config: Config, brought: Brought, tracked_from_s: Callable[[], float]
+) -> Procedure:
+    return Procedure(
+        store,
+        brought=brought,
+        gate=config.registration,
+        run=new_run(),
+        cosign=config.supervision.cosign,
+        tracked_from_s=tracked_from_s,
+    )
 
 
 def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:

@@ -1,6 +1,7 @@
 """A case with camera, tool, CT and plan in a folder, before a server is started there: nothing waits."""
 
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from tracker.rehearsal.ct import rehearsal_ct
 # Coarser than a scanner's: the pages ask where things are, not how fine.
 SPACING_MM = (1.2, 1.2, 1.5)
 APART_MM = 20.0
-SIDES = ("left", "right")
+SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
 
 
 def prepared(home: Path, rehearsal: RehearsalConfig) -> Theatre:

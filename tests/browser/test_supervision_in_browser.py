@@ -87,18 +87,17 @@ def picture(page: Page, name: str) -> None:
     page.screenshot(path=SCREENSHOTS / f"{name}.png")
 
 
-def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
-    supervised: Supervised, watch: Callable[..., Watched]
-) -> None:
-    theatre = opened(watch, supervised, "v1", "theatre", (1600, 900))
-    sato = opened(watch, supervised, "s1", "supervisor", (1280, 800))
-    expect(sato.get_by_test_id("watching")).to_contain_text("Guest")
+def marks_reach(theatre: Page, sato: Page) -> None:
     marks, own = theatre.get_by_test_id("marks"), sato.get_by_test_id("marks")
 
     # A pointer, at the same place of a picture of another size, which goes by itself.
     # It goes when it rests, and on a busy machine it may be gone before anybody looks.
-    places = (on_picture(sato, 900 + turn % 2, 500) for turn in range(1000))
-    assert any(is_painted(marks, 900, 500) for place in places if sato.mouse.move(*place) is None)
+    for turn in range(1000):
+        sato.mouse.move(*on_picture(sato, 900 + turn % 2, 500))
+        if is_painted(marks, 900, 500):
+            break
+    else:
+        pytest.fail("the pointer did not appear in theatre")
     assert not is_painted(marks, 300, 600)
     expect(marks).to_have_attribute("data-pointers", "0")
 
@@ -124,6 +123,8 @@ def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
     sato.get_by_test_id("marks-clear").click()
     expect(marks).to_have_attribute("data-marks", "0")
 
+
+def signature_opens_navigation(supervised: Supervised, theatre: Page, sato: Page) -> None:
     # What is required is not there; one look and two touches later it is, and navigation is open.
     asks = theatre.request.get
     address = f"http://127.0.0.1:{supervised.port}/api/procedure"
@@ -140,6 +141,8 @@ def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
     assert asks(address).json()["may_navigate"]
     expect(sato.locator("[data-step=navigate]")).to_have_attribute("data-state", "done")
 
+
+def hold_is_heard(theatre: Page, sato: Page) -> None:
     # A hold, in two touches, is an alarm in theatre under the name of who asks.
     sato.get_by_test_id("hold-ask").click()
     sato.get_by_test_id("hold-ask").click()
@@ -148,6 +151,17 @@ def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
     picture(theatre, "hold-in-theatre")
     sato.get_by_test_id("hold-release").click()
     expect(sato.get_by_test_id("hold")).to_have_attribute("data-asked", "false")
+
+
+def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
+    supervised: Supervised, watch: Callable[..., Watched]
+) -> None:
+    theatre = opened(watch, supervised, "v1", "theatre", (1600, 900))
+    sato = opened(watch, supervised, "s1", "supervisor", (1280, 800))
+    expect(sato.get_by_test_id("watching")).to_contain_text("Guest")
+    marks_reach(theatre, sato)
+    signature_opens_navigation(supervised, theatre, sato)
+    hold_is_heard(theatre, sato)
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (390, 844)])

@@ -1,18 +1,17 @@
-import type { ReactNode } from "react";
+import { lazy, Suspense, type ComponentType, type ReactNode } from "react";
 import { useLocation } from "wouter";
 import { EnterPage } from "../enter/EnterPage";
 import { LiveProvider } from "../live/LiveContext";
-import { OperatorView } from "../operator/OperatorView";
 import { RoomProvider } from "../room/RoomContext";
-import { SupervisorView } from "../supervisor/SupervisorView";
 import { TheatreView } from "../theatre/TheatreView";
 import { useSession } from "./session";
 import { viewAt, type ViewName } from "./views";
 
-const VIEWS: Record<ViewName, () => ReactNode> = {
+// A screen in theatre loads nothing of the pages that only a tablet shows.
+const VIEWS: Record<ViewName, ComponentType> = {
   theatre: TheatreView,
-  operator: OperatorView,
-  supervisor: SupervisorView,
+  operator: lazy(async () => ({ default: (await import("../operator/OperatorView")).OperatorView })),
+  supervisor: lazy(async () => ({ default: (await import("../supervisor/SupervisorView")).SupervisorView })),
 };
 
 /** Who is signed in sees a view; everybody else the door. */
@@ -25,7 +24,9 @@ export function App(): ReactNode {
   return (
     <LiveProvider>
       <RoomProvider view={view}>
-        <View />
+        <Suspense fallback={null}>
+          <View />
+        </Suspense>
       </RoomProvider>
     </LiveProvider>
   );
