@@ -74,9 +74,7 @@ class Steps:
         """The steps; from here on `adopt` is told whenever the open case knows something else.
 
         Args:
-            hub: the live images.
-            store: where results are kept.
-            jobs: where long work is done.
+            hub, store, jobs: the live images, where results are kept, and where long work is done.
             config: the gates, and the tools as the settings have them.
             markers: that are looked for whatever the case has.
             adopt: has the tracking process work with what a case knows.
@@ -101,9 +99,7 @@ class Steps:
         surface = SurfaceStep(store=store, jobs=jobs, opened=opened_ct)
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
-            camera=CameraStep(
-                hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source
-            ),
+            camera=_camera_step(hub, store, jobs, config, brought),
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
@@ -141,6 +137,10 @@ def _procedure(
         cosign=config.supervision.cosign,
         tracked_from_s=tracked_from_s,
     )
+
+
+def _camera_step(hub: LiveHub, store: CaseStore, jobs: Jobs, config: Config, brought: Brought) -> CameraStep:
+    return CameraStep(hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source)
 
 
 def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:
