@@ -14,7 +14,7 @@ from typing import TypeAlias
 import structlog
 
 from server.jobs.records import Job, JobState
-from server.jobs.work import Progress, Result, Work, run_work
+from server.jobs.work import Progress, Result, Work, as_told, run_work
 from server.live import Trouble
 from server.logs import LogSettings
 from server.loop.forks import ending_words, forking_context
@@ -165,6 +165,7 @@ class Jobs:
         process = self._context.Process(
             target=run_work,
             args=(watched.work, watched.arguments, theirs, self._log),
+            kwargs={"is_answer": watched.conclude is None},
             name=f"job {watched.job.id}",
             daemon=True,
         )
@@ -223,7 +224,9 @@ class Jobs:
 
     def _concluded(self, watched: _Watched, result: Result) -> Result | Trouble:
         try:
-            return result if watched.conclude is None else Result(value=watched.conclude(result.value))
+            return (
+                result if watched.conclude is None else Result(value=as_told(watched.conclude(result.value)))
+            )
         except NavigationError as error:
             return Trouble.from_error(error)
         except Exception:

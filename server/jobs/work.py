@@ -34,7 +34,7 @@ class Report(Protocol):
         """May be called as often as is easy."""
 
 
-# A function at the top of a module: work(report, **arguments) -> what JSON can say.
+# A function at the top of a module: work(report, **arguments) -> what JSON can say, or its `conclude` takes.
 Work: TypeAlias = Callable[..., object]
 
 
@@ -56,8 +56,10 @@ class Result:
 Told: TypeAlias = Progress | Result | Trouble
 
 
-def run_work(work: Work, arguments: Mapping[str, object], told: Connection, settings: LogSettings) -> None:
-    """The whole life of the process."""
+def run_work(
+    work: Work, arguments: Mapping[str, object], told: Connection, settings: LogSettings, *, is_answer: bool
+) -> None:
+    """The whole life of the process. `is_answer`: what comes out is told as it is, not concluded first."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     die_with_parent()
     configure_logging(settings, process="job")
@@ -66,7 +68,7 @@ def run_work(work: Work, arguments: Mapping[str, object], told: Connection, sett
     try:
         value = work(_reporter(told), **arguments)
         # What JSON cannot say would fail later, where nobody knows of whom it came.
-        told.send(Result(value=json.loads(json.dumps(value, allow_nan=False))))
+        told.send(Result(value=as_told(value) if is_answer else value))
     except BrokenPipeError:
         # Nobody wants it any more.
         os._exit(0)
@@ -75,6 +77,16 @@ def run_work(work: Work, arguments: Mapping[str, object], told: Connection, sett
     except Exception as error:
         log.exception("a job failed")
         told.send(_trouble(error, arguments))
+
+
+def as_told(value: object) -> object:
+    """What an answer in JSON says of it.
+
+    Raises:
+        TypeError, ValueError: JSON cannot say it.
+    """
+    told: object = json.loads(json.dumps(value, allow_nan=False))
+    return told
 
 
 def _trouble(error: Exception, arguments: Mapping[str, object]) -> Trouble:

@@ -44,7 +44,7 @@ class CameraStep:
         self._source = source
         self._held: Held[BoardCollection] = Held(
             "views of a calibration board are",
-            remedy="Start with POST /api/camera/collection, which says what board it is.",
+            remedy="Start collecting, and say what board it is.",
         )
 
     def begin(self, board: Board) -> BoardCollection:

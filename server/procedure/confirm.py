@@ -10,7 +10,7 @@ from server.procedure.opened import opened_case
 from server.procedure.state import Procedure
 from server.store import CaseStore, Document, DocumentKind, OutOfDateError
 
-LOOK_AGAIN = "Look at what is asked now, with GET /api/procedure, and confirm that."
+LOOK_AGAIN = "Look at what is asked now, and confirm that."
 
 
 class ConfirmStep:

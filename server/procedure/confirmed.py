@@ -17,9 +17,9 @@ SAID = {
 }
 REMEDY = {
     AnchoredTo.REFERENCE: "Look whether this is the patient and the marker on the bone is untouched; then "
-    "confirm with POST /api/procedure/confirmation, or check on a landmark.",
-    AnchoredTo.CAMERA: "Look whether the planned channel still lies on the bone in the picture; then confirm "
-    "with POST /api/procedure/confirmation, or check on a landmark.",
+    "confirm, or check on a landmark.",
+    AnchoredTo.CAMERA: "Look whether the planned channel still lies on the bone in the picture; then "
+    "confirm, or check on a landmark.",
 }
 
 

@@ -15,6 +15,6 @@ def opened_case(store: CaseStore) -> Case:
         raise SetupOrderError(
             "NO_CASE_OPEN",
             "no case is open, so nothing that is made could be kept",
-            "Make a case with POST /api/cases and open it, or open one that is there.",
+            "Make a case and open it, or open one that is there.",
         )
     return case

@@ -74,7 +74,9 @@ class Steps:
         """The steps; from here on `adopt` is told whenever the open case knows something else.
 
         Args:
-            hub, store, jobs: the live images, where results are kept, and where long work is done.
+            hub: the live images.
+            store: where results are kept.
+            jobs: where long work is done.
             config: the gates, and the tools as the settings have them.
             markers: that are looked for whatever the case has.
             adopt: has the tracking process work with what a case knows.
@@ -84,12 +86,11 @@ class Steps:
         brought = brought_by(config)
         marker_step = MarkerStep(store=store, brought=markers)
         procedure = _procedure(store, config, brought, tracked_from_s)
-        guiding = Guiding(store=store, jobs=jobs)
         in_use = CaseInUse(
             store,
             adopt,
             procedure=procedure,
-            guiding=guiding,
+            guiding=Guiding(store=store, jobs=jobs),
             brought=brought,
             markers=marker_step,
             know=know,
@@ -107,15 +108,7 @@ class Steps:
             plan=plan,
             surface=surface,
             procedure=procedure,
-            registration=RegistrationSteps.of(
-                hub=hub,
-                store=store,
-                plans=plan.shelf,
-                surfaces=surface,
-                procedure=procedure,
-                brought=brought,
-                gate=config.registration,
-            ),
+            registration=_registration(hub, store, config, procedure, brought, plan=plan, surface=surface),
             confirm=ConfirmStep(hub=hub, store=store, procedure=procedure),
         )
 
@@ -136,6 +129,27 @@ def _procedure(
         run=new_run(),
         cosign=config.supervision.cosign,
         tracked_from_s=tracked_from_s,
+    )
+
+
+def _registration(
+    hub: LiveHub,
+    store: CaseStore,
+    config: Config,
+    procedure: Procedure,
+    brought: Brought,
+    *,
+    plan: PlanStep,
+    surface: SurfaceStep,
+) -> RegistrationSteps:
+    return RegistrationSteps.of(
+        hub=hub,
+        store=store,
+        plans=plan.shelf,
+        surfaces=surface,
+        procedure=procedure,
+        brought=brought,
+        gate=config.registration,
     )
 
 

@@ -116,7 +116,7 @@ class SurfaceStep:
             raise SetupOrderError(
                 "SURFACE_MISSING",
                 "the open case has no surface of the bone",
-                "Make one with POST /api/surface/from-ct, or send one with POST /api/surface.",
+                "Make one from the CT, or send one.",
                 {"case_id": case.id},
             )
         return document, self._store.file(case.id, document.files[0])

@@ -101,7 +101,7 @@ class ToolStep:
         self._tools = tools
         self._held: Held[ToolCollection] = Held(
             "poses of a tool are",
-            remedy="Start with POST /api/tools/collection, which says which tool and what for.",
+            remedy="Start collecting, and say which tool and what for.",
         )
 
     def begin(self, tool: str, *, marker: str | None, purpose: Purpose) -> ToolCollection:

@@ -50,7 +50,7 @@ class OpenedCt:
             raise SetupOrderError(
                 "CT_MISSING",
                 "the open case has no CT",
-                "Send one with POST /api/ct.",
+                "Send one.",
                 {"case_id": case.id},
             )
         with self._lock:

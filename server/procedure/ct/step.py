@@ -204,6 +204,6 @@ def _unknown(upload_id: str) -> UploadUnknown:
     return UploadUnknown(
         "UPLOAD_UNKNOWN",
         f"there is no upload {upload_id[:40]} that is being read or waits for a choice",
-        "Look at the job that read it; if the CT is in the case, look at /api/ct.",
+        "Look at the job that read it; the CT may be in the case already.",
         {"upload_id": upload_id[:40]},
     )

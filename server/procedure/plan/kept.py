@@ -64,7 +64,7 @@ class PlanShelf:
             raise SetupOrderError(
                 "PLAN_MISSING",
                 "the open case has no plan",
-                "Begin one with POST /api/plan/vertebrae, or bring one with POST /api/plan/import.",
+                "Begin one with a vertebra, or bring one as a file.",
                 {"case_id": case_id},
             )
         return KeptPlan(
@@ -102,8 +102,7 @@ class PlanShelf:
             raise OutOfDateError(
                 "PLAN_OUT_OF_DATE",
                 f"the plan is out of date: {standing.reason}",
-                "Send the whole plan with PUT /api/plan, after looking at it on this CT, or an empty one to "
-                "begin anew.",
+                "Send the whole plan again, after looking at it on this CT, or an empty one to begin anew.",
                 {"version": document.version},
             )
         return plan_from_mapping(document.content), document.version, ct

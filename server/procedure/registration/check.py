@@ -139,7 +139,7 @@ class CheckStep:
         self._procedure = procedure
         self._gate = gate
         self._held: Held[CheckSession] = Held(
-            "check is", remedy="Begin with POST /api/registration/check, which says on which landmark."
+            "check is", remedy="Begin the check, and say on which landmark."
         )
 
     def begin(self, landmark: str, *, tool: str) -> CheckSession:

@@ -275,7 +275,7 @@ def _reference(ground: Ground) -> ReferenceSlice:
         raise PlanError(
             "REFERENCE_MISSING",
             f"{ground.vertebra.name} has no reference slice",
-            "Choose the slice that stands for it with PUT /api/plan/vertebrae/{name}/reference, or name "
+            "Choose the slice that stands for it in the plan, or name "
             "the landmarks that the needles stand on.",
             {"vertebra": ground.vertebra.name},
         )

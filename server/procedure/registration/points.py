@@ -61,7 +61,7 @@ class PointsStep:
         self._captures = capture_settings(gate)
         self._held: Held[PointsSession] = Held(
             "landmarks are",
-            remedy="Begin with POST /api/registration/points, which says with which tool.",
+            remedy="Begin with the points, and say with which tool.",
         )
 
     def begin(self, *, tool: str, vertebra: str | None = None) -> PointsSession:
@@ -79,8 +79,7 @@ class PointsStep:
             raise RegistrationError(
                 "LANDMARKS_TOO_FEW",
                 f"the plan has {there} landmarks on {ground.vertebra.name}, needed {needed}",
-                "Mark landmarks on the CT with PUT /api/plan/vertebrae/{name}/landmarks; one more serves as "
-                "the check.",
+                "Mark landmarks on the CT, in the plan; one more serves as the check.",
                 {"landmarks": there, "needed": needed},
             )
         return self._held.begin(lambda: PointsSession(self._hub, ground, self._captures))

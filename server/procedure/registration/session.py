@@ -174,7 +174,7 @@ class PointsSession:
             raise RegistrationError(
                 "LANDMARK_NOT_TOUCHED",
                 f"the landmark '{landmark}' has not been touched",
-                "Capture it first, with POST /api/registration/points/captures.",
+                "Capture it first.",
                 {"landmark": landmark},
             )
 

@@ -56,7 +56,7 @@ class RegistrationShelf:
             raise SetupOrderError(
                 "REGISTER_MISSING",
                 f"{name or 'the vertebra that is to be drilled'} is not registered",
-                "Register: touch the landmarks of the plan, beginning with POST /api/registration/points.",
+                "Register: touch the landmarks of the plan.",
                 {"vertebra": name},
             )
         return ShelvedRegistration(

@@ -149,9 +149,7 @@ class SweepStep:
         self._gate = SurfaceGate(most_rms_mm=gate.most_surface_rms_mm, most_tre_mm=gate.most_tre_mm)
         self._lock = threading.Lock()
         self._nearest: tuple[str, NearestOnSurface] | None = None
-        self._held: Held[SweepSession] = Held(
-            "sweep is", remedy="Begin with POST /api/registration/sweep, which says with which tool."
-        )
+        self._held: Held[SweepSession] = Held("sweep is", remedy="Begin a sweep, and say with which tool.")
 
     def begin(self, *, tool: str) -> SweepSession:
         """Begin to sweep the vertebra that is to be drilled, which is registered already.

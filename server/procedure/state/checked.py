@@ -8,7 +8,7 @@ from server.store import Document
 from tracker.errors import NavigationError
 from tracker.registration import AnchoredTo
 
-CHECK = "Hold the tip on a landmark that was not used, with POST /api/registration/check."
+CHECK = "Hold the tip on a landmark that was not used."
 
 
 def check_finding(

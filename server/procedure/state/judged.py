@@ -11,7 +11,7 @@ NOTHING_LACKS: Mapping[StepName, Lack] = {}
 NO_CASE = Finding(
     state=StepState.MISSING,
     said="no case is open",
-    remedy="Make a case with POST /api/cases and open it, or open one that is there.",
+    remedy="Make a case and open it, or open one that is there.",
 )
 # A step that is asked for too early is told by the one that it waits for.
 WORDS = {

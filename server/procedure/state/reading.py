@@ -28,10 +28,10 @@ from tracker.errors import NavigationError
 from tracker.plan import plan_from_mapping
 from tracker.plan.document.changes import vertebra_named
 
-CALIBRATE = "Calibrate the camera: collect views with POST /api/camera/collection."
-PIVOT = "Calibrate the tool: gather poses with POST /api/tools/collection."
-CHOOSE = "Choose the channel that is to be drilled with POST /api/plan/active-channel."
-REGISTER = "Register: touch the landmarks of the plan, beginning with POST /api/registration/points."
+CALIBRATE = "Calibrate the camera: collect views of the board."
+PIVOT = "Calibrate the tool: pivot it, and gather its poses."
+CHOOSE = "Choose in the plan the channel that is to be drilled."
+REGISTER = "Register: touch the landmarks of the plan."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -208,7 +208,7 @@ class Procedure:
             case_id,
             DocumentKind.PLAN,
             MAIN_PLAN,
-            remedy="Plan on the CT: begin with POST /api/ct and POST /api/plan/vertebrae.",
+            remedy="Plan on the CT: send it, and name a vertebra.",
         )
         if isinstance(found, Finding):
             return found
@@ -311,7 +311,7 @@ def _axis_missing(document: Document) -> Finding:
     return Finding(
         state=StepState.MISSING,
         said=f"nobody knows which way '{document.name}' points",
-        remedy="Spin the tool about its axis, with POST /api/tools/collection, or give axis_in_marker.",
+        remedy="Spin the tool about its axis, or give axis_in_marker.",
         document_id=document.id,
     )
 

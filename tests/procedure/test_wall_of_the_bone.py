@@ -1,0 +1,23 @@
+"""What is drilled is held against the bone of the case, as soon as the distances to it are measured."""
+
+from tests.procedure.conftest import Server
+from tests.procedure.test_ct_step import BY
+from tests.procedure.test_plan_step import planned
+from tests.procedure.uploads import dicom_zip
+
+WORK = "measuring the distances to the bone"
+
+
+def test_the_surface_of_the_case_becomes_the_wall(server: Server) -> None:
+    planned(server, dicom_zip())
+    job = server.ask("POST", "/api/surface/from-ct", 202, json=BY)
+    assert server.done(job)["state"] == "done"
+    server.ask("POST", "/api/plan/active-channel", 200, json={**BY, "vertebra": "L3", "side": "left"})
+    measuring = next(one for one in server.ask("GET", "/api/jobs", 200)["jobs"] if one["title"] == WORK)
+    done = server.done(measuring)
+    assert done["state"] == "done", done["trouble"]
+    assert done["result"]["in_use"]
+    assert done["result"]["against"] == "bone", done["result"]
+    guide = server.adopted[-1].guide
+    assert guide is not None
+    assert guide.wall.against == "bone"
