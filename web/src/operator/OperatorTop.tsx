@@ -1,5 +1,4 @@
 import type { ReactNode } from "react";
-import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
@@ -19,7 +18,6 @@ export function OperatorTop(): ReactNode {
       </p>
       <LiveStatus withTracking />
       <ViewSwitch />
-      <SignedIn />
     </header>
   );
 }

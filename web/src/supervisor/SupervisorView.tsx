@@ -1,7 +1,10 @@
 import type { ReactNode } from "react";
+import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
+import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
+import { AuditLog } from "../operator/people/AuditLog";
 import { ProcedureProvider } from "../operator/procedure";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
@@ -26,7 +29,7 @@ export function SupervisorView(): ReactNode {
   const words = useWords();
   const own = words.supervisor;
   return (
-    <div className="page supervisor">
+    <div className="supervisor">
       <a className="skip" href="#video">
         {own.skip}
       </a>
@@ -41,6 +44,8 @@ export function SupervisorView(): ReactNode {
         </div>
         <ViewSwitch />
         <Watching />
+        <PictureSize />
+        <SignedIn />
       </header>
       <AlarmsShown />
       <AlertBand />
@@ -64,6 +69,9 @@ export function SupervisorView(): ReactNode {
             <Signables />
             <Fold id="log" title={own.log.title}>
               <LogPanel />
+            </Fold>
+            <Fold id="audit" title={own.audit}>
+              <AuditLog />
             </Fold>
             <Fold id="scene" title={own.scene.title} aside={<span className="soft">{own.scene.hint}</span>}>
               <ScenePane />

@@ -1,4 +1,5 @@
 import { useRef, type ReactNode } from "react";
+import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { PictureSize } from "../live/PictureSize";
 import { DetailsPane } from "../panes/DetailsPane";
@@ -24,6 +25,7 @@ export function MoreDetails(): ReactNode {
         <div className="more-tools">
           <ViewSwitch />
           <PictureSize />
+          <SignedIn />
         </div>
         <MarkersPane />
         <DetailsPane />

@@ -1,5 +1,4 @@
 import type { ReactNode } from "react";
-import { SignedIn } from "../app/SignedIn";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
 import { Watching } from "../room/Watching";
@@ -15,7 +14,6 @@ export function TheatreTop(): ReactNode {
       <Watching />
       <LiveStatus />
       <div className="top-tools">
-        <SignedIn />
         <MoreDetails />
       </div>
     </header>

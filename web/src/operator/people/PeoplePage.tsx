@@ -1,5 +1,6 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
+import { SignedIn } from "../../app/SignedIn";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
@@ -20,6 +21,7 @@ export function PeoplePage(): ReactNode {
   return (
     <div className="people">
       <RefusalNote refusal={refusal} />
+      <SignedIn />
       {data?.sign_in_required === false && <Alert title={words.off} />}
       {data?.sign_in_required === true && (
         <>

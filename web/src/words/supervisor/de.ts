@@ -95,6 +95,7 @@ export const supervisorDe: SupervisorWords = {
     done: "gegengezeichnet",
     open: "nicht gegengezeichnet",
   },
+  audit: "Wer was getan hat",
   log: {
     title: "Alarmprotokoll",
     none: "Noch ist nichts protokolliert.",

@@ -98,6 +98,7 @@ export const supervisorEn = {
     done: "co-signed",
     open: "not co-signed",
   },
+  audit: "Who did what",
   log: {
     title: "Alarm log",
     none: "Nothing was logged yet.",
