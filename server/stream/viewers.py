@@ -25,7 +25,7 @@ class ViewerKind(StrEnum):
     ROOM = "room"
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Viewer:
     """One who watches.
 
