@@ -20,6 +20,7 @@ from server.security.audit.whole import (
     lines_of,
     read_head,
     verify_files,
+    write_all,
     write_head,
     write_private,
 )
@@ -206,9 +207,7 @@ class AuditLog:
         try:
             size_bytes = os.fstat(descriptor).st_size
             try:
-                written = os.write(descriptor, raw)
-                if written < len(raw):
-                    os.write(descriptor, raw[written:])
+                write_all(descriptor, raw)
                 sync_file(descriptor)
             except OSError:
                 with suppress(OSError):

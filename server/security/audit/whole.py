@@ -1,5 +1,6 @@
 """The whole log as it lies on the disk: its lines, and beside them where the chain ended."""
 
+import errno
 import json
 import os
 import secrets
@@ -77,7 +78,7 @@ def write_private(file: Path, content: bytes) -> None:
     descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ALONE)
     try:
         try:
-            os.write(descriptor, content)
+            write_all(descriptor, content)
             sync_file(descriptor)
         finally:
             os.close(descriptor)
@@ -85,3 +86,17 @@ def write_private(file: Path, content: bytes) -> None:
     except OSError:
         part.unlink(missing_ok=True)
         raise
+
+
+def write_all(descriptor: int, content: bytes) -> None:
+    """Write every byte: on a disk that is nearly full, one call writes a part, and says so only by a number.
+
+    Raises:
+        OSError: not all can be written; a part may be.
+    """
+    left = memoryview(content)
+    while left:
+        written = os.write(descriptor, left)
+        if written <= 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        left = left[written:]

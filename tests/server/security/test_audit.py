@@ -156,6 +156,16 @@ def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
     assert (folder / "audit-reserve").exists()
 
 
+def test_a_line_that_the_disk_takes_in_many_parts_is_whole(
+    log: AuditLog, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write = os.write
+    monkeypatch.setattr(os, "write", lambda descriptor, content: write(descriptor, bytes(content)[:7]))
+    log.append(Entry(who=ANYBODY, what="in parts"))
+    assert json.loads(log.newest(1)[0])["what"] == "in parts"
+    assert log.verify().fault is None
+
+
 def test_refusals_are_written_so_often_and_no_more(log: AuditLog) -> None:
     for _ in range(200):
         log.refused(Entry(who=ANYBODY, what="POST /api/session", status=403))

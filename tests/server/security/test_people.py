@@ -1,6 +1,8 @@
 """Invitations and sessions: who gets in, for how long, and who does not any more."""
 
+import errno
 import json
+import os
 from datetime import timedelta
 from pathlib import Path
 
@@ -172,6 +174,30 @@ def test_a_damaged_file_is_told(desk: PeopleDesk, tmp_path: Path, clock: Clock) 
     with pytest.raises(StoreError) as told:
         people_of(tmp_path, clock)
     assert told.value.code == "PEOPLE_DAMAGED"
+
+
+def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
+    desk: PeopleDesk, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    link = invited(desk, single_use=False)
+    kept, write, room = (tmp_path / "people.json").read_bytes(), os.write, [200]
+
+    def nearly_full(descriptor: int, content: bytes) -> int:
+        if room[0] == 0:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        written = write(descriptor, bytes(content)[: room[0]])
+        room[0] -= written
+        return written
+
+    monkeypatch.setattr(os, "write", nearly_full)
+    with pytest.raises(StoreError) as told:
+        desk.enter(link, address=HERE)
+    assert told.value.code == "STORE_FULL"
+    assert (tmp_path / "people.json").read_bytes() == kept
+    assert [one.name for one in tmp_path.glob(".*")] == []
+    monkeypatch.setattr(os, "write", lambda descriptor, content: write(descriptor, bytes(content)[:7]))
+    people_of(tmp_path, clock).enter(link, address=HERE)
+    assert len(people_of(tmp_path, clock).sessions()) == 1
 
 
 def test_a_token_is_not_shown_where_it_is_printed() -> None:
