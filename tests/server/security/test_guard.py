@@ -270,6 +270,29 @@ def test_an_invitation_is_a_link_and_a_picture_of_it(house: Guarded) -> None:
     assert (entered["name"], entered["role"]) == ("Dr. Ito", "supervisor")
 
 
+@pytest.mark.parametrize(
+    "asked",
+    [
+        pytest.param({"name": "\u202eDr. Ito"}, id="a letter that turns the others"),
+        pytest.param({"name": "\u200b"}, id="nothing that is seen"),
+        pytest.param({"session_lasts_h": 1e-10}, id="over before it begins"),
+    ],
+)
+def test_nobody_is_invited_whose_deeds_could_not_be_kept(house: Guarded, asked: dict[str, object]) -> None:
+    wanted = {"name": "Dr. Ito", "role": "viewer", **asked}
+    told = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer())
+    assert told.status_code == 422
+    assert told.json()["remedy"]
+    assert "Dr. Ito" not in [one.person.name for one, _ in house.people.invitations()]
+
+
+def test_a_name_is_kept_in_the_one_way_to_write_it(house: Guarded) -> None:
+    wanted = {"name": " Mu\u0308ller", "role": "viewer", "session_lasts_h": 0.05}
+    told = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer()).json()
+    assert told["invitation"]["name"] == "M\u00fcller"
+    assert enter(house, told["link"].partition("#")[2]).json()["name"] == "M\u00fcller"
+
+
 def test_invitations_are_taken_back_and_sessions_ended_by_the_operator(house: Guarded) -> None:
     operator, guest = house.bearer(), house.token(Role.VIEWER, single_use=False)
     session = guest.partition(".")[0]
