@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -9,6 +10,7 @@ from dataclasses import dataclass
 BEGINNING = "0" * 64
 # The server found at its start that lines were missing or changed; the line that says so is a fault for ever.
 BROKEN = "AUDIT_BROKEN"
+HALF_LETTER = re.compile("[\ud800-\udfff]")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,7 +55,9 @@ class Verdict:
 def sealed(head: Head, line: Mapping[str, object]) -> tuple[bytes, Head]:
     """The line with its number and the sum of the line before it, and where the chain ends with it."""
     whole = {"number": head.count + 1, "before": head.sum, **line}
-    raw = json.dumps(whole, ensure_ascii=False, separators=(",", ":")).encode()
+    text = json.dumps(whole, ensure_ascii=False, separators=(",", ":"))
+    # Half a letter cannot be written, nor be sent when it is read: its number can.
+    raw = HALF_LETTER.sub(lambda half: f"\\\\u{ord(half[0]):04x}", text).encode()
     return raw, Head(count=head.count + 1, sum=sum_of(raw))
 
 

@@ -166,6 +166,13 @@ def test_a_line_that_the_disk_takes_in_many_parts_is_whole(
     assert log.verify().fault is None
 
 
+def test_half_a_letter_is_written_as_its_number_and_holds_nothing_up(log: AuditLog) -> None:
+    log.append(Entry(who=ANYBODY, what="half \ud800 letter"))
+    log.append(Entry(who=ANYBODY, what="after"))
+    assert json.loads(log.newest(2)[0])["what"] == r"half \ud800 letter"
+    assert log.verify().fault is None
+
+
 def test_refusals_are_written_so_often_and_no_more(log: AuditLog) -> None:
     for _ in range(200):
         log.refused(Entry(who=ANYBODY, what="POST /api/session", status=403))
