@@ -66,9 +66,9 @@ def sum_of(raw: bytes) -> str:
     return hashlib.sha256(raw).hexdigest()
 
 
-def verify(lines: Iterable[bytes]) -> Verdict:
-    """Whether these lines, without their ends, are a chain from its beginning; the first fault."""
-    head, fault = Head(), None
+def verify(lines: Iterable[bytes], *, after: Verdict | None = None) -> Verdict:
+    """Whether these lines, without their ends, are a chain, from its beginning or after others."""
+    head, fault = (Head(), None) if after is None else (after.head, after.fault)
     for raw in lines:
         number = head.count + 1
         fault = fault or _fault_of(raw, number, head)
