@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import structlog
+
 from server.security.audit import AuditLog
 from server.security.people.file import read_people, write_people
 from server.security.people.guesses import Guesses
@@ -20,8 +22,9 @@ from server.security.refusals import (
     SessionRefused,
     TooManyTries,
 )
-from server.store import told
+from server.store import StoreError, told
 
+log = structlog.get_logger(__name__)
 PEOPLE_FILE = "people.json"
 OPERATOR_NAME = "Operator"
 OPERATOR_LINK_LASTS = timedelta(hours=24)
@@ -165,7 +168,7 @@ class PeopleDesk:
             InvitationRefused: it lets nobody in, or no longer, or no more.
             PeopleRefused: TOO_MANY_PEOPLE.
             TooManyTries: the token is wrong, and so were too many before.
-            StoreError: the session cannot be kept.
+            StoreError: the session cannot be kept, and is no operator's.
         """
         found = Token.read(shown)
         with self._turn:
@@ -190,12 +193,7 @@ class PeopleDesk:
                 for_machine=invitation.for_machine,
                 token_sum=token.sum,
             )
-            used = replace(invitation, uses=invitation.uses + 1)
-            self._keep(
-                invitation=used,
-                session=session,
-                room_needed=invitation.person.role is not Role.OPERATOR,
-            )
+            self._let_in(replace(invitation, uses=invitation.uses + 1), session)
         return session, token
 
     def end(self, session_id: str) -> Session:
@@ -250,6 +248,18 @@ class PeopleDesk:
             # However many people there are: without it nobody could come in and send some away.
             self._keep(invitation=self._invitation(first, token, by=SERVER.name))
             return token
+
+    def _let_in(self, used: Invitation, session: Session) -> None:
+        """Keep who comes; an operator is let in by a full disk, too: who else could make room on it."""
+        if used.person.role is not Role.OPERATOR:
+            self._keep(invitation=used, session=session, room_needed=True)
+            return
+        try:
+            self._keep(invitation=used, session=session)
+        except StoreError as error:
+            log.warning("an operator is signed in until the next start alone", code=error.code)
+            self._invitations = {**self._invitations, used.id: used}
+            self._sessions = {**self._sessions, session.id: session}
 
     def _count_guess(self, address: str) -> None:
         wait_s = self._guesses.wrong(address)

@@ -15,7 +15,7 @@ from server.security.audit import AuditLog, Entry
 from server.security.person import ANYBODY
 from server.security.written import pass_and_write
 from tests.served import served
-from tests.server.security.doors import HOST, Guarded, guarded
+from tests.server.security.doors import HOST, Guarded, guarded, people_of
 
 OWN = {"Origin": f"http://{HOST}"}
 
@@ -268,6 +268,32 @@ def test_an_invitation_is_a_link_and_a_picture_of_it(house: Guarded) -> None:
     assert [one["is_own"] for one in everybody["sessions"]] == [True]
     entered = enter(house, token).json()
     assert (entered["name"], entered["role"]) == ("Dr. Ito", "supervisor")
+
+
+def test_an_operator_signs_in_on_a_full_disk_to_make_room(
+    house: Guarded, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    operator, viewer = house.invited(), house.invited(Role.VIEWER)
+    before = house.people.audit.head.count
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as disk:
+        disk.setattr(AuditLog, "_write", full)
+        disk.setattr("server.security.people.desk.write_people", full)
+        assert (told := enter(house, viewer)).status_code == 507, told.text
+        told = enter(house, operator)
+        assert (told.status_code, told.json()["role"]) == (200, "operator")
+        assert house.door.get("/api/cases").status_code == 200
+        told = house.door.post("/api/people/invitations", json={"name": "x", "role": "viewer"}, headers=OWN)
+        assert (told.status_code, told.json()["code"]) == (507, "STORE_FULL")
+    house.people.audit.catch_up()
+    assert house.people.audit.head.count > before
+    # With the next change they are kept.
+    house.invited(Role.VIEWER)
+    again = people_of(tmp_path / "home" / "security", house.clock)
+    assert [one.person.role for one in again.sessions()] == [Role.OPERATOR]
 
 
 @pytest.mark.parametrize(
