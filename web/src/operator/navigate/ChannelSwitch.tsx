@@ -17,9 +17,10 @@ export function ChannelSwitch(): ReactNode {
   const sideName = useSides();
   const procedure = useProcedure();
   const madeBy = useMadeBy();
+  const isPlanned = procedure.data?.steps.some((one) => one.step === "plan" && one.document_id !== null);
   const plan = useAsked(
     // Without a plan there is nothing to ask for, and nothing to switch to.
-    async (signal) => (isPlanned ? answered(server.GET("/api/plan", { signal })) : null),
+    async (signal) => (isPlanned === true ? answered(server.GET("/api/plan", { signal })) : null),
     { key: String(isPlanned) },
   );
   const [shown, setShown] = useState(false);
