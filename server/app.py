@@ -5,7 +5,7 @@ import contextlib
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 
 from server.alarms import AlarmDesk
 from server.api.alarms import alarms_router
@@ -15,6 +15,7 @@ from server.api.cases import cases_router
 from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import DocumentedApi, documentation_router
+from server.api.doing import know_who_asks
 from server.api.errors import install_errors, refusals
 from server.api.gates import gates_router
 from server.api.health import health_router
@@ -122,6 +123,7 @@ def create_app(parts: AppParts) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
+        dependencies=[Depends(know_who_asks)],
         responses=refusals(401, 403, 421, 429, 500),
     )
     install_errors(app)
