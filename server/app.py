@@ -10,6 +10,7 @@ from fastapi import Depends, FastAPI
 from server.alarms import AlarmDesk
 from server.api.alarms import alarms_router
 from server.api.audit import audit_router
+from server.api.bodies import LimitedBodies
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
@@ -124,7 +125,7 @@ def create_app(parts: AppParts) -> FastAPI:
         redoc_url=None,
         lifespan=lifespan,
         dependencies=[Depends(know_who_asks)],
-        responses=refusals(401, 403, 421, 429, 500),
+        responses=refusals(401, 403, 413, 421, 429, 500),
     )
     install_errors(app)
     _add_guards(app, parts)
@@ -164,6 +165,7 @@ def picture_of(app: FastAPI) -> Picture:
 def _add_guards(app: FastAPI, parts: AppParts) -> None:
     """What everything that is asked passes before it reaches a door; the last one here is passed first."""
     server = parts.config.server
+    app.add_middleware(LimitedBodies)
     if parts.people is not None:
         app.add_middleware(
             SessionGuard,
