@@ -127,7 +127,6 @@ def create_app(parts: AppParts) -> FastAPI:
         dependencies=[Depends(know_who_asks)],
         responses=refusals(401, 403, 413, 421, 429, 500),
     )
-    install_errors(app)
     _add_guards(app, parts)
     app.state.pictures = pictures
     app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
@@ -165,6 +164,7 @@ def picture_of(app: FastAPI) -> Picture:
 def _add_guards(app: FastAPI, parts: AppParts) -> None:
     """What everything that is asked passes before it reaches a door; the last one here is passed first."""
     server = parts.config.server
+    install_errors(app)
     app.add_middleware(LimitedBodies)
     if parts.people is not None:
         app.add_middleware(
