@@ -29,6 +29,9 @@ export npm_config_audit := false
 # The page's lock must not remember from where its packages came.
 export npm_config_omit_lockfile_registry_resolved := true
 
+# So many files of tests run side by side.
+WORKERS ?= 2
+
 TRACKER_SOURCES := $(shell find tracker -name '*.py')
 # Folders are listed too: their time changes when a file in them goes away. The schema's types are made, not written.
 PAGE_SOURCES := $(shell find web/src web/public -not -name schema.d.ts 2>/dev/null) \
@@ -87,7 +90,7 @@ test-web: $(STAMPS)/page-packages
 .PHONY: test-python
 test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests/server -k words" narrows them)
 	@COAXIAL_CHROMIUM="$$(sh .make/find-chromium)" || exit 1; export COAXIAL_CHROMIUM; \
-	$(PYTHON_IN_VENV) -m pytest --junitxml=.venv/log/pytest.xml $(TESTS) && \
+	$(PYTHON_IN_VENV) -m pytest -n $(WORKERS) --dist loadfile --junitxml=.venv/log/pytest.xml $(TESTS) && \
 	$(PYTHON_IN_VENV) .make/some-test-passed .venv/log/pytest.xml
 
 .PHONY: benchmark

@@ -86,6 +86,7 @@ GET     /api/plan/proposals/slice
 GET     /api/plan/vertebrae/{name}/reference.png
 GET     /api/registration
 GET     /api/registration/points
+GET     /api/registration/running
 GET     /api/registration/check
 GET     /api/registration/nudges
 GET     /api/registration/sweep

@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
@@ -7,19 +8,25 @@ import { BullseyePane } from "../panes/BullseyePane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
+import { AlarmsShown } from "../supervisor/AlarmsShown";
 import { useWords } from "../words/WordsContext";
 import { TheatreTop } from "./TheatreTop";
+
+const ANSWERING: ReadonlySet<Role> = new Set<Role>(["operator", "screen"]);
 
 /** The theatre's view: all that the hand with the drill goes by, on one screen, read from 3 m. */
 export function TheatreView(): ReactNode {
   const words = useWords();
+  const { session } = useSession();
+  // Those who stand before the screen answer its alarms; who watches from elsewhere sees them.
+  const answersAlarms = session.state === "in" && ANSWERING.has(session.who.role);
   return (
     <div className="theatre">
       <a className="skip" href="#numbers">
         {words.skip}
       </a>
       <TheatreTop />
-      <AlarmBand />
+      {answersAlarms ? <AlarmBand /> : <AlarmsShown />}
       <ConfirmRestart />
       <AlertBand />
       <main className="theatre-main">

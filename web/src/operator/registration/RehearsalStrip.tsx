@@ -52,7 +52,7 @@ function Scenes({ scenes, children }: RehearsalStripProps): ReactNode {
               void playing
                 .run(async () => {
                   await answered(
-                    server.PUT("/api/rehearsal", { body: { scene, skill: "good", events: [] } }),
+                    server.PUT("/api/rehearsal", { body: { scene, skill: null, events: data.events } }),
                   );
                 })
                 .then(again);
