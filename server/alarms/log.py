@@ -19,7 +19,7 @@ import structlog
 
 from server.alarms.entries import Entry, Line
 from server.store import CaseStore, DocumentKind, StoreError, told
-from tracker.errors import NavigationError
+from tracker.errors import InvalidInput, NavigationError
 
 NAME = "log"
 FILE_NAME = "alarms.jsonl"
@@ -203,7 +203,13 @@ class StoredAlarmLog:
             return
         names = {entry.by for entry in batch if entry.by}
         made_by = names.pop() if len(names) == 1 else NOBODY
-        self._store.put(case.id, DocumentKind.ALARM, NAME, {"lines": lines}, made_by=made_by)
+        try:
+            self._store.put(case.id, DocumentKind.ALARM, NAME, {"lines": lines}, made_by=made_by)
+        except InvalidInput as refused:
+            if refused.code != "NAME_INVALID" or made_by == NOBODY:
+                raise
+            # Who it was is told in the line: for a name that the store does not take, no alarm is lost.
+            self._store.put(case.id, DocumentKind.ALARM, NAME, {"lines": lines}, made_by=NOBODY)
 
 
 def sound_line(line: Line) -> Line:

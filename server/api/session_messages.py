@@ -3,15 +3,26 @@
 from datetime import UTC, datetime
 from typing import Annotated
 
-from pydantic import Field, StringConstraints
+from pydantic import AfterValidator, Field, StringConstraints
 
 from server.security.people.records import Invitation, InvitationState, Session
 from server.security.person import Role
+from server.store.checks import checked_name
 from server.stream.message import Message
 
+
+def _storable(name: str) -> str:
+    """What the store takes as the name of who did it: else nothing that they do could be kept."""
+    return checked_name(name, of="name")
+
+
 PersonName = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80, pattern=r"^[^\x00-\x1f\x7f]+$")
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=80, pattern=r"^[^\x00-\x1f\x7f]+$"),
+    AfterValidator(_storable),
 ]
+# Three minutes: one that is over before it is used is no session.
+SHORTEST_SESSION_H = 0.05
 
 
 class SessionMessage(Message):
@@ -86,7 +97,7 @@ class InviteRequest(Message):
     single_use: bool = True
     for_machine: bool = False
     """Its session is for a script: its token is told, and it sets no cookie."""
-    session_lasts_h: Annotated[float, Field(gt=0.0, le=2160.0)] | None = None
+    session_lasts_h: Annotated[float, Field(ge=SHORTEST_SESSION_H, le=2160.0)] | None = None
     """How long they stay signed in; what the settings say if left out."""
 
 

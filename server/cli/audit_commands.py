@@ -36,6 +36,8 @@ def verify(
     """Tell the first line that was changed, is missing or stands elsewhere; exit status 1 where there is one.
 
     Of an exported file alone nobody can tell whether lines are missing at its end: give --sum for that.
+    Who may write the server's folder can write a whole new log with its end beside it, and this command
+    calls it whole: write down the SHA-256 elsewhere, and give it with --sum for an export of that time.
     """
     from server.security.audit.whole import verify_files  # noqa: PLC0415  loaded when needed
     from server.store import home_folder  # noqa: PLC0415

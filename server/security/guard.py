@@ -72,7 +72,15 @@ class SessionGuard:
             await self._while_session_holds(scope, receive, send, session)
         elif rule is not None and rule.is_written and not asked.is_page:
             entry = Entry(who=person, what=rule.name, address=asked.address, of=asked.names)
-            await pass_and_write(self._app, scope, receive, send, audit=self._people.audit, entry=entry)
+            await pass_and_write(
+                self._app,
+                scope,
+                receive,
+                send,
+                audit=self._people.audit,
+                entry=entry,
+                is_answered=rule.is_answered,
+            )
         else:
             await self._app(scope, receive, send)
 

@@ -7,6 +7,7 @@ NavigationError
 ├── AddressUnknown      there is nothing at this address                HTTP 404
 ├── MethodUnknown       it cannot be done at this address               HTTP 405
 ├── InvitationRefused   an invitation that lets nobody in               HTTP 403
+├── PeopleRefused       there are too many of them                      HTTP 409
 ├── TooManyTries        somebody guesses                                HTTP 429
 ├── PersonUnknown       there is no such session or invitation          HTTP 404
 └── SignInOff           nobody has to sign in, so nobody can be invited HTTP 409
@@ -115,6 +116,30 @@ class InvitationRefused(NavigationError):
         """Somebody took it back."""
         return cls("INVITATION_REVOKED", "this link was taken back", ASK_AGAIN)
 
+    @classmethod
+    def full(cls, count: int) -> "InvitationRefused":
+        """So many are in by it; nobody who watches is sent away for somebody new."""
+        return cls(
+            "INVITATION_FULL",
+            f"{count} are signed in by this link now, more are not let in by it",
+            "Sign out where it is not needed, or ask the operator to end sessions or for a link of your own.",
+            {"sessions": count, "allowed": count},
+        )
+
+
+class PeopleRefused(NavigationError):
+    """There are too many people."""
+
+    @classmethod
+    def too_many(cls, count: int, allowed: int) -> "PeopleRefused":
+        """All of them hold: what has ended makes room by itself."""
+        return cls(
+            "TOO_MANY_PEOPLE",
+            f"{count} open invitations and sessions would be kept, allowed are {allowed}",
+            "Take back invitations and end sessions that nobody needs.",
+            {"kept": count, "allowed": allowed},
+        )
+
 
 class TooManyTries(NavigationError):
     """Somebody guesses, or something is set up wrongly."""
@@ -165,6 +190,7 @@ STATUS_OF: dict[type[NavigationError], int] = {
     AddressUnknown: 404,
     MethodUnknown: 405,
     InvitationRefused: 403,
+    PeopleRefused: 409,
     TooManyTries: 429,
     PersonUnknown: 404,
     SignInOff: 409,

@@ -186,6 +186,7 @@ GET     /api/audit/export
 """
 # Done even when it cannot be written down: alarms, and what makes room on a full disk.
 URGENT = """
+POST    /api/session
 DELETE  /api/session
 DELETE  /api/people/sessions/{session_id}
 DELETE  /api/people/invitations/{invitation_id}
@@ -199,6 +200,8 @@ POST    /api/cases/{case_id}/deletion
 DELETE  /api/registration/points
 DELETE  /api/registration/check
 """
+# Answered even when it could not be written: without the answer nobody is in who could make room.
+ANSWERED = "POST    /api/session"
 # Goes on until somebody ends it, so it ends with its session.
 LASTING = "GET     /video/{camera}.mjpg"
 
@@ -214,6 +217,7 @@ class Rule:
         is_public: who is not signed in may, too.
         is_written: into the audit log.
         is_urgent: done even when it cannot be written.
+        is_answered: with its own answer even when it could not be written.
         lasts: it goes on until somebody ends it.
     """
 
@@ -223,6 +227,7 @@ class Rule:
     is_public: bool = False
     is_written: bool = False
     is_urgent: bool = False
+    is_answered: bool = False
     lasts: bool = False
 
     @property
@@ -236,7 +241,9 @@ def _keys(lines: str) -> list[tuple[str, str]]:
 
 
 def _rules() -> Iterable[Rule]:
-    written, unwritten, urgent, lasting = map(_keys, (WRITTEN, UNWRITTEN, URGENT, LASTING))
+    written, unwritten, urgent, answered, lasting = map(
+        _keys, (WRITTEN, UNWRITTEN, URGENT, ANSWERED, LASTING)
+    )
     for lines, roles in (
         (PUBLIC, EVERYBODY),
         (SEEN_BY_EVERYBODY, EVERYBODY),
@@ -254,6 +261,7 @@ def _rules() -> Iterable[Rule]:
                 is_public=lines is PUBLIC,
                 is_written=(changes and key not in unwritten) or key in written,
                 is_urgent=key in urgent,
+                is_answered=key in answered,
                 lasts=key[0] == SOCKET or key in lasting,
             )
 

@@ -5,6 +5,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import structlog
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.security.audit import AuditLog, Entry, noting
@@ -13,17 +14,34 @@ from tracker.errors import NavigationError
 
 REFUSED = 400
 NO_ROOM = 507
+log = structlog.get_logger(__name__)
 
 
 async def pass_and_write(
-    app: ASGIApp, scope: Scope, receive: Receive, send: Send, *, audit: AuditLog, entry: Entry
+    app: ASGIApp,
+    scope: Scope,
+    receive: Receive,
+    send: Send,
+    *,
+    audit: AuditLog,
+    entry: Entry,
+    is_answered: bool = False,
 ) -> None:
     """Pass on; hold the answer back until its line is written, with what was changed on the way.
 
-    Where it cannot be written, the answer says honestly that it was done all the same.
+    Where it cannot be written, the answer says honestly that it was done all the same; with `is_answered`
+    it stays as it is, and only the server's own log says so.
     """
     with noting() as changes:
-        answer = _Answer(scope=scope, receive=receive, send=send, audit=audit, entry=entry, changes=changes)
+        answer = _Answer(
+            scope=scope,
+            receive=receive,
+            send=send,
+            audit=audit,
+            entry=entry,
+            changes=changes,
+            is_answered=is_answered,
+        )
         try:
             await app(scope, receive, answer.take)
         finally:
@@ -42,6 +60,7 @@ class _Answer:
     audit: AuditLog
     entry: Entry
     changes: Sequence[dict[str, object]]
+    is_answered: bool
     status: int | None = None
     start: Message | None = None
     replaced: bool = False
@@ -65,6 +84,11 @@ class _Answer:
         if message is not start:
             self.code = _code_in(message.get("body", b""))
         trouble = await self.write()
+        if trouble is not None and self.is_answered:
+            log.warning(
+                "it was done, but is not in the audit log yet", what=self.entry.what, code=trouble.code
+            )
+            trouble = None
         if trouble is not None and self.status is not None and self.status < REFUSED:
             self.replaced = True
             await refuse(self.scope, self.receive, self.send, status=NO_ROOM, body=_unwritten(trouble))

@@ -115,7 +115,7 @@ def test_every_page_of_the_operator(opened: Callable[..., Page], step: str) -> N
 @pytest.mark.parametrize("path", ["/operator", "/supervisor", "/enter"])
 def test_every_other_view(opened: Callable[..., Page], path: str) -> None:
     page = opened(path, UPRIGHT if path == "/operator" else LYING)
-    page.wait_for_function("document.body.innerText.length > 20")
+    page.wait_for_function("() => document.body.innerText.length > 20")
     assert faults(page) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]  # type: ignore[index]  # it has one
 

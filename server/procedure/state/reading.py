@@ -28,6 +28,12 @@ from tracker.errors import NavigationError
 from tracker.plan import plan_from_mapping
 from tracker.plan.document.changes import vertebra_named
 
+NOT_DONE = {
+    DocumentKind.CAMERA: "the camera is not calibrated",
+    DocumentKind.TOOL: "the tool '{name}' is not calibrated",
+    DocumentKind.PLAN: "nothing is planned",
+    DocumentKind.REGISTRATION: "{name} is not registered",
+}
 CALIBRATE = "Calibrate the camera: collect views of the board."
 PIVOT = "Calibrate the tool: pivot it, and gather its poses."
 CHOOSE = "Choose in the plan the channel that is to be drilled."
@@ -288,7 +294,7 @@ class Procedure:
         """The newest document if it holds; else what keeps it from it."""
         history = self._store.history(case_id, kind, name)
         if not history:
-            return Finding(state=StepState.MISSING, said=f"there is no {kind.value} '{name}'", remedy=remedy)
+            return Finding(state=StepState.MISSING, said=NOT_DONE[kind].format(name=name), remedy=remedy)
         standing = self._store.standing(history[-1])
         if isinstance(standing, Current):
             return history[-1]
@@ -311,7 +317,7 @@ def _axis_missing(document: Document) -> Finding:
     return Finding(
         state=StepState.MISSING,
         said=f"nobody knows which way '{document.name}' points",
-        remedy="Spin the tool about its axis, or give axis_in_marker.",
+        remedy="Spin the tool about its axis.",
         document_id=document.id,
     )
 

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -9,6 +10,7 @@ from dataclasses import dataclass
 BEGINNING = "0" * 64
 # The server found at its start that lines were missing or changed; the line that says so is a fault for ever.
 BROKEN = "AUDIT_BROKEN"
+HALF_LETTER = re.compile("[\ud800-\udfff]")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,7 +55,9 @@ class Verdict:
 def sealed(head: Head, line: Mapping[str, object]) -> tuple[bytes, Head]:
     """The line with its number and the sum of the line before it, and where the chain ends with it."""
     whole = {"number": head.count + 1, "before": head.sum, **line}
-    raw = json.dumps(whole, ensure_ascii=False, separators=(",", ":")).encode()
+    text = json.dumps(whole, ensure_ascii=False, separators=(",", ":"))
+    # Half a letter cannot be written, nor be sent when it is read: its number can.
+    raw = HALF_LETTER.sub(lambda half: f"\\\\u{ord(half[0]):04x}", text).encode()
     return raw, Head(count=head.count + 1, sum=sum_of(raw))
 
 
@@ -62,9 +66,9 @@ def sum_of(raw: bytes) -> str:
     return hashlib.sha256(raw).hexdigest()
 
 
-def verify(lines: Iterable[bytes]) -> Verdict:
-    """Whether these lines, without their ends, are a chain from its beginning; the first fault."""
-    head, fault = Head(), None
+def verify(lines: Iterable[bytes], *, after: Verdict | None = None) -> Verdict:
+    """Whether these lines, without their ends, are a chain, from its beginning or after others."""
+    head, fault = (Head(), None) if after is None else (after.head, after.fault)
     for raw in lines:
         number = head.count + 1
         fault = fault or _fault_of(raw, number, head)

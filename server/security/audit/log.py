@@ -11,15 +11,15 @@ from pathlib import Path
 
 import structlog
 
-from server.security.audit.chain import BROKEN, Fault, Head, Verdict, sealed, verify
+from server.security.audit.chain import BROKEN, Fault, Head, Verdict, sealed
+from server.security.audit.checked import Checked, end_fault, verdict_on
 from server.security.audit.entries import Entry
 from server.security.audit.noted import note
 from server.security.audit.whole import (
     OWNER_ALONE,
-    end_fault,
-    lines_of,
+    last_lines,
     read_head,
-    verify_files,
+    write_all,
     write_head,
     write_private,
 )
@@ -56,6 +56,8 @@ class AuditLog:
         self._turn = threading.Lock()
         self._waiting: deque[Mapping[str, object]] = deque()
         self._head = Head()
+        self._is_well = True
+        self._checked = Checked()
         self._refused_in: tuple[str, int] = ("", 0)
         with told(folder):
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -64,14 +66,12 @@ class AuditLog:
     @property
     def head(self) -> Head:
         """Where the chain ends now."""
-        with self._turn:
-            return self._head
+        return self._head
 
     @property
     def is_well(self) -> bool:
-        """Whether everything that was to be written is written."""
-        with self._turn:
-            return not self._waiting
+        """Whether the last writing went well; waits for nothing, so that the event loop may ask."""
+        return self._is_well
 
     def append(self, entry: Entry) -> None:
         """Write one line, and all that waited before it.
@@ -127,28 +127,36 @@ class AuditLog:
         Raises:
             StoreError: the log cannot be read.
         """
-        with self._turn, told(self.folder):
-            lines, _ = lines_of(self.file)
-        end = len(lines) if before is None else max(0, min(before - 1, len(lines)))
-        return lines[max(0, end - count) : end]
+        back = count if before is None else max(0, self._head.count - before + 1) + count
+        with told(self.folder):
+            lines = last_lines(self.file, back)
+        lines = lines if before is None else lines[: max(0, len(lines) - back + count)]
+        return lines[-count:]
 
     def whole(self) -> bytes:
-        """Every line, as they lie on the disk.
+        """Every whole line, as they lie on the disk.
 
         Raises:
             StoreError: the log cannot be read.
         """
-        with self._turn, told(self.folder):
-            return self.file.read_bytes()
+        with told(self.folder):
+            content = self.file.read_bytes()
+        return content[: content.rfind(b"\n") + 1]
 
     def verify(self) -> Verdict:
-        """Read the whole log, and tell the first fault.
+        """Read the whole log, and tell the first fault. Nobody who writes waits for it.
 
         Raises:
             StoreError: the log cannot be read.
         """
-        with self._turn, told(self.folder):
-            return verify_files(self.file, self._head_file)
+        with told(self.folder):
+            # The end before the lines: what is added meanwhile is then more, and never less.
+            known, content = self._head, self.file.read_bytes()
+            if content and not content.endswith(b"\n"):
+                # Perhaps it is just being written.
+                with self._turn:
+                    known, content = self._head, self.file.read_bytes()
+            return verdict_on(content, known, self._checked)
 
     def _now(self) -> str:
         return self._clock().astimezone(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
@@ -158,9 +166,10 @@ class AuditLog:
         if not self.file.exists():
             os.close(os.open(self.file, os.O_WRONLY | os.O_CREAT, OWNER_ALONE))
             sync_folder(self.folder)
-        lines, rest = lines_of(self.file)
-        known, verdict = read_head(self._head_file), verify(lines)
-        fault = verdict.fault or (end_fault(lines, known) if known is not None else None)
+        content = self.file.read_bytes()
+        *lines, rest = content.split(b"\n")
+        known, verdict = read_head(self._head_file), self._checked.verify(content)
+        fault = verdict.fault or (end_fault(content, verdict.head, known) if known is not None else None)
         if known is None and lines:
             fault = fault or Fault(line=len(lines), said="where the log ended was not kept beside it")
         if rest:
@@ -185,6 +194,14 @@ class AuditLog:
             self._write_waiting()
 
     def _write_waiting(self) -> None:
+        try:
+            self._write_all_waiting()
+        except OSError:
+            self._is_well = False
+            raise
+        self._is_well = True
+
+    def _write_all_waiting(self) -> None:
         while self._waiting:
             raw, head = sealed(self._head, self._waiting[0])
             try:
@@ -206,9 +223,7 @@ class AuditLog:
         try:
             size_bytes = os.fstat(descriptor).st_size
             try:
-                written = os.write(descriptor, raw)
-                if written < len(raw):
-                    os.write(descriptor, raw[written:])
+                write_all(descriptor, raw)
                 sync_file(descriptor)
             except OSError:
                 with suppress(OSError):

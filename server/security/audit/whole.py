@@ -1,24 +1,34 @@
 """The whole log as it lies on the disk: its lines, and beside them where the chain ended."""
 
+import errno
 import json
 import os
 import secrets
 from pathlib import Path
 
-from server.security.audit.chain import Fault, Head, Verdict, verify
+from server.security.audit.chain import Fault, Head, Verdict
+from server.security.audit.checked import Checked, verdict_on
 from server.store.home import sync_file
 
 OWNER_ALONE = 0o600
+BLOCK_BYTES = 64 * 1024
 
 
-def lines_of(file: Path) -> tuple[list[bytes], bytes]:
-    """The whole lines without their ends, and what follows the last end: a line that a crash has cut.
+def last_lines(file: Path, count: int) -> list[bytes]:
+    """So many whole lines from the end, without their ends; fewer where fewer are there.
 
     Raises:
         OSError: the file cannot be read.
     """
-    *lines, rest = file.read_bytes().split(b"\n")
-    return lines, rest
+    with file.open("rb") as opened:
+        start, block_bytes, read = opened.seek(0, os.SEEK_END), BLOCK_BYTES, b""
+        while start > 0 and read.count(b"\n") <= count:
+            begin = max(0, start - block_bytes)
+            opened.seek(begin)
+            read = opened.read(start - begin) + read
+            start, block_bytes = begin, block_bytes * 2
+    lines = read.split(b"\n")[:-1]
+    return lines[-count:] if count else []
 
 
 def verify_files(file: Path, head_file: Path | None) -> Verdict:
@@ -29,24 +39,13 @@ def verify_files(file: Path, head_file: Path | None) -> Verdict:
     """
     # Before the lines: what a running server adds meanwhile is then more, and never less.
     known = None if head_file is None else read_head(head_file)
-    lines, rest = lines_of(file)
-    verdict = verify(lines)
-    if verdict.fault is not None:
-        return verdict
-    if rest:
-        said = "it has no end: a crash has cut it, or somebody"
-        return Verdict(head=verdict.head, fault=Fault(line=len(lines) + 1, said=said))
-    return Verdict(head=verdict.head, fault=None if known is None else end_fault(lines, known))
-
-
-def end_fault(lines: list[bytes], known: Head) -> Fault | None:
-    """Whether lines that hold together end where they are known to have ended."""
-    if known.count > len(lines):
-        said = f"the end is missing: {known.count} lines were written, {len(lines)} are there"
-        return Fault(line=len(lines) + 1, said=said)
-    if verify(lines[: known.count]).head != known:
-        return Fault(line=max(known.count, 1), said="it is not as it was written")
-    return None
+    content = file.read_bytes()
+    verdict = verdict_on(content, known, Checked())
+    if verdict.fault is None and head_file is not None and known is None:
+        # A log that a server keeps has one from its first start on: without it nobody knows what is missing.
+        said = f"where the log ended is not known: {head_file.name} beside it is missing or damaged"
+        return Verdict(head=verdict.head, fault=Fault(line=max(verdict.head.count, 1), said=said))
+    return verdict
 
 
 def read_head(file: Path) -> Head | None:
@@ -77,7 +76,7 @@ def write_private(file: Path, content: bytes) -> None:
     descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ALONE)
     try:
         try:
-            os.write(descriptor, content)
+            write_all(descriptor, content)
             sync_file(descriptor)
         finally:
             os.close(descriptor)
@@ -85,3 +84,17 @@ def write_private(file: Path, content: bytes) -> None:
     except OSError:
         part.unlink(missing_ok=True)
         raise
+
+
+def write_all(descriptor: int, content: bytes) -> None:
+    """Write every byte: on a disk that is nearly full, one call writes a part, and says so only by a number.
+
+    Raises:
+        OSError: not all can be written; a part may be.
+    """
+    left = memoryview(content)
+    while left:
+        written = os.write(descriptor, left)
+        if written <= 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        left = left[written:]

@@ -2,26 +2,34 @@
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import structlog
+
 from server.security.audit import AuditLog
 from server.security.people.file import read_people, write_people
 from server.security.people.guesses import Guesses
+from server.security.people.kept import People
 from server.security.people.records import Invitation, InvitationState, Session
 from server.security.people.tokens import Token, new_id
 from server.security.person import SERVER, Person, Role
-from server.security.refusals import InvitationRefused, PersonUnknown, SessionRefused, TooManyTries
+from server.security.refusals import (
+    InvitationRefused,
+    PersonUnknown,
+    SessionRefused,
+    TooManyTries,
+)
 from server.store import StoreError, told
 
+log = structlog.get_logger(__name__)
 PEOPLE_FILE = "people.json"
 OPERATOR_NAME = "Operator"
 OPERATOR_LINK_LASTS = timedelta(hours=24)
-# What has ended is remembered for so long, to tell people why they do not get in.
-REMEMBERED = timedelta(days=2)
-MOST_KEPT = 1000
+# Who is in by one link: a hall of onlookers, and not a program that signs in again and again.
+MOST_BY_ONE_LINK = 20
 REFUSED_BY_STATE = {
     InvitationState.USED: InvitationRefused.used,
     InvitationState.EXPIRED: InvitationRefused.expired,
@@ -44,7 +52,7 @@ class Wanted:
 class PeopleDesk:
     """Invitations and sessions of one server. Safe to use from any thread.
 
-    Asking who somebody is takes no disk; whatever changes something waits for it.
+    Asking who somebody is waits for nothing; whatever changes something waits for the disk.
 
     Args:
         folder: where they are kept.
@@ -79,8 +87,9 @@ class PeopleDesk:
         with told(folder):
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             invitations, sessions = read_people(self._file)
-        self._invitations = {one.id: one for one in invitations}
-        self._sessions = {one.id: one for one in sessions}
+        # Never changed, only put in place of each other: who asks, in the event loop, waits for no lock.
+        self._invitations: Mapping[str, Invitation] = {one.id: one for one in invitations}
+        self._sessions: Mapping[str, Session] = {one.id: one for one in sessions}
 
     # ------------------------------------------------------------ who is there
 
@@ -95,34 +104,29 @@ class PeopleDesk:
             TooManyTries: the token is wrong, and so were too many before.
         """
         token = Token.read(shown)
-        with self._turn:
-            session = None if token is None else self._sessions.get(token.id)
-            if token is not None and session is not None and token.opens(session.token_sum):
-                if session.holds(self._clock()):
-                    return session
-                raise SessionRefused.expired()
-            self._refuse_guessing(address)
-            self._guesses.wrong(address)
-        raise SessionRefused.expired()
+        session = None if token is None else self._sessions.get(token.id)
+        if token is None or session is None or not token.opens(session.token_sum):
+            self._count_guess(address)
+            raise SessionRefused.expired()
+        if not session.holds(self._clock()):
+            raise SessionRefused.expired()
+        return session
 
     def holds(self, session_id: str) -> bool:
         """Whether a session that held once still does."""
-        with self._turn:
-            session = self._sessions.get(session_id)
-            return session is not None and session.holds(self._clock())
+        session = self._sessions.get(session_id)
+        return session is not None and session.holds(self._clock())
 
     def sessions(self) -> list[Session]:
         """All that hold now, the newest first."""
-        with self._turn:
-            now = self._clock()
-            holding = [one for one in self._sessions.values() if one.holds(now)]
+        now = self._clock()
+        holding = [one for one in self._sessions.values() if one.holds(now)]
         return sorted(holding, key=lambda one: one.started_at, reverse=True)
 
     def invitations(self) -> list[tuple[Invitation, InvitationState]]:
         """All that are remembered, the newest first."""
-        with self._turn:
-            now = self._clock()
-            kept = [(one, one.state(now)) for one in self._invitations.values()]
+        now = self._clock()
+        kept = [(one, one.state(now)) for one in self._invitations.values()]
         return sorted(kept, key=lambda one: one[0].made_at, reverse=True)
 
     # ------------------------------------------------------------ in and out
@@ -131,45 +135,54 @@ class PeopleDesk:
         """Make an invitation; its token is known here and now, and never again.
 
         Raises:
-            StoreError: it cannot be kept, or there are too many.
+            PeopleRefused: TOO_MANY_PEOPLE.
+            StoreError: it cannot be kept.
         """
         token = Token.new()
         with self._turn:
-            now = self._clock()
-            invitation = Invitation(
-                id=token.id,
-                person=Person(id=new_id(), name=wanted.name, role=wanted.role),
-                made_by=by,
-                made_at=now,
-                expires_at=now + wanted.lasts,
-                single_use=wanted.single_use,
-                for_machine=wanted.for_machine,
-                session_lasts=wanted.session_lasts or self._session_lasts,
-                token_sum=token.sum,
-            )
-            self._keep(invitation=invitation)
+            invitation = self._invitation(wanted, token, by=by)
+            self._keep(invitation=invitation, room_needed=True)
         return invitation, token
+
+    def _invitation(self, wanted: Wanted, token: Token, *, by: str) -> Invitation:
+        now = self._clock()
+        return Invitation(
+            id=token.id,
+            person=Person(id=new_id(), name=wanted.name, role=wanted.role),
+            made_by=by,
+            made_at=now,
+            expires_at=now + wanted.lasts,
+            single_use=wanted.single_use,
+            for_machine=wanted.for_machine,
+            session_lasts=self._session_lasts if wanted.session_lasts is None else wanted.session_lasts,
+            token_sum=token.sum,
+        )
 
     def enter(self, shown: str, *, address: str) -> tuple[Session, Token]:
         """Let in who has this invitation.
 
+        However much their address has guessed: nobody guesses 256 bits, and else whoever tries wrong links
+        behind the same router would keep the surgeon out.
+
         Raises:
-            InvitationRefused: it lets nobody in, or no longer.
-            TooManyTries: too many wrong ones came before.
-            StoreError: the session cannot be kept.
+            InvitationRefused: it lets nobody in, or no longer, or no more.
+            PeopleRefused: TOO_MANY_PEOPLE.
+            TooManyTries: the token is wrong, and so were too many before.
+            StoreError: the session cannot be kept, and is no operator's.
         """
         found = Token.read(shown)
         with self._turn:
-            # Here even a right one waits, or guessing would only be told less about, and not be slower.
-            self._refuse_guessing(address)
             invitation = None if found is None else self._invitations.get(found.id)
             if found is None or invitation is None or not found.opens(invitation.token_sum):
-                self._guesses.wrong(address)
+                self._count_guess(address)
                 raise InvitationRefused.unknown()
             now = self._clock()
             state = invitation.state(now)
             if state is not InvitationState.OPEN:
                 raise REFUSED_BY_STATE[state]()
+            by_it = sum(one.invitation_id == invitation.id for one in self.sessions())
+            if by_it >= MOST_BY_ONE_LINK:
+                raise InvitationRefused.full(by_it)
             token = Token.new()
             session = Session(
                 id=token.id,
@@ -180,7 +193,7 @@ class PeopleDesk:
                 for_machine=invitation.for_machine,
                 token_sum=token.sum,
             )
-            self._keep(invitation=replace(invitation, uses=invitation.uses + 1), session=session)
+            self._let_in(replace(invitation, uses=invitation.uses + 1), session)
         return session, token
 
     def end(self, session_id: str) -> Session:
@@ -195,7 +208,7 @@ class PeopleDesk:
             if session is None or not session.holds(self._clock()):
                 raise PersonUnknown.of("session", session_id)
             ended = replace(session, ended_at=self._clock())
-            self._sessions[session_id] = ended
+            self._sessions = {**self._sessions, session_id: ended}
             self._keep(session=ended)
         return ended
 
@@ -211,7 +224,7 @@ class PeopleDesk:
             if invitation is None:
                 raise PersonUnknown.of("invitation", invitation_id)
             revoked = replace(invitation, revoked_at=invitation.revoked_at or self._clock())
-            self._invitations[invitation_id] = revoked
+            self._invitations = {**self._invitations, invitation_id: revoked}
             self._keep(invitation=revoked)
         return revoked
 
@@ -228,34 +241,43 @@ class PeopleDesk:
             for one, state in self.invitations():
                 if one.made_by == SERVER.name and state is InvitationState.OPEN:
                     self.revoke(one.id)
-            first = Wanted(name=OPERATOR_NAME, role=Role.OPERATOR, lasts=OPERATOR_LINK_LASTS)
-            return self.invite(first, by=SERVER.name)[1]
+            first, token = (
+                Wanted(name=OPERATOR_NAME, role=Role.OPERATOR, lasts=OPERATOR_LINK_LASTS),
+                Token.new(),
+            )
+            # However many people there are: without it nobody could come in and send some away.
+            self._keep(invitation=self._invitation(first, token, by=SERVER.name))
+            return token
 
-    def _refuse_guessing(self, address: str) -> None:
-        wait_s = self._guesses.wait_s(address)
+    def _let_in(self, used: Invitation, session: Session) -> None:
+        """Keep who comes; an operator is let in by a full disk, too: who else could make room on it."""
+        if used.person.role is not Role.OPERATOR:
+            self._keep(invitation=used, session=session, room_needed=True)
+            return
+        try:
+            self._keep(invitation=used, session=session)
+        except StoreError as error:
+            log.warning("an operator is signed in until the next start alone", code=error.code)
+            self._invitations = {**self._invitations, used.id: used}
+            self._sessions = {**self._sessions, session.id: session}
+
+    def _count_guess(self, address: str) -> None:
+        wait_s = self._guesses.wrong(address)
         if wait_s > 0:
             raise TooManyTries.wait(wait_s)
 
-    def _keep(self, *, invitation: Invitation | None = None, session: Session | None = None) -> None:
-        """Have these on the disk first, and hold then; what ended long ago is forgotten."""
-        now = self._clock()
-        invitations = {
-            key: one
-            for key, one in self._invitations.items()
-            if now < one.expires_at + REMEMBERED and now < (one.revoked_at or now) + REMEMBERED
-        }
-        sessions = {key: one for key, one in self._sessions.items() if now < one.over_at() + REMEMBERED}
-        if invitation is not None:
-            invitations[invitation.id] = invitation
-        if session is not None:
-            sessions[session.id] = session
-        if len(invitations) + len(sessions) > MOST_KEPT:
-            raise StoreError(
-                "TOO_MANY_PEOPLE",
-                f"{len(invitations)} invitations and {len(sessions)} sessions are kept, allowed: {MOST_KEPT}",
-                "Take back invitations and end sessions that nobody needs; they are forgotten in two days.",
-                {"invitations": len(invitations), "sessions": len(sessions), "allowed": MOST_KEPT},
-            )
+    def _keep(
+        self,
+        *,
+        invitation: Invitation | None = None,
+        session: Session | None = None,
+        room_needed: bool = False,
+    ) -> None:
+        """Have these on the disk first, and hold then; refuse them in a crowd, where there has to be room."""
+        people = People(invitations=self._invitations, sessions=self._sessions)
+        kept = people.with_these(invitation, session, now=self._clock())
+        if room_needed:
+            kept.refuse_crowd()
         with told(self._folder):
-            write_people(self._file, invitations.values(), sessions.values())
-        self._invitations, self._sessions = invitations, sessions
+            write_people(self._file, kept.invitations.values(), kept.sessions.values())
+        self._invitations, self._sessions = kept.invitations, kept.sessions

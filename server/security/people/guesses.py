@@ -1,6 +1,7 @@
 """Guesses: how often somebody may show a token that does not exist."""
 
 import ipaddress
+import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -13,7 +14,7 @@ MOST_ADDRESSES = 1000
 
 @dataclass(slots=True, kw_only=True)
 class Guesses:
-    """Counts wrong tokens by address and over all; time comes in as a number.
+    """Counts wrong tokens by address and over all. Safe to use from any thread, and waits for no disk.
 
     Attributes:
         clock: monotonic, in seconds.
@@ -26,16 +27,25 @@ class Guesses:
     most_of_all: int = MOST_OF_ALL
     _by_address: dict[str, deque[float]] = field(default_factory=dict)
     _all: deque[float] = field(default_factory=deque)
+    _turn: threading.Lock = field(default_factory=threading.Lock)
 
-    def wait_s(self, address: str) -> float:
-        """How long this address has to wait before its next try counts; 0 where it need not."""
-        now_s = self.clock()
-        own = self._by_address.get(_network(address), deque())
+    def wrong(self, address: str) -> float:
+        """This address has shown a token that does not exist: 0, or how long it waits until one counts.
+
+        A try while it waits is not counted, or who goes on trying would wait for ever.
+        """
+        now_s, network = self.clock(), _network(address)
+        with self._turn:
+            wait_s = self._wait_s(network, now_s)
+            if wait_s == 0.0:
+                self._count(network, now_s)
+        return wait_s
+
+    def _wait_s(self, network: str, now_s: float) -> float:
+        own = self._by_address.get(network, deque())
         return max(_wait_s(own, self.most_of_one, now_s), _wait_s(self._all, self.most_of_all, now_s))
 
-    def wrong(self, address: str) -> None:
-        """This address has shown a token that does not exist."""
-        now_s, network = self.clock(), _network(address)
+    def _count(self, network: str, now_s: float) -> None:
         if network not in self._by_address and len(self._by_address) >= MOST_ADDRESSES:
             # The one that guessed first is let go; what all do together is counted all the same.
             del self._by_address[next(iter(self._by_address))]

@@ -49,6 +49,14 @@ def refuse_unsafe(config: Config) -> None:
             "Set security.sign_in to required, or server.host to 127.0.0.1.",
             {"host": host},
         )
+    if config.security.sign_in == "off" and config.server.behind_proxy is not None:
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            "security.sign_in is off, but by server.behind_proxy others reach this server through a proxy: "
+            "then everybody who reaches it could move the plan",
+            "Set security.sign_in to required, or server.behind_proxy to null.",
+            {"behind_proxy": config.server.behind_proxy},
+        )
     if (tls.certificate is None) != (tls.key is None):
         given, missing = ("certificate", "key") if tls.key is None else ("key", "certificate")
         raise ConfigError(

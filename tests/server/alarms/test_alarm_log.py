@@ -61,6 +61,20 @@ def test_with_a_case_it_belongs_to_the_case_and_says_who(store: CaseStore, log: 
     assert numbers(log) == [1], "of the time without a case"
 
 
+@pytest.mark.parametrize("name", ["\u202eDr. Ito", "\u200b"])
+def test_a_name_that_the_store_does_not_take_holds_no_alarm_up(
+    store: CaseStore, log: StoredAlarmLog, name: str
+) -> None:
+    case = store.open(store.create("L3").id)
+    log.append([entry(1, by=name)])
+    log.flush()
+    log.append([entry(2, by="M. Ito")])
+    log.flush()
+    assert numbers(log) == [1, 2]
+    documents = store.history(case.id, DocumentKind.ALARM, "log")
+    assert [document.made_by for document in documents] == ["Coaxial", "M. Ito"]
+
+
 def test_what_has_no_word_in_json_is_null(store: CaseStore, log: StoredAlarmLog) -> None:
     store.open(store.create("L3").id)
     log.append([Entry(line={"number": 1, "value": float("inf"), "limit": float("nan")}, by="")])

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from server.cli.commands import app
-from server.security.audit import AuditLog, Entry, note, noting
+from server.security.audit import AuditLog, Entry, Verdict, checked, note, noting, verify
 from server.security.person import ANYBODY
 from server.store import Change, StoreError
 from tests.server.security.doors import Clock
@@ -92,6 +93,60 @@ def test_a_start_does_not_cover_what_somebody_took_away(log: AuditLog, folder: P
     assert again.file.read_bytes().count(b"AUDIT_BROKEN") == 1
 
 
+@pytest.mark.parametrize("rest", ["the lines", "nothing"])
+def test_without_its_end_beside_it_a_log_is_not_called_whole(
+    log: AuditLog, folder: Path, monkeypatch: pytest.MonkeyPatch, rest: str
+) -> None:
+    monkeypatch.setenv("COAXIAL_HOME", str(folder.parent))
+    if rest == "nothing":
+        log.file.write_bytes(b"")
+        (folder / "audit-head.json").unlink()
+    else:
+        (folder / "audit-head.json").write_text("{")
+    found = CliRunner().invoke(app, ["audit", "verify"])
+    assert found.exit_code == 1
+    assert "where the log ended is not known" in found.output
+
+
+def test_who_asks_waits_for_nobody_who_writes(log: AuditLog) -> None:
+    with log._turn:
+        asked = threading.Thread(
+            target=lambda: told.extend(
+                [
+                    log.is_well,
+                    log.head.count,
+                    log.verify().fault,
+                    len(log.newest(3)),
+                    log.whole().count(b"\n"),
+                ]
+            ),
+            daemon=True,
+        )
+        told: list[object] = []
+        asked.start()
+        asked.join(20.0)
+        assert told == [True, LINES, None, 3, LINES]
+
+
+def test_what_was_verified_is_not_read_again_unless_it_was_changed(
+    log: AuditLog, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[int] = []
+
+    def counting(lines: list[bytes], *, after: Verdict) -> Verdict:
+        read.append(len(lines))
+        return verify(lines, after=after)
+
+    log.verify()
+    monkeypatch.setattr(checked, "verify", counting)
+    log.append(Entry(who=ANYBODY, what="one more"))
+    assert log.verify().head.count == LINES + 1
+    log.verify()
+    assert read == [1, 0]
+    log.file.write_bytes(log.whole().replace(b"thing/2", b"thing/9"))
+    assert [fault.line for fault in [log.verify().fault] if fault] == [3]
+
+
 def test_an_exported_log_is_verified_by_itself_and_against_its_last_sum(
     log: AuditLog, tmp_path: Path
 ) -> None:
@@ -154,6 +209,23 @@ def test_a_full_disk_spends_the_reserve_first_and_then_keeps_what_waits(
     assert [json.loads(line)["what"] for line in log.newest(2)] == ["first", "second"]
     assert log.verify().fault is None
     assert (folder / "audit-reserve").exists()
+
+
+def test_a_line_that_the_disk_takes_in_many_parts_is_whole(
+    log: AuditLog, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write = os.write
+    monkeypatch.setattr(os, "write", lambda descriptor, content: write(descriptor, bytes(content)[:7]))
+    log.append(Entry(who=ANYBODY, what="in parts"))
+    assert json.loads(log.newest(1)[0])["what"] == "in parts"
+    assert log.verify().fault is None
+
+
+def test_half_a_letter_is_written_as_its_number_and_holds_nothing_up(log: AuditLog) -> None:
+    log.append(Entry(who=ANYBODY, what="half \ud800 letter"))
+    log.append(Entry(who=ANYBODY, what="after"))
+    assert json.loads(log.newest(2)[0])["what"] == r"half \ud800 letter"
+    assert log.verify().fault is None
 
 
 def test_refusals_are_written_so_often_and_no_more(log: AuditLog) -> None:

@@ -15,7 +15,7 @@ from server.security.audit import AuditLog, Entry
 from server.security.person import ANYBODY
 from server.security.written import pass_and_write
 from tests.served import served
-from tests.server.security.doors import HOST, Guarded, guarded
+from tests.server.security.doors import HOST, Guarded, guarded, people_of
 
 OWN = {"Origin": f"http://{HOST}"}
 
@@ -113,8 +113,10 @@ def test_what_a_proxy_says_of_tls_is_believed_only_where_the_settings_do(tmp_pat
 def test_too_many_wrong_links_are_told_to_wait(house: Guarded) -> None:
     for _ in range(10):
         assert enter(house, "x").json()["code"] == "INVITATION_UNKNOWN"
-    told = enter(house, house.invited())
+    told = enter(house, "x")
     assert (told.status_code, told.json()["code"]) == (429, "TOO_MANY_TRIES")
+    assert enter(house, house.invited()).status_code == 200
+    house.door.cookies.clear()
     assert house.door.get("/api/live", headers={"Authorization": "Bearer x"}).headers["retry-after"] == "60"
 
 
@@ -266,6 +268,55 @@ def test_an_invitation_is_a_link_and_a_picture_of_it(house: Guarded) -> None:
     assert [one["is_own"] for one in everybody["sessions"]] == [True]
     entered = enter(house, token).json()
     assert (entered["name"], entered["role"]) == ("Dr. Ito", "supervisor")
+
+
+def test_an_operator_signs_in_on_a_full_disk_to_make_room(
+    house: Guarded, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    operator, viewer = house.invited(), house.invited(Role.VIEWER)
+    before = house.people.audit.head.count
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as disk:
+        disk.setattr(AuditLog, "_write", full)
+        disk.setattr("server.security.people.desk.write_people", full)
+        assert (told := enter(house, viewer)).status_code == 507, told.text
+        told = enter(house, operator)
+        assert (told.status_code, told.json()["role"]) == (200, "operator")
+        assert house.door.get("/api/cases").status_code == 200
+        told = house.door.post("/api/people/invitations", json={"name": "x", "role": "viewer"}, headers=OWN)
+        assert (told.status_code, told.json()["code"]) == (507, "STORE_FULL")
+    house.people.audit.catch_up()
+    assert house.people.audit.head.count > before
+    # With the next change they are kept.
+    house.invited(Role.VIEWER)
+    again = people_of(tmp_path / "home" / "security", house.clock)
+    assert [one.person.role for one in again.sessions()] == [Role.OPERATOR]
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        pytest.param({"name": "\u202eDr. Ito"}, id="a letter that turns the others"),
+        pytest.param({"name": "\u200b"}, id="nothing that is seen"),
+        pytest.param({"session_lasts_h": 1e-10}, id="over before it begins"),
+    ],
+)
+def test_nobody_is_invited_whose_deeds_could_not_be_kept(house: Guarded, asked: dict[str, object]) -> None:
+    wanted = {"name": "Dr. Ito", "role": "viewer", **asked}
+    told = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer())
+    assert told.status_code == 422
+    assert told.json()["remedy"]
+    assert "Dr. Ito" not in [one.person.name for one, _ in house.people.invitations()]
+
+
+def test_a_name_is_kept_in_the_one_way_to_write_it(house: Guarded) -> None:
+    wanted = {"name": " Mu\u0308ller", "role": "viewer", "session_lasts_h": 0.05}
+    told = house.door.post("/api/people/invitations", json=wanted, headers=house.bearer()).json()
+    assert told["invitation"]["name"] == "M\u00fcller"
+    assert enter(house, told["link"].partition("#")[2]).json()["name"] == "M\u00fcller"
 
 
 def test_invitations_are_taken_back_and_sessions_ended_by_the_operator(house: Guarded) -> None:

@@ -1,15 +1,24 @@
 """Invitations and sessions: who gets in, for how long, and who does not any more."""
 
+import errno
 import json
+import os
+import threading
 from datetime import timedelta
 from pathlib import Path
 
 import pytest
 
 from server.security import PeopleDesk, Role
-from server.security.people import Token
+from server.security.people import Token, kept
 from server.security.people.desk import Wanted
-from server.security.refusals import InvitationRefused, PersonUnknown, SessionRefused, TooManyTries
+from server.security.refusals import (
+    InvitationRefused,
+    PeopleRefused,
+    PersonUnknown,
+    SessionRefused,
+    TooManyTries,
+)
 from server.store import StoreError
 from tests.server.security.doors import Clock, people_of
 
@@ -110,13 +119,18 @@ def test_guesses_are_limited_by_address_and_wait_a_minute(desk: PeopleDesk, cloc
             desk.enter(f"{number:012x}.{'A' * 43}", address=HERE)
         clock.passes(seconds=1)
     with pytest.raises(TooManyTries) as told:
-        desk.enter(link, address=HERE)
+        desk.enter("x", address=HERE)
     assert told.value.context == {"wait_s": 50}
     with pytest.raises(TooManyTries):
         desk.who("nonsense", address=HERE)
-    # Somebody elsewhere is not kept waiting by that, and neither is who is in already.
-    session, token = desk.enter(link, address="192.0.2.8")
+    # Somebody elsewhere is not kept waiting by that, and neither is who has the right link, or is in already.
+    with pytest.raises(InvitationRefused):
+        desk.enter("x", address="192.0.2.8")
+    session, token = desk.enter(link, address=HERE)
     assert desk.who(token.text, address=HERE) == session
+    with pytest.raises(InvitationRefused) as used:
+        desk.enter(link, address=HERE)
+    assert used.value.code == "INVITATION_USED"
     clock.passes(seconds=50)
     with pytest.raises(InvitationRefused):
         desk.enter("x", address=HERE)
@@ -172,6 +186,102 @@ def test_a_damaged_file_is_told(desk: PeopleDesk, tmp_path: Path, clock: Clock) 
     with pytest.raises(StoreError) as told:
         people_of(tmp_path, clock)
     assert told.value.code == "PEOPLE_DAMAGED"
+
+
+def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_are(
+    desk: PeopleDesk, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(kept, "MOST_KEPT", 12)
+    link = invited(desk, single_use=False)
+    held, _ = desk.enter(link, address=HERE)
+    for _ in range(30):
+        clock.passes(seconds=1)
+        last = desk.end(desk.enter(link, address=HERE)[0].id)
+    there = json.loads((tmp_path / "people.json").read_text())
+    assert len(there["sessions"]) + len(there["invitations"]) == 12
+    assert {held.id, last.id} <= {one["id"] for one in there["sessions"]}
+    # Links that were used go as well; then what holds fills the room, and only that is refused.
+    desk.enter(invited(desk), address=HERE)
+    for _ in range(9):
+        invited(desk)
+    with pytest.raises(PeopleRefused) as told:
+        invited(desk)
+    assert told.value.code == "TOO_MANY_PEOPLE"
+    with pytest.raises(PeopleRefused):
+        desk.enter(link, address=HERE)
+    desk.end(held.id)
+    invited(desk)
+    again = people_of(tmp_path, clock)
+    token = again.operator_token(wanted=False)
+    assert token is not None
+    assert again.enter(token.text, address=HERE)[0].person.role is Role.OPERATOR
+
+
+def test_one_link_lets_in_twenty_at_a_time(desk: PeopleDesk) -> None:
+    link = invited(desk, single_use=False)
+    sessions = [desk.enter(link, address=HERE)[0] for _ in range(20)]
+    with pytest.raises(InvitationRefused) as refused:
+        desk.enter(link, address=HERE)
+    assert refused.value.code == "INVITATION_FULL"
+    assert "20 are signed in by this link" in refused.value.message
+    assert all(desk.holds(one.id) for one in sessions)
+    desk.end(sessions[0].id)
+    desk.enter(link, address=HERE)
+    desk.enter(invited(desk), address=HERE)
+
+
+def test_nobody_waits_at_the_door_while_the_disk_is_slow(
+    desk: PeopleDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    link = invited(desk, single_use=False)
+    session, token = desk.enter(link, address=HERE)
+    writing, may_go_on = threading.Event(), threading.Event()
+
+    def slow(*_: object) -> None:
+        writing.set()
+        may_go_on.wait(60.0)
+
+    monkeypatch.setattr("server.security.people.desk.write_people", slow)
+    seen: list[object] = []
+
+    def ask() -> None:
+        seen.extend([desk.who(token.text, address=HERE) == session, desk.holds(session.id)])
+
+    entering = threading.Thread(target=desk.enter, args=(link,), kwargs={"address": HERE})
+    asking = threading.Thread(target=ask, daemon=True)
+    entering.start()
+    try:
+        assert writing.wait(60.0)
+        asking.start()
+        asking.join(10.0)
+        assert seen == [True, True]
+    finally:
+        may_go_on.set()
+        entering.join()
+
+
+def test_a_disk_with_room_for_a_part_keeps_the_old_file_and_says_so(
+    desk: PeopleDesk, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    link = invited(desk, single_use=False)
+    before, write, room = (tmp_path / "people.json").read_bytes(), os.write, [200]
+
+    def nearly_full(descriptor: int, content: bytes) -> int:
+        if room[0] == 0:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        written = write(descriptor, bytes(content)[: room[0]])
+        room[0] -= written
+        return written
+
+    monkeypatch.setattr(os, "write", nearly_full)
+    with pytest.raises(StoreError) as told:
+        desk.enter(link, address=HERE)
+    assert told.value.code == "STORE_FULL"
+    assert (tmp_path / "people.json").read_bytes() == before
+    assert [one.name for one in tmp_path.glob(".*")] == []
+    monkeypatch.setattr(os, "write", lambda descriptor, content: write(descriptor, bytes(content)[:7]))
+    people_of(tmp_path, clock).enter(link, address=HERE)
+    assert len(people_of(tmp_path, clock).sessions()) == 1
 
 
 def test_a_token_is_not_shown_where_it_is_printed() -> None:

@@ -21,6 +21,7 @@ from websockets.sync.client import connect
 from server.config import Config
 from server.errors import ConfigError
 from server.security.tls import chosen_tls, refuse_unsafe, self_made
+from server.security.tls.choose import PROXY_WORDS
 from server.security.tls.self_made import kept_or_made
 
 REPOSITORY = Path(__file__).parents[3]
@@ -58,6 +59,10 @@ def test_without_sign_in_no_other_address_is_served() -> None:
         refuse_unsafe(off)
     assert told.value.code == "SIGN_IN_NEEDED"
     refuse_unsafe(Config.model_validate({"security": {"sign_in": False}}))
+    proxied = {"server": {"behind_proxy": PROXY_WORDS}, "security": {"sign_in": "off"}}
+    with pytest.raises(ConfigError) as told:
+        refuse_unsafe(Config.model_validate(proxied))
+    assert told.value.code == "SIGN_IN_NEEDED"
     refuse_unsafe(config_of(host="192.0.2.1"))
 
 

@@ -17,7 +17,11 @@ export function ChannelSwitch(): ReactNode {
   const sideName = useSides();
   const procedure = useProcedure();
   const madeBy = useMadeBy();
-  const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
+  const plan = useAsked(
+    // Without a plan there is nothing to ask for, and nothing to switch to.
+    async (signal) => (isPlanned ? answered(server.GET("/api/plan", { signal })) : null),
+    { key: String(isPlanned) },
+  );
   const [shown, setShown] = useState(false);
   const switching = useDo();
   if (plan.data === null) return <Refused refusal={plan.refusal} />;

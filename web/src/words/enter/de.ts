@@ -35,6 +35,11 @@ export const enterDe: EnterWords = {
       title: "Dieser Link wurde zurückgezogen",
       sentence: "Bitten Sie die Bedienung um einen neuen.",
     },
+    INVITATION_FULL: {
+      title: "Über diesen Link sind schon zu viele angemeldet",
+      sentence:
+        "Melden Sie sich auf einem Gerät ab, das ihn nicht braucht, oder bitten Sie die Bedienung um einen eigenen Link.",
+    },
     TOO_MANY_TRIES: {
       title: "Zu viele falsche Links",
       sentence: "Warten Sie kurz und öffnen Sie den Link dann noch einmal.",

@@ -33,6 +33,10 @@ export const enterEn = {
       title: "This link was taken back",
       sentence: "Ask the operator for a new one.",
     },
+    INVITATION_FULL: {
+      title: "Too many are signed in by this link",
+      sentence: "Sign out on a device that does not need it, or ask the operator for a link of your own.",
+    },
     TOO_MANY_TRIES: {
       title: "Too many wrong links were tried",
       sentence: "Wait a little, then open the link once more.",

@@ -37,7 +37,7 @@ export const toolDe: ToolWords = {
     too_uncertain: "▲ Die Lage ist zu unsicher: näher heran oder den Marker zur Kamera drehen",
     alone: "Suche …",
     jumped: "▲ Schneller als eine Hand: ruhiger halten",
-    nothing_new: "● Gesehen. So eine Lage gibt es schon: weiter neigen",
+    nothing_new: "● Gesehen. So eine Lage gibt es schon: weiter neigen oder drehen",
     full: "✓ Genug Lagen für jede Kalibrierung",
   },
   missing: "Es fehlt noch",

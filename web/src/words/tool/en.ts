@@ -33,7 +33,7 @@ export const toolEn = {
     too_uncertain: "▲ The pose is too unsure: come closer, or turn the marker to the camera",
     alone: "Looking …",
     jumped: "▲ That was faster than a hand moves: hold calmer",
-    nothing_new: "● Seen. Such a pose is taken already: tilt further",
+    nothing_new: "● Seen. Such a pose is taken already: tilt or turn further",
     full: "✓ Enough poses for any calibration",
   },
   missing: "Still missing",

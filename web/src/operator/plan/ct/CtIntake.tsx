@@ -2,7 +2,7 @@ import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
-import { useAsked } from "../../../rest/useAsked";
+import { useRehearsal } from "../../../rest/useRehearsal";
 import { useDo } from "../../../rest/useDo";
 import { RefusalNote } from "../../../rest/RefusalNote";
 import { isOver, useJob } from "../../../rest/useJob";
@@ -26,7 +26,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
   const madeBy = useMadeBy();
   const [uploadId, setUploadId] = useState("");
   const [isAgreed, setAgreed] = useState(false);
-  const rehearsal = useAsked((signal) => answered(server.GET("/api/rehearsal", { signal })));
+  const rehearsal = useRehearsal();
   const choosing = useDo();
   const job = useJob((ended) => {
     if (ended.state === "done" && seriesOf(ended).length === 0) onTaken();

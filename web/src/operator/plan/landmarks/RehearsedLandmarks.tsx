@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { RefusalNote } from "../../../rest/RefusalNote";
-import { useAsked } from "../../../rest/useAsked";
+import { useRehearsal } from "../../../rest/useRehearsal";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
 import { vec3 } from "../slices/vectors";
@@ -17,7 +17,7 @@ export function RehearsedLandmarks({
   onTake: (landmarks: Landmark[]) => void;
 }): ReactNode {
   const words = useWords().plan.landmarks;
-  const rehearsal = useAsked((signal) => answered(server.GET("/api/rehearsal", { signal })));
+  const rehearsal = useRehearsal();
   const asking = useDo();
   if (rehearsal.data === null) return null;
   const take = (): void => {
