@@ -5,16 +5,18 @@ import contextlib
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 
 from server.alarms import AlarmDesk
 from server.api.alarms import alarms_router
 from server.api.audit import audit_router
+from server.api.bodies import LimitedBodies
 from server.api.camera import camera_router
 from server.api.cases import cases_router
 from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import DocumentedApi, documentation_router
+from server.api.doing import know_who_asks
 from server.api.errors import install_errors, refusals
 from server.api.gates import gates_router
 from server.api.health import health_router
@@ -122,9 +124,9 @@ def create_app(parts: AppParts) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
-        responses=refusals(401, 403, 421, 429, 500),
+        dependencies=[Depends(know_who_asks)],
+        responses=refusals(401, 403, 413, 421, 429, 500),
     )
-    install_errors(app)
     _add_guards(app, parts)
     app.state.pictures = pictures
     app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
@@ -162,6 +164,8 @@ def picture_of(app: FastAPI) -> Picture:
 def _add_guards(app: FastAPI, parts: AppParts) -> None:
     """What everything that is asked passes before it reaches a door; the last one here is passed first."""
     server = parts.config.server
+    install_errors(app)
+    app.add_middleware(LimitedBodies)
     if parts.people is not None:
         app.add_middleware(
             SessionGuard,

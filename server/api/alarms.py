@@ -7,6 +7,7 @@ from pydantic import Field, StringConstraints
 
 from server.alarms import AlarmDesk
 from server.alarms.sound import BURSTS, burst_wav
+from server.api.doing import DoneBy
 from server.api.errors import refusals
 from server.security import ANYBODY, acting, person_of
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
@@ -17,9 +18,6 @@ from tracker.navigation.alarms import AlarmPicture, Priority
 WAV = "audio/wav"
 # Screens say this often whether their sound is armed; `alarms.screen_lost_after_s` is three times as long.
 ARMED_EVERY_S = 2.0
-Who = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=200, pattern=r"^[^\x00-\x1f]+$")
-]
 ScreenName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{8,64}$")]
 
 
@@ -36,14 +34,13 @@ class SoundMessage(Message):
 class ByRequest(Message):
     """Who does it."""
 
-    by: Who | None = None
-    """Where people sign in, their session says it, and this is not looked at."""
+    by: DoneBy
 
 
 class AcknowledgeRequest(Message):
     """Which alarms somebody has seen, and who."""
 
-    by: Who | None = None
+    by: DoneBy
     numbers: Annotated[list[int], Field(min_length=1, max_length=100)]
     """Of the alarms that were in sight; one that was raised since is not meant."""
 
@@ -51,7 +48,7 @@ class AcknowledgeRequest(Message):
 class PauseRequest(Message):
     """For how long there shall be no sound."""
 
-    by: Who | None = None
+    by: DoneBy
     seconds: float
     """At most 120."""
 

@@ -4,7 +4,8 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, MadeBy
+from server.api.case_messages import DocumentMessage
+from server.api.doing import MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
 from server.stream.messages import Message, TroubleMessage, trouble_message
 from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout

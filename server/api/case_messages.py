@@ -1,9 +1,10 @@
 """What the answers about cases say."""
 
-from typing import Annotated, TypeAlias
+from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import Field
 
+from server.api.doing import MadeBy
 from server.store import (
     Case,
     Current,
@@ -16,16 +17,8 @@ from server.store import (
     StoredFile,
     Withdrawal,
 )
-from server.store.checks import checked_name
 from server.stream.messages import Message
 
-
-def _person(name: str) -> str:
-    """Refused here, before a long upload or job, and not when its result is to be kept."""
-    return checked_name(name, of="name of who makes it")
-
-
-MadeBy: TypeAlias = Annotated[str, Field(min_length=1, max_length=200), AfterValidator(_person)]
 Words = Annotated[str, Field(min_length=1, max_length=1000)]
 
 
@@ -74,7 +67,7 @@ class WithdrawalMessage(Message):
 class WithdrawMessage(Message):
     """The wish to withdraw a document."""
 
-    by: Words
+    by: MadeBy
     reason: Words
 
 

@@ -9,7 +9,7 @@ from anyio import to_thread
 from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.responses import FileResponse
 
-from server.api.case_messages import MadeBy, heading_message
+from server.api.case_messages import heading_message
 from server.api.ct_messages import (
     CtMessage,
     ProbeMessage,
@@ -20,6 +20,7 @@ from server.api.ct_messages import (
     slice_message,
     upload_message,
 )
+from server.api.doing import MadeByQuery
 from server.api.errors import STATUS_OF, refusals
 from server.api.pictures import (
     HU,
@@ -77,7 +78,7 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         responses=refusals(409, 413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": CT_TYPES}},
     )
-    async def send(request: Request, made_by: Annotated[MadeBy, Query()]) -> UploadMessage:
+    async def send(request: Request, made_by: MadeByQuery) -> UploadMessage:
         """Send a CT, which is the body of the request: a zip of DICOM slices, a DICOM file, or NIfTI.
 
         It is read in a job, checked, and kept as the CT of the open case; what stood on the CT before is out

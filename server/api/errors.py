@@ -38,12 +38,16 @@ STATUS_OF: dict[type[NavigationError], int] = {
     **door.STATUS_OF,
 }
 # Where HTTP has a word of its own for what the code says.
-STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413}
+STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413, "BODY_TOO_LARGE": 413, "BODY_TOO_SLOW": 408}
+
+# Of what did not come in time nothing more is waited for, and the line is cut.
+TIMEOUT = 408
 
 REFUSED_WORDS = {
     401: "Nobody is signed in, or no longer.",
     403: "Who is signed in may not do this, or a page that is none of this server asks for it.",
     404: "There is no such thing.",
+    408: "It was not sent in time.",
     409: "It cannot be done as things stand.",
     413: "It is larger than is taken.",
     421: "This server does not answer to the name in `Host`.",
@@ -105,13 +109,17 @@ async def _navigation(_request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, NavigationError):
         raise error
     told = TroubleMessage(code=error.code, message=error.message, remedy=error.remedy, context=error.context)
-    return _answer(status_of(error), told)
+    status = status_of(error)
+    return _answer(status, told, {"Connection": "close"} if status == TIMEOUT else None)
 
 
 async def _http(request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, HTTPException):
         raise error
     path = request.url.path[:200]
+    if isinstance(error.__cause__, NavigationError):
+        # FastAPI's own 400 for whatever happened while it read the body.
+        return await _navigation(request, error.__cause__)
     if isinstance(error.__cause__, ValueError | RecursionError):
         # FastAPI's own 400 for a body that is no text; a body that is no JSON is 422 everywhere else.
         told = TroubleMessage(

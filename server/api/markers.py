@@ -5,7 +5,7 @@ from typing import Annotated
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
-from server.api.case_messages import MadeBy
+from server.api.doing import MadeByQuery
 from server.api.errors import refusals
 from server.api.uploads import received
 from server.config import Name
@@ -56,7 +56,7 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
         openapi_extra={"requestBody": {"required": True, "content": PICTURE_TYPES}},
     )
     async def add(
-        request: Request, name: Name, side_mm: SideMm, made_by: MadeBy, file: str = "sent"
+        request: Request, name: Name, side_mm: SideMm, made_by: MadeByQuery, file: str = "sent"
     ) -> KnownMarkerMessage:
         """Look for this marker from the next image on; its picture is the body (PNG, JPEG or BMP).
 
@@ -81,7 +81,7 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
         return Response(png_bytes(step.one(name).model.image), media_type="image/png")
 
     @router.delete("/{name}", status_code=204, responses=refusals(404, 409, 422, 503, 507))
-    def remove(name: str, made_by: MadeBy) -> Response:
+    def remove(name: str, made_by: MadeByQuery) -> Response:
         """Look for this marker of the open case no more; what was calibrated behind it is out of date."""
         step.remove(name, by=made_by)
         return Response(status_code=204)

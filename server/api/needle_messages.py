@@ -8,7 +8,7 @@ from typing import Annotated, Self, TypeAlias
 import numpy as np
 from pydantic import Field, model_validator
 
-from server.api.case_messages import MadeBy
+from server.api.doing import MadeBy
 from server.api.registration_messages import LandmarkName, VertebraName
 from server.procedure.registered import Value
 from server.procedure.registration.needle_picture import slice_in_image

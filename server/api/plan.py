@@ -6,7 +6,7 @@ from typing import Annotated, TypeAlias
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
-from server.api.case_messages import MadeBy
+from server.api.doing import MadeByQuery
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import HU, PNG_ANSWER, WindowHu, asked_window, picture
@@ -40,7 +40,6 @@ from tracker.plan.pedicle import Side
 LARGEST_PLAN_BYTES = 8 * 2**20
 JSON = "application/json"
 CHANGED = refusals(404, 409, 422, 503, 507)
-By: TypeAlias = Annotated[MadeBy, Query(alias="made_by")]
 On: TypeAlias = Annotated[Version | None, Query(alias="expected_version")]
 
 
@@ -103,7 +102,7 @@ def _add_files(router: APIRouter, step: PlanStep, opened: OpenedCt, home: Home) 
         openapi_extra={"requestBody": {"required": True, "content": {JSON: {}}}},
     )
     async def read(
-        request: Request, made_by: By, expected_version: On = None, *, for_other_ct: bool = False
+        request: Request, made_by: MadeByQuery, expected_version: On = None, *, for_other_ct: bool = False
     ) -> PlanMessage:
         """Take a plan in from its file, which is the body of the request, as the next version.
 
@@ -128,7 +127,7 @@ def _add_vertebrae(router: APIRouter, step: PlanStep) -> None:
         return plan_message(step.add_vertebra(asked.name, asked.author))
 
     @router.delete("/vertebrae/{name}", responses=CHANGED)
-    def remove(name: str, made_by: By, expected_version: On = None) -> PlanMessage:
+    def remove(name: str, made_by: MadeByQuery, expected_version: On = None) -> PlanMessage:
         """Take a vertebra out of the plan."""
         return plan_message(
             step.remove_vertebra(name, Author(made_by=made_by, expected_version=expected_version))
@@ -159,7 +158,7 @@ def _add_channels(router: APIRouter, step: PlanStep) -> None:
         return plan_message(step.lay_channel(name, side, ends, asked.author))
 
     @router.delete("/vertebrae/{name}/channels/{side}", responses=CHANGED)
-    def remove(name: str, side: Side, made_by: By, expected_version: On = None) -> PlanMessage:
+    def remove(name: str, side: Side, made_by: MadeByQuery, expected_version: On = None) -> PlanMessage:
         """Take a channel out of the plan, with its screw."""
         by = Author(made_by=made_by, expected_version=expected_version)
         return plan_message(step.remove_channel(name, side, by))
@@ -185,7 +184,7 @@ def _add_channels(router: APIRouter, step: PlanStep) -> None:
         return plan_message(step.choose_screw(name, side, size, asked.author))
 
     @router.delete("/vertebrae/{name}/channels/{side}/screw", responses=CHANGED)
-    def remove_screw(name: str, side: Side, made_by: By, expected_version: On = None) -> PlanMessage:
+    def remove_screw(name: str, side: Side, made_by: MadeByQuery, expected_version: On = None) -> PlanMessage:
         """Take the screw out of a channel."""
         by = Author(made_by=made_by, expected_version=expected_version)
         return plan_message(step.remove_screw(name, side, by))
@@ -248,6 +247,6 @@ def _add_active(router: APIRouter, step: PlanStep) -> None:
         return plan_message(step.shelf.activate(asked.vertebra, asked.side, made_by=asked.made_by))
 
     @router.delete("/active-channel", responses=refusals(409, 422, 503, 507))
-    def deactivate(made_by: By) -> PlanMessage:
+    def deactivate(made_by: MadeByQuery) -> PlanMessage:
         """Have no channel to be drilled now."""
         return plan_message(step.shelf.deactivate(made_by=made_by))

@@ -6,8 +6,9 @@ from typing import Annotated, TypeAlias
 import numpy as np
 from pydantic import Field, StringConstraints
 
-from server.api.case_messages import HeadingMessage, MadeBy, heading_message
+from server.api.case_messages import HeadingMessage, heading_message
 from server.api.ct_messages import PointLps
+from server.api.doing import MadeBy
 from server.procedure.plan import Author, KeptPlan, Proposal
 from server.stream.messages import Message
 from tracker.plan import Landmark, PlanDocument, plan_to_mapping

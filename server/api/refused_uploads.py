@@ -27,7 +27,7 @@ class RefusedUploads:
         body = _Body(receive)
 
         async def answer(message: Message) -> None:
-            if message["type"] == "http.response.start":
+            if message["type"] == "http.response.start" and not _ends_line(message):
                 await body.throw_away()
             await send(message)
 
@@ -54,6 +54,11 @@ class _Body:
                     await self.receive()
         except TimeoutError:
             self._over = True
+
+
+def _ends_line(message: Message) -> bool:
+    """Whether nothing more shall be waited for."""
+    return (b"connection", b"close") in [(key.lower(), value) for key, value in message.get("headers", ())]
 
 
 def _brings_body(scope: Scope) -> bool:

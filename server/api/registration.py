@@ -4,7 +4,8 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from server.api.case_messages import DocumentMessage, MadeBy, document_message
+from server.api.case_messages import DocumentMessage, document_message
+from server.api.doing import MadeByQuery
 from server.api.errors import refusals
 from server.api.registration_messages import (
     ByRequest,
@@ -148,7 +149,7 @@ def _add_nudges(router: APIRouter, step: NudgeStep) -> None:
         return nudges_message(step.status())
 
     @router.delete("/nudges/last", responses=KEPT)
-    def undo(made_by: Annotated[MadeBy, Query()]) -> NudgesMessage:
+    def undo(made_by: MadeByQuery) -> NudgesMessage:
         """Take the last nudge back; undone, its uncertainty is gone too."""
         step.undo(made_by=made_by)
         return nudges_message(step.status())

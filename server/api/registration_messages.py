@@ -5,7 +5,8 @@ from typing import Annotated, TypeAlias
 import numpy as np
 from pydantic import Field
 
-from server.api.case_messages import HeadingMessage, MadeBy, heading_message
+from server.api.case_messages import HeadingMessage, heading_message
+from server.api.doing import MadeBy
 from server.config import Name, RegistrationConfig
 from server.procedure.registered import KeptCheck, KeptNudge, KeptRegistration, Value
 from server.procedure.registration import (

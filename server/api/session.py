@@ -37,7 +37,7 @@ def session_router(people: PeopleDesk | None) -> APIRouter:
             sign_in_required=True,
         )
 
-    @router.post("", responses=refusals(409, 422, 503))
+    @router.post("", responses=refusals(408, 409, 422, 503))
     def enter(asked: EnterRequest, request: Request, response: Response) -> EnteredMessage:
         """Sign in with an invitation: the part of its link after the #.
 

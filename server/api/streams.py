@@ -4,15 +4,13 @@ from fastapi import APIRouter, WebSocket
 from starlette.responses import Response
 
 from server.api.errors import refusals
-from server.stream.errors import CameraUnknown, TooManyViewers
+from server.stream.errors import CameraUnknown
 from server.stream.fitting.sizes import Choice, choice_from_text
 from server.stream.live_socket import watch_live
 from server.stream.mjpeg import Video
-from server.stream.socket import REFUSED, TRY_LATER
+from server.stream.socket import LONGEST_REASON, REFUSED
 from server.stream.view_socket import View, watch_view
 from tracker.errors import NavigationError
-
-LONGEST_REASON = 120
 
 SOCKETS_IN_WORDS = """
 `WS /ws/live`: one `LiveMessage` as JSON text for each instant, the newest at once. A slow client skips
@@ -25,8 +23,8 @@ size is full, half or quarter, or auto for the one that the line carries; `{"siz
 the line stands, and `shown_scale_ratio` in the header says in which one the picture came.
 
 Both are open to pages of this server and to programs that send no Origin. A client that sends anything else
-is closed with code 1008 or 1009 and the reason in words; one that is too many (`video.most_viewers`), with
-1013.
+is closed with code 1008 or 1009 and the reason in words; one that is too many (`video.most_viewers`, eight of
+one person, and an eighth of all is kept for operators and screens), with 1013.
 """
 
 
@@ -60,11 +58,6 @@ def streams_router(*, camera_name: str, video: Video, view: View) -> APIRouter:
 
     @router.websocket("/ws/live")
     async def live(websocket: WebSocket) -> None:
-        try:
-            view.viewers.make_room()
-        except TooManyViewers as error:
-            await _refuse(websocket, error)
-            return
         await watch_live(websocket, hub=view.hub, viewers=view.viewers, texts=view.texts)
 
     @router.websocket("/ws/view")
@@ -74,7 +67,6 @@ def streams_router(*, camera_name: str, video: Video, view: View) -> APIRouter:
             if asked != camera_name:
                 raise CameraUnknown(asked, [camera_name])
             choice = choice_from_text(websocket.query_params.get("size", Choice.AUTO))
-            view.viewers.make_room()
         except NavigationError as error:
             await _refuse(websocket, error)
             return
@@ -86,5 +78,4 @@ def streams_router(*, camera_name: str, video: Video, view: View) -> APIRouter:
 async def _refuse(websocket: WebSocket, error: NavigationError) -> None:
     """Say why, which a browser shows to no page before the socket is accepted."""
     await websocket.accept()
-    code = TRY_LATER if isinstance(error, TooManyViewers) else REFUSED
-    await websocket.close(code, error.message[:LONGEST_REASON])
+    await websocket.close(REFUSED, error.message[:LONGEST_REASON])

@@ -18,7 +18,8 @@ from starlette.websockets import WebSocket
 from server.api.supervision_messages import Said, room_message
 from server.security import person_of
 from server.stream.connection import line_of
-from server.stream.socket import REFUSED, TRY_LATER, Misbehaviour, converse
+from server.stream.errors import TooManyViewers
+from server.stream.socket import REFUSED, TRY_LATER, Misbehaviour, converse, turn_away
 from server.stream.viewers import ViewerKind, Viewers
 from server.supervision import Lobby, Unfair, View
 from server.supervision.lobby import HEARTBEAT_S, LEAST_BETWEEN_S, Waiting
@@ -36,9 +37,15 @@ async def sit_in_room(websocket: WebSocket, *, lobby: Lobby, viewers: Viewers) -
     if asked not in set(View):
         await websocket.close(REFUSED, f"view is one of {', '.join(View)}")
         return
+    person = person_of(websocket.scope)
     try:
-        with viewers.watching(ViewerKind.ROOM), lobby.seated(person_of(websocket.scope), View(asked)) as here:
+        with (
+            viewers.watching(ViewerKind.ROOM, person=person),
+            lobby.seated(person, View(asked)) as here,
+        ):
             await _talk(websocket, lobby, viewers, here)
+    except TooManyViewers as full:
+        await turn_away(websocket, full)
     except RoomFull as full:
         await websocket.close(TRY_LATER, str(full))
 

@@ -7,8 +7,9 @@ from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, MadeBy, document_message
+from server.api.case_messages import DocumentMessage, document_message
 from server.api.ct_messages import PointLps
+from server.api.doing import MadeBy, MadeByQuery
 from server.api.errors import refusals
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import KEEP
@@ -93,7 +94,7 @@ def _add_making(router: APIRouter, step: SurfaceStep, home: Home) -> None:
     )
     async def send(
         request: Request,
-        made_by: Annotated[MadeBy, Query()],
+        made_by: MadeByQuery,
         unit: Literal["mm", "cm", "m", "inch", "um"] | None = None,
         space: Space | None = None,
         file_format: Annotated[Literal["stl", "obj", "ply"] | None, Query(alias="format")] = None,

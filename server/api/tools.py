@@ -5,7 +5,8 @@ from typing import Annotated
 from fastapi import APIRouter, Response
 from pydantic import Field
 
-from server.api.case_messages import DocumentMessage, MadeBy, document_message
+from server.api.case_messages import DocumentMessage, document_message
+from server.api.doing import MadeBy
 from server.api.errors import refusals
 from server.config import Name, Point
 from server.live import Trouble

@@ -6,19 +6,19 @@ from tracker.errors import NavigationError
 
 
 class TooManyViewers(NavigationError):
-    """As many watch as are allowed."""
+    """As many watch as are allowed; or one person has as many lines open as one may."""
 
-    def __init__(self, watching: int, most: int) -> None:
-        super().__init__(
-            "TOO_MANY_VIEWERS",
-            f"{watching} viewers watch already, at most {most} may",
-            "Close a picture that nobody looks at, or raise video.most_viewers in the settings.",
-            {"watching": watching, "most": most},
-        )
+    def __init__(self, watching: int, most: int, name: str | None = None) -> None:
+        said = f"{watching} viewers watch already, at most {most} may"
+        remedy = "Close a picture that nobody looks at, or raise video.most_viewers in the settings."
+        if name is not None:
+            said = f"{name} has {watching} lines open already, at most {most} may be one person's"
+            remedy = "Close a page of yours that nobody looks at."
+        super().__init__("TOO_MANY_VIEWERS", said, remedy, {"watching": watching, "most": most, "name": name})
 
     def __reduce__(self) -> tuple[object, ...]:
         """Made again from what it was made of."""
-        return type(self), (self.context["watching"], self.context["most"])
+        return type(self), (self.context["watching"], self.context["most"], self.context["name"])
 
 
 class CameraUnknown(NavigationError):

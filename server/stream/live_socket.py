@@ -5,10 +5,12 @@ import time
 from starlette.websockets import WebSocket
 
 from server.live import LiveHub
+from server.security import person_of
 from server.stream.connection import line_of
+from server.stream.errors import TooManyViewers
 from server.stream.fitting.texts import Texts
-from server.stream.socket import REFUSED, Misbehaviour, converse
-from server.stream.viewers import ViewerKind, Viewers
+from server.stream.socket import REFUSED, Misbehaviour, converse, turn_away
+from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 
 async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers, texts: Texts) -> None:
@@ -19,17 +21,26 @@ async def watch_live(websocket: WebSocket, *, hub: LiveHub, viewers: Viewers, te
     The client sends nothing; one that does is closed with 1008.
     """
     await websocket.accept()
+    try:
+        with viewers.watching(ViewerKind.LIVE, person=person_of(websocket.scope)) as viewer:
+            await _tell(websocket, viewer, hub=hub, viewers=viewers, texts=texts)
+    except TooManyViewers as full:
+        await turn_away(websocket, full)
+
+
+async def _tell(
+    websocket: WebSocket, viewer: Viewer, *, hub: LiveHub, viewers: Viewers, texts: Texts
+) -> None:
     line = line_of(websocket.scope)
-    with viewers.watching(ViewerKind.LIVE) as viewer:
 
-        async def speak() -> None:
-            while True:
-                instant = await hub.next_after(viewer.sequence)
-                viewer.took(instant.sequence)
-                text = texts.of(instant, now_s=time.monotonic())
-                await viewers.send(websocket.send_text(text), line)
+    async def speak() -> None:
+        while True:
+            instant = await hub.next_after(viewer.sequence)
+            viewer.took(instant.sequence)
+            text = texts.of(instant, now_s=time.monotonic())
+            await viewers.send(websocket.send_text(text), line)
 
-        await converse(websocket, viewers, speak=speak, hear=_hear_nothing)
+    await converse(websocket, viewers, speak=speak, hear=_hear_nothing)
 
 
 def _hear_nothing(_text: str) -> None:

@@ -11,6 +11,7 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from server.live import Instant, LiveHub
+from server.security import person_of
 from server.stream.connection import Line, line_of
 from server.stream.fitting.pictures import Pictures
 from server.stream.fitting.sizes import Choice, Size
@@ -50,12 +51,7 @@ class Video:
         self._card = NoVideoCard()
 
     def response(self, choice: Choice = Choice.AUTO) -> Response:
-        """The answer that shows the video for as long as the viewer stays.
-
-        Raises:
-            TooManyViewers: as many watch as are allowed.
-        """
-        self._viewers.make_room()
+        """The answer that shows the video for as long as the viewer stays."""
         return MjpegResponse(self, self._viewers, choice)
 
     def missed(self, viewer: Viewer) -> int:
@@ -128,25 +124,29 @@ class MjpegResponse(Response):
         self._choice = choice
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Send until the viewer goes, or until nothing could be sent for too long."""
-        line = line_of(scope)
-        if line is not None:
-            line.is_endless = True
-        try:
-            await until_one_ends(self._feed(send, line), _until_gone(receive))
-        finally:
-            if line is not None:
-                line.cut()
+        """Send until the viewer goes, or until nothing could be sent for too long.
 
-    async def _feed(self, send: Send, line: Line | None) -> None:
-        with self._viewers.watching(ViewerKind.MJPEG, self._choice) as viewer:
-            start = {"type": "http.response.start", "status": 200, "headers": self.raw_headers}
-            await self._viewers.send(send(start), line)
-            await self._viewers.send(send(_body(PART_HEAD)), line)
-            async for picture in self._video.pictures(viewer):
-                began_s = time.monotonic()
-                await self._viewers.send(send(_body(picture + PART_END)), line)
-                viewer.pace.sent(began_s=began_s, ended_s=time.monotonic(), missed=self._video.missed(viewer))
+        Raises:
+            TooManyViewers: as many watch as are allowed; the answer has not begun then.
+        """
+        line = line_of(scope)
+        with self._viewers.watching(ViewerKind.MJPEG, self._choice, person=person_of(scope)) as viewer:
+            if line is not None:
+                line.is_endless = True
+            try:
+                await until_one_ends(self._feed(send, line, viewer), _until_gone(receive))
+            finally:
+                if line is not None:
+                    line.cut()
+
+    async def _feed(self, send: Send, line: Line | None, viewer: Viewer) -> None:
+        start = {"type": "http.response.start", "status": 200, "headers": self.raw_headers}
+        await self._viewers.send(send(start), line)
+        await self._viewers.send(send(_body(PART_HEAD)), line)
+        async for picture in self._video.pictures(viewer):
+            began_s = time.monotonic()
+            await self._viewers.send(send(_body(picture + PART_END)), line)
+            viewer.pace.sent(began_s=began_s, ended_s=time.monotonic(), missed=self._video.missed(viewer))
 
 
 def _body(content: bytes) -> dict[str, object]:

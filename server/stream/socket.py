@@ -7,6 +7,7 @@ from collections.abc import Callable, Coroutine
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from server.stream.connection import line_of
+from server.stream.errors import TooManyViewers
 from server.stream.race import until_one_ends
 from server.stream.viewers import Stalled, Viewers
 
@@ -14,6 +15,8 @@ LARGEST_MESSAGE_BYTES = 1024
 MESSAGES_A_SECOND = 240
 
 REFUSED, TOO_LARGE, TRY_LATER = 1008, 1009, 1013
+# A farewell holds no more than 123 bytes.
+LONGEST_REASON = 120
 
 
 class Misbehaviour(Exception):
@@ -56,6 +59,12 @@ async def converse(
             with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
                 await viewers.send(websocket.close(TRY_LATER, "too slow"), None)
         raise
+
+
+async def turn_away(websocket: WebSocket, full: TooManyViewers) -> None:
+    """Say to an accepted socket that there is no place for it: before that, a browser shows no page why."""
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+        await websocket.close(TRY_LATER, full.message[:LONGEST_REASON])
 
 
 async def _listen(websocket: WebSocket, hear: Callable[[str], None]) -> None:

@@ -20,11 +20,13 @@ from dataclasses import dataclass
 from starlette.websockets import WebSocket
 
 from server.live import Instant, LiveHub
+from server.security import person_of
 from server.stream.connection import line_of
+from server.stream.errors import TooManyViewers
 from server.stream.fitting.pictures import Pictures
 from server.stream.fitting.sizes import Choice
 from server.stream.fitting.texts import Texts
-from server.stream.socket import REFUSED, Misbehaviour, converse
+from server.stream.socket import REFUSED, Misbehaviour, converse, turn_away
 from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 HEADER_LENGTH = struct.Struct("<I")
@@ -94,24 +96,30 @@ async def watch_view(websocket: WebSocket, view: View, *, choice: Choice = Choic
     One that grants but takes nothing for 2 s is cut off; one that sends anything else is closed with 1008.
     """
     await websocket.accept()
-    line = line_of(websocket.scope)
-    with view.viewers.watching(ViewerKind.VIEW, choice) as viewer:
-        granting = Granting(viewer)
+    try:
+        with view.viewers.watching(ViewerKind.VIEW, choice, person=person_of(websocket.scope)) as viewer:
+            await _show(websocket, view, viewer)
+    except TooManyViewers as full:
+        await turn_away(websocket, full)
 
-        async def speak() -> None:
-            began_s: float | None = None
-            while True:
-                await granting.granted.wait()
-                newest = view.hub.newest
-                if began_s is not None and newest is not None:
-                    # Until the client asks again: what it needs to show an image holds the next one up too.
-                    missed = max(0, newest.sequence - viewer.sequence - 1)
-                    viewer.pace.sent(began_s=began_s, ended_s=granting.at_s, missed=missed)
-                instant = await view.hub.next_after(viewer.sequence)
-                granting.granted.clear()
-                viewer.took(instant.sequence)
-                content = await view_message(view, instant, viewer)
-                began_s = time.monotonic()
-                await view.viewers.send(websocket.send_bytes(content), line)
 
-        await converse(websocket, view.viewers, speak=speak, hear=granting.hear)
+async def _show(websocket: WebSocket, view: View, viewer: Viewer) -> None:
+    line, granting = line_of(websocket.scope), Granting(viewer)
+
+    async def speak() -> None:
+        began_s: float | None = None
+        while True:
+            await granting.granted.wait()
+            newest = view.hub.newest
+            if began_s is not None and newest is not None:
+                # Until the client asks again: what it needs to show an image holds the next one up too.
+                missed = max(0, newest.sequence - viewer.sequence - 1)
+                viewer.pace.sent(began_s=began_s, ended_s=granting.at_s, missed=missed)
+            instant = await view.hub.next_after(viewer.sequence)
+            granting.granted.clear()
+            viewer.took(instant.sequence)
+            content = await view_message(view, instant, viewer)
+            began_s = time.monotonic()
+            await view.viewers.send(websocket.send_bytes(content), line)
+
+    await converse(websocket, view.viewers, speak=speak, hear=granting.hear)

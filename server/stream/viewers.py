@@ -8,12 +8,18 @@ from enum import StrEnum
 
 import structlog
 
+from server.security import ANYBODY, Person, Role
 from server.stream.connection import Line
 from server.stream.errors import TooManyViewers
 from server.stream.fitting.pace import Pace
 from server.stream.fitting.sizes import Choice
 
 _log = structlog.get_logger(__name__)
+
+MOST_A_PERSON = 8
+# Of so many places one is kept for those without whom nothing goes on in theatre.
+PLACES_A_KEPT_ONE = 8
+KEPT_FOR = frozenset({Role.OPERATOR, Role.SCREEN})
 
 
 class ViewerKind(StrEnum):
@@ -31,12 +37,14 @@ class Viewer:
 
     Attributes:
         kind: by which way.
+        person: who it is; `ANYBODY` where nobody signs in.
         sequence: of the last instant taken, -1 before the first.
         dropped: how many instants it skipped, because it was slower than they came.
         pace: in which size its pictures go out.
     """
 
     kind: ViewerKind
+    person: Person = ANYBODY
     sequence: int = -1
     dropped: int = 0
     pace: Pace = field(default_factory=Pace)
@@ -62,20 +70,17 @@ class Viewers:
         self._dropped_by_gone = dict.fromkeys(ViewerKind, 0)
         self._let_go = dict.fromkeys(ViewerKind, 0)
 
-    def make_room(self) -> None:
-        """Nothing, where one more may watch.
+    @contextmanager
+    def watching(
+        self, kind: ViewerKind, choice: Choice = Choice.AUTO, *, person: Person = ANYBODY
+    ) -> Iterator[Viewer]:
+        """One more watches, for the time of the block; a stall ends it quietly, and is counted.
 
         Raises:
-            TooManyViewers: as many watch as are allowed.
+            TooManyViewers: as many watch as are allowed, or as one person may; then no place is taken.
         """
-        if len(self._watching) >= self._most:
-            _log.warning("viewer_refused", watching=len(self._watching), most=self._most)
-            raise TooManyViewers(len(self._watching), self._most)
-
-    @contextmanager
-    def watching(self, kind: ViewerKind, choice: Choice = Choice.AUTO) -> Iterator[Viewer]:
-        """One more watches, for the time of the block; a stall ends it quietly, and is counted."""
-        viewer = Viewer(kind, pace=Pace(choice))
+        self._refuse(kind, person)
+        viewer = Viewer(kind, person=person, pace=Pace(choice))
         self._watching.append(viewer)
         try:
             yield viewer
@@ -85,6 +90,21 @@ class Viewers:
         finally:
             self._watching.remove(viewer)
             self._dropped_by_gone[kind] += viewer.dropped
+
+    def _refuse(self, kind: ViewerKind, person: Person) -> None:
+        """Seats in the room are counted apart: who only sits there takes no picture from anybody."""
+        is_seat = kind is ViewerKind.ROOM
+        same = [one for one in self._watching if (one.kind is ViewerKind.ROOM) is is_seat]
+        own = sum(one.person.id == person.id for one in same)
+        most = self._most - (0 if person.role in KEPT_FOR else self._most // PLACES_A_KEPT_ONE)
+        error = None
+        if len(same) >= most:
+            error = TooManyViewers(len(same), most)
+        elif person != ANYBODY and own >= MOST_A_PERSON:
+            error = TooManyViewers(own, MOST_A_PERSON, person.name)
+        if error is not None:
+            _log.warning("viewer_refused", kind=kind, by=person.name, watching=len(same), own=own, most=most)
+            raise error
 
     async def send(self, sending: Awaitable[None], line: Line | None) -> None:
         """Send something, and wait until the line has taken it, for as long as one sending may take.

@@ -165,6 +165,22 @@ def test_a_content_that_was_changed_behind_the_store_is_not_signed(guarded: Call
     assert not signable(server, "plan")["is_cosigned"]
 
 
+def test_a_signature_that_came_in_with_an_archive_does_not_count(guarded: Callable[..., Server]) -> None:
+    server = guarded()
+    case_id = planned(server)
+    sign(server, "plan", "s1")
+    archive = server.door.get(f"/api/cases/{case_id}/archive").content
+    taken = server.ask("POST", "/api/cases/archive", 201, content=archive)["id"]
+    server.ask("POST", f"/api/cases/{taken}/open", 200)
+    plan = signable(server, "plan")
+    assert (plan["out_of_date"], plan["is_cosigned"], plan["signatures"]) == ("", False, [])
+    documents = server.ask("GET", f"/api/cases/{taken}/documents", 200)["documents"]
+    (withdrawn,) = [one["withdrawn"] for one in documents if one["kind"] == "signature"]
+    assert "signed again here" in withdrawn["reason"]
+    sign(server, "plan", "s1")
+    assert signable(server, "plan")["is_cosigned"]
+
+
 def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server]) -> None:
     server = guarded()
     with server.door.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s2") as socket:

@@ -5,7 +5,15 @@ from pathlib import Path
 
 from sqlalchemy.orm import Session
 
-from server.store.archive.form import CASE, DOCUMENTS, FILES, CaseForm, DocumentForm, refused
+from server.store.archive.form import (
+    CASE,
+    DOCUMENTS,
+    FILES,
+    CaseForm,
+    DocumentForm,
+    WithdrawalForm,
+    refused,
+)
 from server.store.archive.reading import Parts, opened, shaped
 from server.store.cases import add_case, case_of
 from server.store.checks import checked_name, text_of
@@ -27,6 +35,9 @@ from server.store.tables import (
 )
 from tracker.errors import InvalidInput
 
+# Who withdraws what does not count here.
+TAKING_IN = "Coaxial"
+
 
 def unpack(ledger: Ledger, archive: Path) -> Case:
     """Take a case in; it is there whole when this returns, and otherwise nothing of it is.
@@ -43,7 +54,8 @@ def unpack(ledger: Ledger, archive: Path) -> Case:
         try:
             _write_files(ledger.home.cases / arriving.id, case, parts)
             with ledger.writing() as session:
-                return _arrive(session, arriving.id, case, documents, parts)
+                kept = [_unsigned(document, ledger.now) for document in documents]
+                return _arrive(session, arriving.id, case, kept, parts)
         except BaseException:
             remove_case(ledger, arriving.id)
             raise
@@ -95,6 +107,15 @@ def _refuse_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
             raise refused(f"the document {document.id} has files or bases that are not there, or there twice")
         earlier[document.id] = document.kind
         newest[document.kind, document.name] = document.version
+
+
+def _unsigned(document: DocumentForm, now: str) -> DocumentForm:
+    """A signature no longer counts: who wrote it into the archive is not known."""
+    if document.kind is not DocumentKind.SIGNATURE or document.withdrawn is not None:
+        return document
+    reason = "it came in with an archive, and has to be signed again here"
+    withdrawn = WithdrawalForm(at=now, by=TAKING_IN, reason=reason)
+    return document.model_copy(update={"withdrawn": withdrawn})
 
 
 def _write_files(folder: Path, case: CaseForm, parts: Parts) -> None:

@@ -1,8 +1,10 @@
 """More viewers than are allowed are refused in words, and each way of watching counts."""
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 
 import pytest
+from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from starlette.testclient import WebSocketTestSession
 from starlette.websockets import WebSocketDisconnect
@@ -10,6 +12,7 @@ from starlette.websockets import WebSocketDisconnect
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import Instant, LiveHub
+from tests.server.supervision.persons import sign_people_in
 
 OpenSocket = Callable[..., WebSocketTestSession]
 
@@ -42,6 +45,34 @@ def test_the_third_of_two_is_refused_with_a_remedy(
     # They went: there is room again.
     with open_socket("/ws/live") as live:
         assert live.receive_text()
+
+
+def test_one_person_does_not_take_the_places_of_all(
+    app: FastAPI, hub: LiveHub, live_instant: Callable[..., Instant]
+) -> None:
+    sign_people_in(app)
+    hub.publish(live_instant(1))
+    with TestClient(app, base_url="http://127.0.0.1:8000") as client, ExitStack() as open_lines:
+
+        def opened(path: str, who: str) -> WebSocketTestSession:
+            where = f"ws://127.0.0.1:8000{path}"
+            return open_lines.enter_context(client.websocket_connect(where, headers={"x-person": who}))
+
+        for path in ("/ws/live", "/ws/view") * 4:
+            opened(path, "v1")
+        seats = [opened("/ws/room?view=theatre", "v1") for _ in range(8)]
+        for path in ("/ws/live", "/ws/view", "/ws/room?view=theatre"):
+            with pytest.raises(WebSocketDisconnect) as told:
+                opened(path, "v1").receive_text()
+            assert told.value.code == 1013
+            assert "Guest has 8 lines open already" in str(told.value.reason)
+        refused = client.get("/video/main.mjpg", headers={"x-person": "v1"})
+        assert (refused.status_code, refused.json()["code"]) == (503, "TOO_MANY_VIEWERS")
+        assert "a page of yours" in refused.json()["remedy"]
+        for one in (seats[0], opened("/ws/room?view=operator", "o1")):
+            one.send_json({"next": True})
+            assert one.receive_json()["people"]
+        assert opened("/ws/live", "s1").receive_json()["sequence"] == 1
 
 
 def test_who_is_refused_does_not_count(client: TestClient, open_socket: OpenSocket) -> None:
