@@ -39,7 +39,8 @@ def tablet(browser: Browser, server: RealServer) -> Iterator[Watched]:
     yield watched
     context.close()
     assert watched.strangers == []
-    assert watched.complaints == []
+    # What is gathered may end between two questions about it; the browser writes that refusal down.
+    assert [one for one in watched.complaints if "409 (Conflict)" not in one] == []
 
 
 def looked_at(page: Page, name: str) -> list[str]:
