@@ -57,6 +57,15 @@ def refuse_unsafe(config: Config) -> None:
             "Set security.sign_in to required, or server.behind_proxy to null.",
             {"behind_proxy": config.server.behind_proxy},
         )
+    cosign = config.supervision.cosign
+    if config.security.sign_in == "off" and "required" in (cosign.plan, cosign.registration):
+        raise ConfigError(
+            "SIGN_IN_NEEDED",
+            "supervision.cosign asks for a second person's signature, but security.sign_in is off: then "
+            "nobody is a second person, and navigation would never open",
+            "Set security.sign_in to required, or supervision.cosign to offered.",
+            {"plan": cosign.plan, "registration": cosign.registration},
+        )
     if (tls.certificate is None) != (tls.key is None):
         given, missing = ("certificate", "key") if tls.key is None else ("key", "certificate")
         raise ConfigError(

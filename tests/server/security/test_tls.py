@@ -66,6 +66,16 @@ def test_without_sign_in_no_other_address_is_served() -> None:
     refuse_unsafe(config_of(host="192.0.2.1"))
 
 
+@pytest.mark.parametrize("what", ["plan", "registration"])
+def test_nobody_is_a_second_person_where_nobody_signs_in(what: str) -> None:
+    required = {"supervision": {"cosign": {what: "required"}}}
+    refuse_unsafe(Config.model_validate(required))
+    with pytest.raises(ConfigError) as told:
+        refuse_unsafe(Config.model_validate({**required, "security": {"sign_in": "off"}}))
+    assert told.value.code == "SIGN_IN_NEEDED"
+    assert "cosign" in told.value.message
+
+
 def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
