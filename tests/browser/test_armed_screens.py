@@ -6,7 +6,7 @@ import httpx2
 import pytest
 from playwright.sync_api import Error, Page, expect
 
-from tests.browser.theatre import PATIENCE_MS, Theatre, Watched
+from tests.browser.theatre import PATIENCE_MS, Theatre, Watched, arm
 
 pytestmark = pytest.mark.browser
 
@@ -38,8 +38,7 @@ def cleared(page: Page, theatre: Theatre, condition: str) -> None:
 def armed(page: Page) -> None:
     sound = page.get_by_test_id("sound")
     expect(sound).to_have_text("SOUND NOT ARMED: touch here")
-    sound.click()
-    expect(sound).to_have_attribute("data-armed", "true")
+    arm(page)
 
 
 def test_a_server_that_starts_again_hears_of_the_armed_screen_without_a_touch(watch: Watch) -> None:

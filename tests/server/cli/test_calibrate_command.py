@@ -134,7 +134,8 @@ def test_a_bad_file_is_told_and_costs_nobody_else(images: Path, tmp_path: Path) 
     cv2.imwrite(str(folder / "tiny.png"), np.zeros((3, 3), np.uint8))
     shutil.copy(folder / "view0.png", folder / "view0-again.png")
     whole, spoilt = (json.loads(typed(*BOARD, "--json", one)[1]) for one in (images, folder))
-    assert spoilt["matrix"] == whole["matrix"]
+    # Sums over threads end in another last digit.
+    np.testing.assert_allclose(spoilt["matrix"], whole["matrix"], rtol=1e-9)
     assert spoilt["passed"]
     reason_of = {view["image"]: view["reason"] for view in spoilt["views"] if not view["used"]}
     assert set(reason_of) == {"a-text.png", "an-empty.jpg", "small.png", "tiny.png", "view0.png", "view9.png"}
