@@ -4,11 +4,12 @@ import threading
 import time
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from datetime import datetime
 
 from server.alarms.entries import entry_of
 from server.alarms.log import AlarmLog, NoLog
 from server.alarms.screens import Screens
+from server.clock import utc_now, utc_text
 from server.config import Config
 from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
 from tracker.navigation import NavigationSnapshot
@@ -61,11 +62,6 @@ def alarm_limits(config: Config) -> AlarmLimits:
         check_due_after_s=config.registration.check_again_after_min * 60.0,
         least_free_disk_mb=alarms.least_free_disk_mb,
     )
-
-
-def utc_now() -> datetime:
-    """The wall clock."""
-    return datetime.now(tz=UTC)
 
 
 class AlarmDesk:
@@ -227,7 +223,7 @@ class AlarmDesk:
 
     def _kept(self, picture: AlarmPicture, *, by: str = "") -> AlarmPicture:
         if picture.events:
-            at = self._wall_clock().isoformat(timespec="milliseconds").replace("+00:00", "Z")
+            at = utc_text(self._wall_clock())
             events = [replace(one, by=one.by or _doer(one, by)) for one in picture.events]
             self._log.append([entry_of(event, at=at, snapshot=self._snapshot) for event in events])
         return picture

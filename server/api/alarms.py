@@ -9,7 +9,7 @@ from server.alarms import AlarmDesk
 from server.alarms.sound import BURSTS, burst_wav
 from server.api.doing import DoneBy
 from server.api.errors import refusals
-from server.security import ANYBODY, acting, person_of
+from server.security import acting, person_of
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.message import Message
 from server.supervision import Holds
@@ -150,14 +150,9 @@ def _add_holding(router: APIRouter, desk: AlarmDesk, holds: Holds) -> None:
     @router.post("/hold", responses=refusals(422, 503, 507))
     def hold(request: Request, asked: ByRequest) -> AlarmsMessage:
         """Ask those in theatre to hold. It raises an alarm, and stops or changes nothing."""
-        return _logged(desk, holds.ask(person_of(request.scope), name=_typed(request, asked)))
+        return _logged(desk, holds.ask(person_of(request.scope), name=asked.by or ""))
 
     @router.post("/release", responses=refusals(409, 422, 503, 507))
     def release(request: Request, asked: ByRequest) -> AlarmsMessage:
         """Ask no more: who asked for themselves, the operator for everybody."""
-        return _logged(desk, holds.release(person_of(request.scope), name=_typed(request, asked)))
-
-
-def _typed(request: Request, asked: ByRequest) -> str:
-    """A name that was typed in counts only where nobody has to sign in."""
-    return asked.by or "" if person_of(request.scope) is ANYBODY else ""
+        return _logged(desk, holds.release(person_of(request.scope), name=asked.by or ""))

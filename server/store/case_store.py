@@ -5,6 +5,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from types import TracebackType
 
+from server.clock import Clock, utc_now
 from server.disk import FULL
 from server.store import cases, documents, files
 from server.store.archive import Archive, pack, unpack
@@ -13,7 +14,7 @@ from server.store.checks import checked_name
 from server.store.documents import NewDocument
 from server.store.errors import OutOfDateError, StoreError
 from server.store.home import Home
-from server.store.ledger import Clock, Ledger, utc_now
+from server.store.ledger import Ledger
 from server.store.records import (
     Case,
     Damage,

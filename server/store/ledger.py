@@ -3,22 +3,16 @@
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from datetime import UTC, datetime
 
 import structlog
 from sqlalchemy.orm import Session
 
+from server.clock import Clock, utc_now, utc_text
 from server.store.database import empty_journal, for_writing, open_database
 from server.store.errors import StoreConflict, told
 from server.store.home import Home
 
-Clock = Callable[[], datetime]
 log = structlog.get_logger(__name__)
-
-
-def utc_now() -> datetime:
-    """The wall clock, in UTC."""
-    return datetime.now(tz=UTC)
 
 
 class Ledger:
@@ -36,7 +30,7 @@ class Ledger:
     @property
     def now(self) -> str:
         """UTC, ISO 8601 with milliseconds."""
-        return self._clock().astimezone(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+        return utc_text(self._clock())
 
     @contextmanager
     def reading(self) -> Iterator[Session]:

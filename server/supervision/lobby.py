@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from datetime import UTC, datetime
 
+from server.clock import utc_now, utc_text
 from server.live import LiveHub
 from server.security import Person
 from server.supervision.holds import Holds
@@ -85,7 +85,7 @@ class Lobby:
         Raises:
             RoomFull: too many pages are open.
         """
-        at = datetime.now(tz=UTC).isoformat(timespec="seconds").replace("+00:00", "Z")
+        at = utc_text(utc_now(), timespec="seconds")
         with self._lock:
             self._loop = asyncio.get_running_loop()
         waiting = Waiting(self.room.enter(person, view, now_s=self.now_s, at=at), asyncio.Event())

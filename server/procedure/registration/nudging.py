@@ -6,12 +6,12 @@ from datetime import datetime
 
 import numpy as np
 
+from server.clock import utc_now, utc_text
 from server.config import RegistrationConfig
 from server.procedure.registered import KeptNudge, KeptNudges, KeptRegistration
 from server.procedure.registration.ground import GroundFinder
 from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
 from server.store import Document
-from server.store.ledger import utc_now
 from tracker.geometry import Array
 from tracker.registration.nudge import Nudge, NudgedRegistration, NudgeLimits
 
@@ -87,7 +87,7 @@ class NudgeStep:
         shelved = self._shelf.current()
         nudged, kept = self._nudged(shelved)
         after = nudged.nudged(nudge)
-        at = self._clock().isoformat(timespec="milliseconds").replace("+00:00", "Z")
+        at = utc_text(self._clock())
         one = KeptNudge(kind=nudge.kind, axis=nudge.axis, amount=nudge.amount, made_by=made_by, made_at=at)
         return self._put(shelved, after, (*kept, one), made_by=made_by)
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import datetime
 
+from server.clock import utc_now
 from server.config import CosignConfig, RegistrationConfig
 from server.procedure.camera import ACCURACY, MAIN_CAMERA, kept_camera
 from server.procedure.confirmed import (
@@ -23,7 +24,6 @@ from server.procedure.state.judged import ProcedureState, judged, no_case
 from server.procedure.state.records import Finding, StepName, StepState
 from server.procedure.tool import kept_tool
 from server.store import CaseStore, Current, Document, DocumentKind
-from server.store.ledger import utc_now
 from tracker.errors import NavigationError
 from tracker.plan import plan_from_mapping
 from tracker.plan.document.changes import vertebra_named

@@ -4,13 +4,13 @@ import os
 import secrets
 import threading
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
-from datetime import UTC, datetime
 from pathlib import Path
 
 import structlog
 
+from server.clock import Clock, utc_now, utc_text
 from server.security.audit.chain import BROKEN, Fault, Head, Verdict, sealed
 from server.security.audit.checked import Checked, end_fault, verdict_on
 from server.security.audit.entries import Entry
@@ -47,7 +47,7 @@ class AuditLog:
         StoreError: the folder cannot be used.
     """
 
-    def __init__(self, folder: Path, *, clock: Callable[[], datetime] = lambda: datetime.now(tz=UTC)) -> None:
+    def __init__(self, folder: Path, *, clock: Clock = utc_now) -> None:
         self.folder = folder
         self.file = folder / AUDIT_FILE
         self._head_file = folder / HEAD_FILE
@@ -159,7 +159,7 @@ class AuditLog:
             return verdict_on(content, known, self._checked)
 
     def _now(self) -> str:
-        return self._clock().astimezone(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+        return utc_text(self._clock())
 
     def _begin(self) -> None:
         """Heal what a crash cut, tell what somebody changed, and know where to go on."""

@@ -15,9 +15,9 @@ import pytest
 from alembic.runtime.migration import MigrationContext
 from sqlalchemy import create_engine
 
+from server.clock import utc_now
 from server.store import CaseStore, DocumentKind, Home, StoreError, home_folder
 from server.store.database import MIGRATIONS, open_database
-from server.store.ledger import utc_now
 from server.store.tables import Table
 
 REPOSITORY = Path(__file__).parents[3]
