@@ -4,12 +4,20 @@ import type { components } from "../schema";
 import { answered, server } from "./client";
 import { useAsked, type Asked } from "./useAsked";
 
-type Rehearsal = components["schemas"]["RehearsalMessage"];
+export type Rehearsed = components["schemas"]["RehearsalMessage"];
 
-export function useRehearsal(): Asked<Rehearsal | null> {
+interface Wish {
+  everyMs?: number;
+  /** With what is true, for helping through a rehearsal. */
+  truth?: boolean;
+}
+
+/** Without data where a real camera looks: there is nothing to play, and nothing to ask for. */
+export function useRehearsal({ everyMs = 0, truth = false }: Wish = {}): Asked<Rehearsed | null> {
   const isRehearsal = useLive().view.newest?.source.name === "rehearsal";
-  return useAsked<Rehearsal | null>(
-    async (signal) => (isRehearsal ? answered(server.GET("/api/rehearsal", { signal })) : null),
-    { key: String(isRehearsal) },
+  return useAsked<Rehearsed | null>(
+    async (signal) =>
+      isRehearsal ? answered(server.GET("/api/rehearsal", { signal, params: { query: { truth } } })) : null,
+    { key: String(isRehearsal), everyMs },
   );
 }

@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { AlarmsShown } from "../alarms/AlarmsShown";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { PictureSize } from "../live/PictureSize";
@@ -16,7 +17,6 @@ import { useRoomWords } from "../room/RoomContext";
 import { Watching } from "../room/Watching";
 import { useWords } from "../words/WordsContext";
 import { AgesStrip } from "./Ages";
-import { AlarmsShown } from "./AlarmsShown";
 import { Fold } from "./Fold";
 import { HoldPanel } from "./HoldPanel";
 import { LogPanel } from "./LogPanel";

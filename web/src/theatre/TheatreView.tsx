@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { AlarmBand } from "../alarms/AlarmBand";
+import { AlarmsShown } from "../alarms/AlarmsShown";
 import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
@@ -8,7 +9,6 @@ import { BullseyePane } from "../panes/BullseyePane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
-import { AlarmsShown } from "../supervisor/AlarmsShown";
 import { useWords } from "../words/WordsContext";
 import { TheatreTop } from "./TheatreTop";
 

@@ -1,10 +1,9 @@
 import { Button, Select } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { useLive } from "../../live/LiveContext";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
-import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
+import { useRehearsal } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
@@ -15,15 +14,12 @@ type Skill = NonNullable<Wish["skill"]>;
 type Board = NonNullable<Wish["board"]>;
 const SCENES: readonly Scene[] = ["board", "pivot", "spin", "landmarks", "sweep", "check", "operation"];
 
+const ASK_EVERY_MS = 1500;
+
 /** Only where the camera is the theatre in software: what is played before it. */
 export function Rehearsal(): ReactNode {
-  const { view } = useLive();
-  return view.newest?.source.name === "rehearsal" ? <Scenes /> : null;
-}
-
-function Scenes(): ReactNode {
   const words = useWords().case.rehearsal;
-  const asked = useAsked((signal) => answered(server.GET("/api/rehearsal", { signal })), { everyMs: 1500 });
+  const asked = useRehearsal({ everyMs: ASK_EVERY_MS });
   const [skill, setSkill] = useState<Skill | null>(null);
   const [board, setBoard] = useState<Board | null>(null);
   const playing = useDo();

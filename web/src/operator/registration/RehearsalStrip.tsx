@@ -1,14 +1,12 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { useLive } from "../../live/LiveContext";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
-import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
+import { useRehearsal, type Rehearsed } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 
-export type Rehearsed = components["schemas"]["RehearsalMessage"];
 type Scene = components["schemas"]["SceneRequest"]["scene"];
 
 const ASK_EVERY_MS = 400;
@@ -20,18 +18,9 @@ interface RehearsalStripProps {
 }
 
 /** In a rehearsal alone: which scene is played before the camera, so that a step can be done without hardware. */
-export function RehearsalStrip(props: RehearsalStripProps): ReactNode {
-  const { view } = useLive();
-  // Where a real camera looks there is nothing to play, and nothing to ask for.
-  return view.newest?.source.name.startsWith("rehearsal") ? <Scenes {...props} /> : null;
-}
-
-function Scenes({ scenes, children }: RehearsalStripProps): ReactNode {
+export function RehearsalStrip({ scenes, children }: RehearsalStripProps): ReactNode {
   const words = useWords().registration.rehearsal;
-  const { data, again } = useAsked(
-    (signal) => answered(server.GET("/api/rehearsal", { signal, params: { query: { truth: true } } })),
-    { everyMs: ASK_EVERY_MS },
-  );
+  const { data, again } = useRehearsal({ everyMs: ASK_EVERY_MS, truth: true });
   const playing = useDo();
   if (data === null) return null;
   return (

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { useWords } from "../../words/WordsContext";
-import type { Rehearsed } from "./RehearsalStrip";
+import type { Rehearsed } from "../../rest/useRehearsal";
 
 /** Only a rehearsal knows where the tip really rests. */
 export function TipRests({ told }: { told: Rehearsed }): ReactNode {

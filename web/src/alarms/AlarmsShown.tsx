@@ -1,9 +1,9 @@
 import type { ReactNode } from "react";
-import { MARKS } from "../alarms/AlarmSentence";
-import { measureText } from "../alarms/measureText";
-import { alarmsVerdict } from "../alarms/verdict";
 import { useLive } from "../live/LiveContext";
 import { useWords } from "../words/WordsContext";
+import { MARKS } from "./AlarmSentence";
+import { measureText } from "./measureText";
+import { alarmsVerdict } from "./verdict";
 
 /** The alarms as theatre has them. They are acknowledged there, by people who stand before them. */
 export function AlarmsShown(): ReactNode {
@@ -13,7 +13,7 @@ export function AlarmsShown(): ReactNode {
   const alarms = verdict.known ? verdict.alarms.alarms : [];
   return (
     <section
-      className="alarms supervisor-alarms"
+      className="alarms alarms-shown"
       aria-label={words.title}
       data-testid="alarms-shown"
       data-priority={verdict.known ? (alarms[0]?.priority ?? "none") : "unknown"}
@@ -25,7 +25,7 @@ export function AlarmsShown(): ReactNode {
       )}
       {verdict.known && alarms.length === 0 && <p className="alarms-none">{words.none}</p>}
       {alarms.length > 0 && (
-        <ul className="supervisor-alarm-list">
+        <ul className="alarms-shown-list">
           {alarms.map((alarm) => {
             const saying = words.conditions[alarm.condition];
             const over = alarm.state === "latched";
