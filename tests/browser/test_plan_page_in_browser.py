@@ -69,6 +69,8 @@ class Tablet:
             if abs(below) <= 0.5:
                 break
             self.tap("slice-on" if below > 0 else "slice-back")
+        # A tap goes to what is seen: while an earlier slice still stands there, to that one.
+        expect(self.page.get_by_test_id("slice-axial")).not_to_have_attribute("data-late", "true")
         place = self.page.locator(".planes-large [data-testid=cross] circle").bounding_box()
         assert place is not None
         away_px = (wanted - self.cross()) * self.page.evaluate(PX_PER_MM)
