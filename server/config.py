@@ -116,6 +116,8 @@ class RehearsalConfig(Section):
     landmark after the other, sweeping over the bone, on a landmark that is left for the check."""
     skill: Literal["wandering", "good", "breaching"] = "wandering"
     """How the drill is held in the operation: off by millimetres at last, true, or through the wall."""
+    rest_s: Annotated[float, Field(ge=0.5, le=60.0)] = 3.0
+    """How long the hand holds the tip on a landmark."""
     reference: bool = False
     """A second marker is fixed to the patient."""
     events: Annotated[list[RehearsalEventConfig], Field(max_length=20)] = []

@@ -321,6 +321,7 @@ def theatre_of(rehearsal: RehearsalConfig) -> "Theatre":
             scene=Scene(rehearsal.scene),
             board=BoardKind(rehearsal.board),
             skill=Skill(rehearsal.skill),
+            rest_s=rehearsal.rest_s,
             reference=rehearsal.reference,
             events=events,
         )

@@ -10,7 +10,7 @@ from tracker.rehearsal.landmarks import Landmark, where_surface_is
 from tracker.rehearsal.motion import Phase, Pose6, catmull_rom
 
 TABLE_HZ = 100
-REST_S, HOP_S, CHECK_REST_S = 1.6, 2.2, 4.0
+HOP_S = 2.2
 STROKE_S, STROKE_HOP_S = 2.6, 1.2
 # What a hop between two landmarks must clear: spinous process, needles' feet.
 HOP_HEIGHT_MM = 80.0

@@ -8,6 +8,7 @@ from tracker.rehearsal.events import Event, refused
 
 HARDEST = 10.0
 SIDE_PX = (160, 4096)
+LEAST_REST_S, LONGEST_REST_S = 0.5, 60.0
 
 
 class Scene(StrEnum):
@@ -52,6 +53,7 @@ class TheatreSettings:
         scene: what is rehearsed.
         board: which calibration board is shown in its scene.
         skill: how the hand drills in the operation.
+        rest_s: how long the hand holds the tip on a landmark.
         reference: whether a second marker is fixed to the patient.
         events: what goes wrong, and when.
 
@@ -68,6 +70,7 @@ class TheatreSettings:
     scene: Scene = Scene.OPERATION
     board: BoardKind = BoardKind.DOTS
     skill: Skill = Skill.WANDERING
+    rest_s: float = 3.0
     reference: bool = False
     events: tuple[Event, ...] = ()
 
@@ -76,6 +79,8 @@ class TheatreSettings:
             raise refused("seed", self.seed, f"a whole number from 0 to {2**32 - 1}")
         if not all(SIDE_PX[0] <= side <= SIDE_PX[1] for side in self.size_wh_px):
             raise refused("size_wh_px", self.size_wh_px, f"sides from {SIDE_PX[0]} to {SIDE_PX[1]} px")
+        if not LEAST_REST_S <= self.rest_s <= LONGEST_REST_S:
+            raise refused("rest_s", self.rest_s, f"seconds from {LEAST_REST_S:g} to {LONGEST_REST_S:g}")
         for name in ("noise", "blur", "clutter", "light"):
             value = float(getattr(self, name))
             if not (math.isfinite(value) and 0.0 <= value <= HARDEST):

@@ -15,7 +15,7 @@ from tracker.rehearsal.drilling import drilling_hand
 from tracker.rehearsal.emblem import drill_emblem
 from tracker.rehearsal.events import EventKind
 from tracker.rehearsal.hands import PivotingHand, SpinningHand
-from tracker.rehearsal.journeys import CHECK_REST_S, REST_S, sweeping_hand, touching_hand
+from tracker.rehearsal.journeys import sweeping_hand, touching_hand
 from tracker.rehearsal.landmarks import Landmark, check_landmark, registration_landmarks
 from tracker.rehearsal.motion import Phase, Pose6
 from tracker.rehearsal.placement import Moves, Placement, Room
@@ -231,9 +231,9 @@ def _hand_of(settings: TheatreSettings, rest: Rigid[Vertebra, Tool]) -> _Holding
         case Scene.SPIN | Scene.BOARD:
             return SpinningHand(seed)
         case Scene.LANDMARKS:
-            return touching_hand(registration_landmarks(), rest_s=REST_S, rest=rest, seed=seed)
+            return touching_hand(registration_landmarks(), rest_s=settings.rest_s, rest=rest, seed=seed)
         case Scene.CHECK:
-            return touching_hand((check_landmark(),), rest_s=CHECK_REST_S, rest=rest, seed=seed)
+            return touching_hand((check_landmark(),), rest_s=settings.rest_s, rest=rest, seed=seed)
         case Scene.SWEEP:
             return sweeping_hand(rest=rest, seed=seed)
         case Scene.OPERATION:

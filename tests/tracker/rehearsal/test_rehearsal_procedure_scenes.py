@@ -53,6 +53,15 @@ def test_the_tip_rests_on_each_landmark_as_a_hand_does(seed: int) -> None:
         assert np.abs(bone_field(tips)).max() < 0.2
 
 
+@pytest.mark.parametrize("scene", [Scene.LANDMARKS, Scene.CHECK])
+def test_a_tip_rests_as_long_as_asked(scene: Scene) -> None:
+    theatre = Theatre(TheatreSettings(scene=scene, rest_s=5.0))
+    step_s = 0.05
+    touched = [theatre.truth_at(at_s).touched for at_s in np.arange(0.0, theatre.cycle_s, step_s)]
+    for name in {one for one in touched if one}:
+        assert touched.count(name) * step_s == pytest.approx(5.0, abs=2 * step_s)
+
+
 def test_between_landmarks_the_hand_lifts_off_and_never_jumps() -> None:
     _, truths = played(Scene.LANDMARKS, 3, 0.01)
     tips = np.array([tip(truth) for truth in truths])
