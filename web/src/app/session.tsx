@@ -41,6 +41,8 @@ async function ask(): Promise<Session | string> {
 export function SessionProvider({ children }: { children: ReactNode }): ReactNode {
   const [session, setSession] = useState<Session>({ state: "asking", silent: false });
   const asking = useRef(false);
+  // Who comes by a link is nobody yet: whoever takes the link asks.
+  const [byLink] = useState(() => location.pathname === "/enter" && location.hash.length > 1);
 
   const again = useCallback(() => {
     if (asking.current) return;
@@ -68,7 +70,7 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
   });
   useEffect(() => {
     const stop = new AbortController();
-    again();
+    if (!byLink) again();
     const timer = setInterval(onTick, ASK_EVERY_MS);
     const endGone = onSessionGone(onGone);
     addEventListener("focus", again, { signal: stop.signal });
@@ -77,7 +79,7 @@ export function SessionProvider({ children }: { children: ReactNode }): ReactNod
       endGone();
       clearInterval(timer);
     };
-  }, [again]);
+  }, [again, byLink]);
 
   return <SessionContext value={{ session, again, leave }}>{children}</SessionContext>;
 }

@@ -31,6 +31,7 @@ export function useEntry(): Entry {
         go(PATHS[viewsOf(role)[0] ?? "theatre"], { replace: true });
       })
       .catch((error: unknown) => {
+        again();
         if (!(error instanceof Refusal)) throw error;
         setRefusal(error);
       })
