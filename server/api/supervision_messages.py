@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from server.procedure.state.cosigned import Signed
 from server.security import Role
 from server.stream.message import Message
+from server.supervision.asked import Asked
 from server.supervision.marks import Drawing, Pointer, Shape
 from server.supervision.people import LineState, Present, Seat, View
 from server.supervision.signatures import Requirement, Signable
@@ -111,6 +112,8 @@ class HoldMessage(Message):
     """Who asks to hold."""
 
     asked_by: list[str]
+    since: str | None
+    """When the first of them asked, UTC, ISO 8601; null where nobody does, or it is not known."""
     is_yours: bool
     """You are one of them."""
 
@@ -206,7 +209,7 @@ def room_message(news: News, *, seat: Seat) -> RoomMessage:
         pointers=[_pointer(one, picture.now_s) for one in picture.pointers],
         drawings=[one.key for one in picture.drawings],
         grown=[_drawing(one, you.id, left_s=_left_s(one.drawing, news)) for one in news.grown],
-        hold=HoldMessage(asked_by=list(picture.holding), is_yours=you.id in picture.holding_ids),
+        hold=_hold(picture.holding, you.id),
         signable=None if news.signable is None else [signable_message(one, you.id) for one in news.signable],
     )
 
@@ -234,6 +237,14 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
         ],
         is_cosigned=signable.is_cosigned,
         was_signed=signable.was_signed,
+    )
+
+
+def _hold(asking: tuple[Asked, ...], your_id: str) -> HoldMessage:
+    return HoldMessage(
+        asked_by=[one.name for one in asking],
+        since=asking[0].at or None if asking else None,
+        is_yours=any(one.person_id == your_id for one in asking),
     )
 
 

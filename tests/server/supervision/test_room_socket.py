@@ -192,6 +192,8 @@ def test_holds_of_several_stand_until_each_has_released(client: TestClient) -> N
     assert (refused["code"], "Dr Sato" in refused["message"]) == ("HOLD_NOT_YOURS", True)
     post("hold", "s2")
     told = client.get("/api/supervision/room", headers={"x-person": "s2"}).json()
+    since = told["hold"].pop("since")
+    assert since.endswith("Z")
     assert told["hold"] == {"asked_by": ["Dr Sato", "Dr Kim"], "is_yours": True}
     assert by(post("release", "s1")) == ["Dr Kim"]
     assert by(post("hold", "s1")) == ["Dr Kim, Dr Sato"]

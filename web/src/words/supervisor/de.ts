@@ -21,6 +21,7 @@ export const supervisorDe: SupervisorWords = {
     sure: "Ja, sie sollen innehalten",
     hint: "Löst im Saal einen Alarm aus. Von selbst hält dadurch nichts an.",
     asked: "Um Innehalten bittet",
+    since: "seit",
     release: "Bitte zurücknehmen",
     releaseAll: "Bitte für alle zurücknehmen",
     othersOnly: "Zurücknehmen kann sie, wer gebeten hat, oder die Bedienung.",

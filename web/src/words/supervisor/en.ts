@@ -19,6 +19,7 @@ export const supervisorEn = {
     sure: "Yes, ask them to hold",
     hint: "Raises an alarm in theatre. It stops nothing by itself.",
     asked: "Holding is asked by",
+    since: "since",
     release: "Release the hold",
     releaseAll: "Release the hold for all",
     othersOnly: "Who asked, or the operator, releases it.",
