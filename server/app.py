@@ -146,7 +146,7 @@ def create_app(parts: AppParts) -> FastAPI:
         setup=parts.setup,
         surface=parts.surface,
         stale_after_ms=limits.scene_stale_after_ms,
-        most_viewers=config.video.most_viewers,
+        admit=lambda person: viewers.watching(ViewerKind.SCENE, person=person),
         cut=cut_line,
     )
     if parts.store is not None:
