@@ -230,6 +230,34 @@ def test_one_link_lets_in_twenty_at_a_time(desk: PeopleDesk) -> None:
     desk.enter(invited(desk), address=HERE)
 
 
+def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
+    desk: PeopleDesk, clock: Clock
+) -> None:
+    lasting = Wanted(name="Hall", role=Role.VIEWER, lasts=timedelta(hours=3), single_use=False)
+    link, other = desk.invite(lasting, by="test")[1].text, desk.invite(lasting, by="test")[1].text
+    for _ in range(40):
+        clock.passes(seconds=30)
+        session, token = desk.enter(link, address=HERE)
+        desk.end(session.id)
+    session, token = desk.enter(other, address=HERE)
+    with pytest.raises(TooManyTries) as told:
+        desk.enter(link, address=HERE)
+    assert told.value.code == "TOO_MANY_SIGN_INS"
+    assert told.value.message == (
+        "this link has signed in 40 times within 60 min, and signs in again in 41 min"
+    )
+    assert told.value.context["wait_s"] == 3600 - 39 * 30
+    assert told.value.remedy
+    # Who is in stays in, and other links let in.
+    assert desk.who(token.text, address=HERE) == session
+    clock.passes(seconds=3600 - 39 * 30)
+    desk.enter(link, address=HERE)
+    # A refused try does not make the wait longer, and each place comes back for itself.
+    with pytest.raises(TooManyTries) as told:
+        desk.enter(link, address=HERE)
+    assert told.value.context["wait_s"] == 30
+
+
 def test_nobody_waits_at_the_door_while_the_disk_is_slow(
     desk: PeopleDesk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
