@@ -153,7 +153,7 @@ class PeopleDesk:
         now = self._clock()
         return Invitation(
             id=token.id,
-            person=Person(id=new_id(), name=wanted.name, role=wanted.role),
+            person=Person(id=new_id(), name=wanted.name, role=wanted.role, invited_by=by),
             made_by=by,
             made_at=now,
             expires_at=now + wanted.lasts,

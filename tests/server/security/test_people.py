@@ -11,7 +11,7 @@ import pytest
 
 from server.security import PeopleDesk, Role
 from server.security.people import Token, kept
-from server.security.people.desk import Wanted
+from server.security.people.desk import PEOPLE_FILE, Wanted
 from server.security.refusals import (
     InvitationRefused,
     PeopleRefused,
@@ -48,6 +48,20 @@ def test_an_invitation_lets_in_once_with_its_name_and_role(desk: PeopleDesk) -> 
     with pytest.raises(InvitationRefused) as refused:
         desk.enter(link, address=HERE)
     assert refused.value.code == "INVITATION_USED"
+
+
+def test_who_invited_somebody_is_known_of_them_over_a_restart(tmp_path: Path, clock: Clock) -> None:
+    link = invited(people_of(tmp_path, clock))
+    _, token = people_of(tmp_path, clock).enter(link, address=HERE)
+    assert people_of(tmp_path, clock).who(token.text, address=HERE).person.invited_by == "test"
+    # An invitation that was made before it was written down says who made it.
+    link, file = invited(people_of(tmp_path, clock)), tmp_path / PEOPLE_FILE
+    older = json.loads(file.read_bytes())
+    for one in (*older["invitations"], *older["sessions"]):
+        del one["person"]["invited_by"]
+    file.write_text(json.dumps(older))
+    assert people_of(tmp_path, clock).enter(link, address=HERE)[0].person.invited_by == "test"
+    assert people_of(tmp_path, clock).who(token.text, address=HERE).person.invited_by == ""
 
 
 def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
