@@ -4,6 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from server.api.case_messages import ImportedMessage, imported_message
 from server.procedure.state.cosigned import Signed
 from server.security import Role
 from server.stream.message import Message
@@ -79,6 +80,10 @@ class SignatureMessage(Message):
     is_yours: bool
     second_person: bool
     """Whether it is known that somebody else made what was signed; false where nobody signs in."""
+    invited_by: str
+    """Who had invited the signer; empty where that is not known."""
+    invited_by_maker: bool
+    """Who made what was signed had invited the signer, and may have invited themselves."""
 
 
 class SignableMessage(Message):
@@ -90,7 +95,10 @@ class SignableMessage(Message):
     """Of the newest version; null where there is none."""
     title: str
     made_by: str
+    """Who made it; of what came in with an archive, in words that say so."""
     made_at: str
+    imported: ImportedMessage | None
+    """That it came in with an archive; null where it was made here."""
     sha256: str
     """Of the content that a signature is bound to."""
     out_of_date: str
@@ -223,6 +231,7 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
         title=signable.title,
         made_by=signable.made_by,
         made_at=signable.made_at,
+        imported=imported_message(signable.imported, said_maker=signable.said_maker),
         sha256=signable.sha256,
         out_of_date=signable.out_of_date,
         signatures=[
@@ -232,6 +241,8 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
                 at=one.at,
                 is_yours=one.signer_id == your_id,
                 second_person=one.second_person,
+                invited_by=one.invited_by,
+                invited_by_maker=one.invited_by_maker,
             )
             for one in signable.signatures
         ],

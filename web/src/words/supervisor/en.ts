@@ -95,6 +95,8 @@ export const supervisorEn = {
     changed: "It was changed since it was signed: the earlier signature does not count any more.",
     outOfDate: "Out of date, so that it cannot be signed",
     notSecond: "not known to be a second person",
+    invitedBy: "invited by",
+    invitedByMaker: "invited by {name}, who made what is signed",
     anybody: "Nobody signs in on this server, so a signature does not count as a second person's.",
     done: "co-signed",
     open: "not co-signed",
