@@ -239,19 +239,26 @@ def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server])
     server = guarded()
     with server.door.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s2") as socket:
 
-        def heard(true: Callable[[dict[str, Any]], bool]) -> None:
+        def heard(true: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+            """The plan in the first message of this socket that says so."""
+            plans: list[dict[str, Any]] = []
+
             def told() -> bool:
                 socket.send_json({"next": True})
-                news = socket.receive_json()["signable"]
-                return news is not None and true(news[0])
+                plans.extend((socket.receive_json()["signable"] or [])[:1])
+                return bool(plans) and true(plans[-1])
 
             server.until(told)
+            return plans[-1]
 
-        heard(lambda plan: plan["document_id"] is None)
+        assert heard(lambda plan: plan["document_id"] is None)["signatures"] == []
         planned(server)
-        heard(lambda plan: plan["title"] == "plan 'main' version 1")
+        made = heard(lambda plan: plan["document_id"] is not None)
+        assert (made["title"], made["is_cosigned"]) == ("plan 'main' version 1", False)
         sign(server, "plan", "s1")
-        heard(lambda plan: plan["is_cosigned"] and plan["signatures"][0]["by"] == "Dr Sato")
+        signed = heard(lambda plan: plan["is_cosigned"])
+        assert signed == signable(server, "plan")
+        assert [(one["by"], one["is_yours"]) for one in signed["signatures"]] == [("Dr Sato", False)]
 
 
 def test_only_navigation_waits_for_a_signature() -> None:
