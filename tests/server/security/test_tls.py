@@ -89,7 +89,8 @@ def test_who_connects_and_does_not_finish_the_handshake_is_cut_off(
     app = create_app(AppParts(hub=LiveHub(), config=Config()))
     trusting = ssl.create_default_context(cafile=str(tls.certificate))
     trusting.check_hostname = False
-    with ExitStack() as lines, served(app, tls=tls) as port:
+    # The lines end before the server does: a farewell that nobody answers would be open at its end.
+    with served(app, tls=tls) as port, ExitStack() as lines:
 
         def connected() -> socket.socket:
             # asyncio alone would hold each of them for 60 s.
