@@ -55,8 +55,8 @@ from server.stream.fitting.pictures import Pictures
 from server.stream.fitting.texts import Texts
 from server.stream.mjpeg import Video
 from server.stream.view_socket import View
-from server.stream.viewers import Viewers
-from server.supervision import Holds, Lobby, SignatureDesk
+from server.stream.viewers import ViewerKind, Viewers
+from server.supervision import Holds, HoldsFile, Lobby, SignatureDesk
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
@@ -146,7 +146,7 @@ def create_app(parts: AppParts) -> FastAPI:
         setup=parts.setup,
         surface=parts.surface,
         stale_after_ms=limits.scene_stale_after_ms,
-        most_viewers=config.video.most_viewers,
+        admit=lambda person: viewers.watching(ViewerKind.SCENE, person=person),
         cut=cut_line,
     )
     if parts.store is not None:
@@ -189,7 +189,8 @@ def _add_people(app: FastAPI, parts: AppParts) -> None:
 def _add_supervision(app: FastAPI, parts: AppParts, viewers: Viewers) -> None:
     """The doors to alarms, to the room of those who watch, and to what is co-signed in a case."""
     desk = parts.alarms or AlarmDesk(parts.config)
-    holds, signatures = Holds(desk), None
+    kept = None if parts.store is None else HoldsFile(parts.store.home.folder)
+    holds, signatures = Holds(desk, kept=kept), None
     if parts.steps is not None and parts.store is not None:
         signatures = SignatureDesk(parts.store, parts.steps.procedure)
         app.include_router(signatures_router(signatures))

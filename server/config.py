@@ -276,7 +276,10 @@ class VideoConfig(Section):
 
 
 class CosignConfig(Section):
-    """What a second person signs. required: nobody navigates before; offered: it may be done."""
+    """What a second person signs. required: nobody navigates before; offered: it may be done.
+
+    An operator can invite a second self: a signature tells who invited the signer, and cannot rule that out.
+    """
 
     plan: Literal["required", "offered"] = "offered"
     registration: Literal["required", "offered"] = "offered"

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import uvicorn
 from fastapi import FastAPI
 
+from server.security.tls import Tls
 from server.stream.connection import uvicorn_config
 
 PATIENCE_S = 30.0
@@ -26,9 +27,11 @@ class _Announced(uvicorn.Server):
 
 
 @contextmanager
-def served(app: FastAPI, *, begun: bool = False) -> Iterator[int]:
+def served(app: FastAPI, *, begun: bool = False, tls: Tls | None = None) -> Iterator[int]:
     """Serve it for the time of the block; the port. `begun`: somebody else starts and ends its parts."""
     config = uvicorn_config(app, host="127.0.0.1", port=0)
+    if tls is not None:
+        config.ssl_certfile, config.ssl_keyfile = str(tls.certificate), str(tls.key)
     config.lifespan = "off" if begun else "auto"
     server = _Announced(config)
     thread = threading.Thread(target=server.run, name="web server", daemon=True)

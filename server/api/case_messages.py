@@ -13,6 +13,7 @@ from server.store import (
     DocumentKind,
     Entry,
     Heading,
+    Imported,
     Standing,
     StoredFile,
     Withdrawal,
@@ -71,6 +72,16 @@ class WithdrawMessage(Message):
     reason: Words
 
 
+class ImportedMessage(Message):
+    """That a document came in with an archive, in which anybody may have written anything."""
+
+    said_maker: str
+    """Who made it, as the archive says; nobody signed in here under this name to make it."""
+    by: str
+    """Who took it in."""
+    at: str
+
+
 class HeadingMessage(Message):
     """One version of a document, without its content."""
 
@@ -80,6 +91,9 @@ class HeadingMessage(Message):
     version: int
     made_at: str
     made_by: str
+    """Who made it; of what came in with an archive, in words that say so."""
+    imported: ImportedMessage | None
+    """That it came in with an archive; null where it was made here."""
     stands_on: list[str]
     """Ids of the documents that it was made from."""
     files: list[str]
@@ -148,6 +162,13 @@ def case_message(case: Case) -> CaseMessage:
     )
 
 
+def imported_message(imported: Imported | None, *, said_maker: str) -> ImportedMessage | None:
+    """That a document came in with an archive, as it is told; None where it was made here."""
+    if imported is None:
+        return None
+    return ImportedMessage(said_maker=said_maker, by=imported.by, at=imported.at)
+
+
 def heading_message(heading: Heading, standing: Standing) -> HeadingMessage:
     """A document without its content, as it is told."""
     return HeadingMessage(
@@ -156,7 +177,8 @@ def heading_message(heading: Heading, standing: Standing) -> HeadingMessage:
         name=heading.name,
         version=heading.version,
         made_at=heading.made_at,
-        made_by=heading.made_by,
+        made_by=heading.maker,
+        imported=imported_message(heading.imported, said_maker=heading.made_by),
         stands_on=list(heading.stands_on),
         files=list(heading.files),
         withdrawn=_withdrawal_message(heading.withdrawn),

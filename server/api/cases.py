@@ -23,6 +23,7 @@ from server.api.case_messages import (
 )
 from server.api.errors import refusals
 from server.api.uploads import received
+from server.security import acting
 from server.store import CaseStore, StoreConflict
 
 LARGEST_ARCHIVE_BYTES = 16 * 2**30
@@ -121,9 +122,14 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
         openapi_extra={"requestBody": {"required": True, "content": {ZIP: {}}}},
     )
     async def copy_in(request: Request) -> CaseMessage:
-        """Take a case in from its archive, which is the body of the request: whole, or nothing of it."""
+        """Take a case in from its archive, which is the body of the request: whole, or nothing of it.
+
+        Its documents say from then on who took them in, and when; whom they name as their maker, only the
+        archive says. Signatures in it do not count here.
+        """
+        by = acting(request.scope, None)
         async with received(request, store.home, most_bytes=LARGEST_ARCHIVE_BYTES) as path:
-            return case_message(await to_thread.run_sync(store.copy_in, path))
+            return case_message(await to_thread.run_sync(lambda: store.copy_in(path, by=by)))
 
 
 def _add_documents(router: APIRouter, store: CaseStore) -> None:

@@ -19,6 +19,8 @@ FRAMEWORKS_SHAPE = "HTTPValidationError"
 FRAMEWORKS_SCHEMAS = (FRAMEWORKS_SHAPE, "ValidationError")
 OUR_SHAPE = {"application/json": {"schema": {"$ref": "#/components/schemas/TroubleMessage"}}}
 OUR_422 = {"description": REFUSED_WORDS[422], "content": OUR_SHAPE}
+# Whatever has a body can be too slow with it.
+OUR_408 = {"description": REFUSED_WORDS[408], "content": OUR_SHAPE}
 # Whatever changes something is written into the audit log before it is answered.
 OUR_507 = {"description": REFUSED_WORDS[507], "content": OUR_SHAPE}
 
@@ -47,6 +49,8 @@ class DocumentedApi(FastAPI):
                 answers = operation["responses"]
                 if method != "get":
                     answers.setdefault("507", OUR_507)
+                if "requestBody" in operation:
+                    answers.setdefault("408", OUR_408)
                 if FRAMEWORKS_SHAPE in str(answers.get("422")):
                     answers["422"] = OUR_422
             for name in FRAMEWORKS_SCHEMAS:

@@ -42,6 +42,8 @@ STATUS_OF_CODE = {"STORE_FULL": 507, "UPLOAD_TOO_LARGE": 413, "BODY_TOO_LARGE": 
 
 # Of what did not come in time nothing more is waited for, and the line is cut.
 TIMEOUT = 408
+# Whose refusals say how long to wait.
+AGAIN_LATER = 429
 
 REFUSED_WORDS = {
     401: "Nobody is signed in, or no longer.",
@@ -52,7 +54,8 @@ REFUSED_WORDS = {
     413: "It is larger than is taken.",
     421: "This server does not answer to the name in `Host`.",
     422: "What was asked cannot be used.",
-    429: "Too many wrong links or sessions came from there; `Retry-After` says how long to wait.",
+    429: "Too many wrong links or sessions came from there, or one link signed in too often; `Retry-After` "
+    "says how long to wait.",
     500: "The server made a mistake.",
     503: "Not now.",
     507: "The disk is full, or what was done could not be written into the audit log.",
@@ -110,7 +113,11 @@ async def _navigation(_request: Request, error: Exception) -> JSONResponse:
         raise error
     told = TroubleMessage(code=error.code, message=error.message, remedy=error.remedy, context=error.context)
     status = status_of(error)
-    return _answer(status, told, {"Connection": "close"} if status == TIMEOUT else None)
+    headers = {
+        TIMEOUT: {"Connection": "close"},
+        AGAIN_LATER: {"Retry-After": str(error.context.get("wait_s"))},
+    }
+    return _answer(status, told, headers.get(status))
 
 
 async def _http(request: Request, error: Exception) -> JSONResponse:

@@ -5,6 +5,7 @@ from typing import Annotated
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
+from server.api.case_messages import ImportedMessage, imported_message
 from server.api.doing import MadeByQuery
 from server.api.errors import refusals
 from server.api.uploads import received
@@ -32,6 +33,7 @@ class KnownMarkerMessage(Message):
     """What keeps it in the open case; null for one that the settings bring, which stays."""
     made_at: str | None
     made_by: str | None
+    imported: ImportedMessage | None
 
 
 class KnownMarkersMessage(Message):
@@ -99,5 +101,8 @@ def _message(known: KnownMarker) -> KnownMarkerMessage:
         height_px=height,
         document_id=None if document is None else document.id,
         made_at=None if document is None else document.made_at,
-        made_by=None if document is None else document.made_by,
+        made_by=None if document is None else document.maker,
+        imported=None
+        if document is None
+        else imported_message(document.imported, said_maker=document.made_by),
     )

@@ -138,6 +138,6 @@ def confirmation_message(needed: ConfirmationNeeded) -> ConfirmationMessage:
         registration_id=needed.registration.id,
         vertebra=needed.vertebra,
         registered_at=needed.registration.made_at,
-        registered_by=needed.registration.made_by,
+        registered_by=needed.registration.maker,
         reference=needed.reference or None,
     )

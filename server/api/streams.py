@@ -24,7 +24,8 @@ the line stands, and `shown_scale_ratio` in the header says in which one the pic
 
 Both are open to pages of this server and to programs that send no Origin. A client that sends anything else
 is closed with code 1008 or 1009 and the reason in words; one that is too many (`video.most_viewers`, eight of
-one person, and an eighth of all is kept for operators and screens), with 1013.
+one person, and an eighth of all is kept for operators and screens), with 1013. The 3-D scene at `/scene/` has
+as many places of its own, given in the same way.
 """
 
 

@@ -4,9 +4,11 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from server.api.case_messages import ImportedMessage, imported_message
 from server.procedure.state.cosigned import Signed
 from server.security import Role
 from server.stream.message import Message
+from server.supervision.asked import Asked
 from server.supervision.marks import Drawing, Pointer, Shape
 from server.supervision.people import LineState, Present, Seat, View
 from server.supervision.signatures import Requirement, Signable
@@ -78,6 +80,10 @@ class SignatureMessage(Message):
     is_yours: bool
     second_person: bool
     """Whether it is known that somebody else made what was signed; false where nobody signs in."""
+    invited_by: str
+    """Who had invited the signer; empty where that is not known."""
+    invited_by_maker: bool
+    """Who made what was signed had invited the signer, and may have invited themselves."""
 
 
 class SignableMessage(Message):
@@ -89,7 +95,10 @@ class SignableMessage(Message):
     """Of the newest version; null where there is none."""
     title: str
     made_by: str
+    """Who made it; of what came in with an archive, in words that say so."""
     made_at: str
+    imported: ImportedMessage | None
+    """That it came in with an archive; null where it was made here."""
     sha256: str
     """Of the content that a signature is bound to."""
     out_of_date: str
@@ -111,6 +120,8 @@ class HoldMessage(Message):
     """Who asks to hold."""
 
     asked_by: list[str]
+    since: str | None
+    """When the first of them asked, UTC, ISO 8601; null where nobody does, or it is not known."""
     is_yours: bool
     """You are one of them."""
 
@@ -206,7 +217,7 @@ def room_message(news: News, *, seat: Seat) -> RoomMessage:
         pointers=[_pointer(one, picture.now_s) for one in picture.pointers],
         drawings=[one.key for one in picture.drawings],
         grown=[_drawing(one, you.id, left_s=_left_s(one.drawing, news)) for one in news.grown],
-        hold=HoldMessage(asked_by=list(picture.holding), is_yours=you.id in picture.holding_ids),
+        hold=_hold(picture.holding, you.id),
         signable=None if news.signable is None else [signable_message(one, you.id) for one in news.signable],
     )
 
@@ -220,6 +231,7 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
         title=signable.title,
         made_by=signable.made_by,
         made_at=signable.made_at,
+        imported=imported_message(signable.imported, said_maker=signable.said_maker),
         sha256=signable.sha256,
         out_of_date=signable.out_of_date,
         signatures=[
@@ -229,11 +241,21 @@ def signable_message(signable: Signable, your_id: str) -> SignableMessage:
                 at=one.at,
                 is_yours=one.signer_id == your_id,
                 second_person=one.second_person,
+                invited_by=one.invited_by,
+                invited_by_maker=one.invited_by_maker,
             )
             for one in signable.signatures
         ],
         is_cosigned=signable.is_cosigned,
         was_signed=signable.was_signed,
+    )
+
+
+def _hold(asking: tuple[Asked, ...], your_id: str) -> HoldMessage:
+    return HoldMessage(
+        asked_by=[one.name for one in asking],
+        since=asking[0].at or None if asking else None,
+        is_yours=any(one.person_id == your_id for one in asking),
     )
 
 

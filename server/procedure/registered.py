@@ -8,7 +8,7 @@ from pydantic import Field, ValidationError
 
 from server.config import Point, Section
 from server.procedure.read import read_document
-from server.store import Document
+from server.store import Document, says_archive
 from tracker.errors import InvalidInput, NavigationError, RegistrationError
 from tracker.geometry import Rigid
 from tracker.registration import AnchoredTo, Method, Registration
@@ -148,6 +148,14 @@ def check_name(vertebra: str) -> str:
     return f"registration of {vertebra}"
 
 
+def _doubted(kept: KeptRegistration, document: Document) -> KeptRegistration:
+    """Of what came in with an archive, it is the archive that says who nudged; also of later versions."""
+    if document.imported is None or kept.nudged is None:
+        return kept
+    nudges = [one.model_copy(update={"made_by": says_archive(one.made_by)}) for one in kept.nudged.nudges]
+    return kept.model_copy(update={"nudged": kept.nudged.model_copy(update={"nudges": nudges})})
+
+
 def kept_registration(document: Document, *, reference: str) -> KeptRegistration:
     """The registration in a document of a case, with numbers that can be used.
 
@@ -173,6 +181,7 @@ def kept_registration(document: Document, *, reference: str) -> KeptRegistration
             "Register again.",
             {"document_id": document.id},
         ) from None
+    kept = _doubted(kept, document)
     if kept.anchored_to is AnchoredTo.REFERENCE and kept.reference != reference:
         now = f"names '{reference}'" if reference else "names none"
         raise RegistrationError(

@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import time
 from collections.abc import Callable, MutableMapping
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any, Protocol, TypeAlias
 
 import structlog
@@ -17,11 +18,12 @@ from server.scene.door import SUBPROTOCOL, Door
 from server.scene.gate import Gate, Verdict
 from server.scene.page import make_page
 from server.scene.stage import Stage
+from server.security import Person, person_of
 from server.security.hosts import is_same_origin
+from tracker.errors import NavigationError
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
-MOST_VIEWERS = 32
 # A viewer that takes nothing for 2 s is dropped, beside the time that a thin line needs for the last message.
 SEND_TIMEOUT_S = 2.0
 THINNEST_LINE_BYTES_PER_S = 50_000
@@ -37,6 +39,13 @@ _log = structlog.get_logger(__name__)
 
 
 Cut: TypeAlias = Callable[[MutableMapping[str, Any]], None]
+# A place for as long as somebody watches, or a NavigationError where there is none for them.
+Admit: TypeAlias = Callable[[Person], AbstractContextManager[object]]
+
+
+def anybody(_person: Person) -> AbstractContextManager[object]:
+    """A place for each who comes, where nobody counts them."""
+    return nullcontext()
 
 
 class Application(Protocol):
@@ -63,11 +72,11 @@ class Scene:
         setup: Setup | None = None,
         surface: Surface | None = None,
         stale_after_ms: float = 500.0,
-        most_viewers: int = MOST_VIEWERS,
+        admit: Admit = anybody,
         cut: Cut | None = None,
     ) -> None:
         self._hub = hub
-        self._most_viewers = most_viewers
+        self._admit = admit
         self._cut = cut
         self._setup = setup
         self._surface = surface
@@ -143,8 +152,17 @@ class Scene:
         door, refusal = self._door, self._refusal(websocket)
         if door is None or refusal is not None:
             _log.info("scene_viewer_refused", reason=refusal or "not running")
-            await websocket.close(CROWDED if refusal == "crowded" else REFUSED)
+            await websocket.close(REFUSED)
             return
+        try:
+            with self._admit(person_of(websocket.scope)):
+                await self._show(door, websocket)
+        except NavigationError as full:
+            _log.info("scene_viewer_refused", reason=full.message)
+            await websocket.close(CROWDED)
+
+    async def _show(self, door: Door, websocket: WebSocket) -> None:
+        """One who was let in."""
         self.viewers += 1
         try:
             await websocket.accept(subprotocol=SUBPROTOCOL)
@@ -179,7 +197,7 @@ class Scene:
             return "from another page"
         if SUBPROTOCOL not in websocket.scope.get("subprotocols", []):
             return f"does not speak {SUBPROTOCOL}"
-        return "crowded" if self.viewers >= self._most_viewers else None
+        return None
 
     async def _speak(self, door: Door, websocket: WebSocket) -> int | None:
         """Send the scene; the close code, or None when there is nobody left to close."""
@@ -230,21 +248,21 @@ def mount_scene(
     setup: Setup | None,
     surface: Surface | None,
     stale_after_ms: float = 500.0,
-    most_viewers: int = MOST_VIEWERS,
+    admit: Admit = anybody,
     cut: Cut | None = None,
 ) -> None:
     """Add `GET /scene/` and `WS /scene`, and put the scene at `app.state.scene`.
 
     The application's lifespan calls `app.state.scene.start()` and `.stop()`. The routes go first, so that a
-    catch-all for the page's own addresses does not hide them. `cut` ends the connection of a viewer that is
-    stalled.
+    catch-all for the page's own addresses does not hide them. `admit` gives places; `cut` ends the connection
+    of a viewer that is stalled.
     """
     scene = Scene(
         hub=hub,
         setup=setup,
         surface=surface,
         stale_after_ms=stale_after_ms,
-        most_viewers=most_viewers,
+        admit=admit,
         cut=cut,
     )
     app.state.scene = scene

@@ -25,11 +25,13 @@ class Person:
         id: of the session's owner, the same over all their sessions.
         name: as they are called in the log.
         role: what they may do.
+        invited_by: who invited them, by name; empty where that is not known, and where nobody did.
     """
 
     id: str
     name: str
     role: Role
+    invited_by: str = ""
 
 
 # Where nobody has to sign in (a server on this computer alone, by its settings).

@@ -8,7 +8,7 @@ NavigationError
 ├── MethodUnknown       it cannot be done at this address               HTTP 405
 ├── InvitationRefused   an invitation that lets nobody in               HTTP 403
 ├── PeopleRefused       there are too many of them                      HTTP 409
-├── TooManyTries        somebody guesses                                HTTP 429
+├── TooManyTries        somebody guesses, or signs in again and again   HTTP 429
 ├── PersonUnknown       there is no such session or invitation          HTTP 404
 └── SignInOff           nobody has to sign in, so nobody can be invited HTTP 409
 """
@@ -153,6 +153,18 @@ class TooManyTries(NavigationError):
             f"too many links or sessions were tried that do not exist; the next try counts in {whole} s",
             f"Wait {whole} s, then open the link once more.",
             {"wait_s": whole},
+        )
+
+    @classmethod
+    def signing_in(cls, count: int, within_s: float, seconds: float) -> "TooManyTries":
+        """A right link, used again and again; who is in by it stays in."""
+        whole = max(1, math.ceil(seconds))
+        minutes, left = round(within_s / 60), math.ceil(whole / 60)
+        return cls(
+            "TOO_MANY_SIGN_INS",
+            f"this link has signed in {count} times within {minutes} min, and signs in again in {left} min",
+            "Stay signed in where you are, or ask the operator for a link of your own.",
+            {"wait_s": whole, "sign_ins": count, "within_s": within_s},
         )
 
 

@@ -23,10 +23,12 @@ from server.store.records import (
     DocumentKind,
     Entry,
     Heading,
+    Imported,
     OutOfDate,
     Standing,
     StoredFile,
     Withdrawal,
+    says_archive,
 )
 
 __all__ = [
@@ -41,6 +43,7 @@ __all__ = [
     "Entry",
     "Heading",
     "Home",
+    "Imported",
     "NewFile",
     "NotStored",
     "OutOfDate",
@@ -51,5 +54,6 @@ __all__ = [
     "StoredFile",
     "Withdrawal",
     "home_folder",
+    "says_archive",
     "told",
 ]

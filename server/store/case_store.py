@@ -289,14 +289,15 @@ class CaseStore:
         """
         return pack(self._ledger, case_id, with_identity=with_identity)
 
-    def copy_in(self, archive: Path) -> Case:
-        """Take an archive in as a new case, whole or not at all.
+    def copy_in(self, archive: Path, *, by: str) -> Case:
+        """Take an archive in as a new case, whole or not at all; `by` is who does, and stands for it.
 
         Raises:
-            InvalidInput: ARCHIVE_INVALID, ARCHIVE_NEWER.
+            InvalidInput: NAME_INVALID, ARCHIVE_INVALID, ARCHIVE_NEWER.
         """
-        case = unpack(self._ledger, archive)
-        self._told(Change(case_id=case.id, kind="case", before=None, after="copied in"))
+        by = checked_name(by, of="name of who takes it in")
+        case = unpack(self._ledger, archive, by=by)
+        self._told(Change(case_id=case.id, kind="case", before=None, after="copied in", by=by))
         return case
 
     # ------------------------------------------------------------ end

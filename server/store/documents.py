@@ -11,7 +11,7 @@ from sqlalchemy.orm import Session
 from server.store.cases import new_id
 from server.store.checks import checked_name, text_of
 from server.store.errors import NotStored, StoreConflict
-from server.store.records import Document, DocumentKind, Withdrawal
+from server.store.records import Document, DocumentKind, Imported, Withdrawal
 from server.store.tables import WHOLE, BasisRow, DocumentFileRow, DocumentRow, FileRow
 from tracker.errors import InvalidInput
 
@@ -163,7 +163,13 @@ def document_of(row: DocumentRow, stands_on: Iterable[str], files: Iterable[str]
         stands_on=tuple(stands_on),
         files=tuple(files),
         withdrawn=withdrawal_of(row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason),
+        imported=imported_of(row.imported_at, row.imported_by),
     )
+
+
+def imported_of(at: str | None, by: str | None) -> Imported | None:
+    """The record of a taking in, if it was not made here."""
+    return None if at is None else Imported(by=by or "", at=at)
 
 
 def withdrawal_of(at: str | None, by: str | None, reason: str | None) -> Withdrawal | None:

@@ -6,6 +6,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TypeAlias
 
+SAYS_ARCHIVE = ", says the archive"
+
 
 class DocumentKind(StrEnum):
     """What a document is about. PATIENT alone may say who the patient is; it never leaves with a case."""
@@ -60,6 +62,24 @@ class Withdrawal:
     reason: str
 
 
+def says_archive(name: str) -> str:
+    """The name of somebody for whom an archive alone vouches; nobody signed in here under it."""
+    return name if name.endswith(SAYS_ARCHIVE) else f"{name}{SAYS_ARCHIVE}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Imported:
+    """That a document came in with an archive, in which anybody may have written anything.
+
+    Attributes:
+        by: who took it in.
+        at: when, UTC, ISO 8601 with milliseconds.
+    """
+
+    by: str
+    at: str
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Heading:
     """What is known of a document without reading it.
@@ -71,10 +91,11 @@ class Heading:
         name: tells it from others of its kind, as "main" or "L3 left".
         version: 1, 2, 3 ... for its kind and name.
         made_at: UTC, ISO 8601 with milliseconds.
-        made_by: who made it.
+        made_by: who made it; where it was imported, only the archive says so: show `maker`.
         stands_on: ids of the documents that it was made from.
         files: ids of the files that belong to it.
         withdrawn: that it no longer holds; None while nobody said so.
+        imported: that it came in with an archive; None where it was made here.
     """
 
     case_id: str
@@ -87,6 +108,17 @@ class Heading:
     stands_on: tuple[str, ...] = ()
     files: tuple[str, ...] = ()
     withdrawn: Withdrawal | None = None
+    imported: Imported | None = None
+
+    @property
+    def maker(self) -> str:
+        """Who made it, in words that people may be shown."""
+        return self.made_by if self.imported is None else says_archive(self.made_by)
+
+    @property
+    def makers(self) -> tuple[str, ...]:
+        """All who may have made it: who took it in may have written it, too."""
+        return (self.made_by,) if self.imported is None else (self.made_by, self.imported.by)
 
     @property
     def title(self) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from server.store.documents import IN_ORDER, links_of, withdrawal_of
+from server.store.documents import IN_ORDER, imported_of, links_of, withdrawal_of
 from server.store.records import Current, DocumentKind, Heading, OutOfDate, Standing
 from server.store.tables import BasisRow, DocumentRow
 
@@ -67,6 +67,8 @@ def lineage_of(session: Session, case_id: str, document_id: str | None = None) -
         DocumentRow.withdrawn_at,
         DocumentRow.withdrawn_by,
         DocumentRow.withdrawn_reason,
+        DocumentRow.imported_at,
+        DocumentRow.imported_by,
     )
     chosen = select(*columns).where(DocumentRow.case_id == case_id).order_by(IN_ORDER)
     ids = None if document_id is None else _ancestors(session, case_id, document_id)
@@ -85,6 +87,7 @@ def lineage_of(session: Session, case_id: str, document_id: str | None = None) -
             stands_on=tuple(bases[row.id]),
             files=tuple(files[row.id]),
             withdrawn=withdrawal_of(row.withdrawn_at, row.withdrawn_by, row.withdrawn_reason),
+            imported=imported_of(row.imported_at, row.imported_by),
         )
         for row in session.execute(chosen)
     ]

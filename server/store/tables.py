@@ -59,6 +59,8 @@ class DocumentRow(Table):
     withdrawn_at: Mapped[str | None]
     withdrawn_by: Mapped[str | None]
     withdrawn_reason: Mapped[str | None]
+    imported_by: Mapped[str | None]
+    imported_at: Mapped[str | None]
 
 
 class FileRow(Table):

@@ -17,6 +17,8 @@ from starlette.types import ASGIApp
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
+from server.security.tls.handshake import ImpatientLoop
+
 STATE_KEY = "coaxial_line"
 # What may lie unsent in the kernel: with more, a slow viewer sees images that are seconds old.
 UNSENT_BYTES = 16_384
@@ -208,6 +210,7 @@ def uvicorn_config(app: ASGIApp, *, host: str, port: int) -> uvicorn.Config:
         app,
         host=host,
         port=port,
+        loop=f"{ImpatientLoop.__module__}:{ImpatientLoop.__name__}",
         http=ViewerProtocol,
         ws=ViewerSocket,
         ws_max_size=LARGEST_UPWARD_BYTES,

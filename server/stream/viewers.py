@@ -29,6 +29,11 @@ class ViewerKind(StrEnum):
     LIVE = "live"
     VIEW = "view"
     ROOM = "room"
+    SCENE = "scene"
+
+
+# Each of these ways has places of its own: it takes no picture from anybody. All others share theirs.
+APART = frozenset({ViewerKind.ROOM, ViewerKind.SCENE})
 
 
 @dataclass(slots=True, eq=False)
@@ -92,9 +97,8 @@ class Viewers:
             self._dropped_by_gone[kind] += viewer.dropped
 
     def _refuse(self, kind: ViewerKind, person: Person) -> None:
-        """Seats in the room are counted apart: who only sits there takes no picture from anybody."""
-        is_seat = kind is ViewerKind.ROOM
-        same = [one for one in self._watching if (one.kind is ViewerKind.ROOM) is is_seat]
+        ways = {kind} if kind in APART else set(ViewerKind) - APART
+        same = [one for one in self._watching if one.kind in ways]
         own = sum(one.person.id == person.id for one in same)
         most = self._most - (0 if person.role in KEPT_FOR else self._most // PLACES_A_KEPT_ONE)
         error = None

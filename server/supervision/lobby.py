@@ -121,7 +121,6 @@ class Lobby:
             people=self.room.present(now_s),
             pointers=self.room.marks.pointers(now_s),
             drawings=self.room.marks.drawings(now_s),
-            holding=tuple(name for _, name in asking),
-            holding_ids=tuple(person_id for person_id, _ in asking),
+            holding=asking,
             signable=None if self._signatures is None else self._signatures.known,
         )

@@ -14,12 +14,13 @@ from server.procedure.state.cosigned import (
     Signed,
     content_sha256,
     is_cosigned,
-    is_same_name,
     kept_signature,
+    may_have_made,
     signatures_of,
 )
 from server.security import ANYBODY, Person, Role
-from server.store import CaseStore, Current, Document, DocumentKind, Standing
+from server.security.audit import note
+from server.store import CaseStore, Current, Document, DocumentKind, Imported, Standing
 from tracker.errors import NavigationError
 
 Requirement: TypeAlias = Literal["required", "offered"]
@@ -35,6 +36,8 @@ class Signature:
         signer_id: the same person; never told to others.
         at: UTC, ISO 8601.
         second_person: whether it is known that somebody else made what was signed.
+        invited_by: who had invited the signer; empty where that is not known.
+        invited_by_maker: that was who made what was signed, and may have invited themselves.
     """
 
     id: str
@@ -42,6 +45,8 @@ class Signature:
     signer_id: str
     at: str
     second_person: bool
+    invited_by: str = ""
+    invited_by_maker: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,8 +58,10 @@ class Signable:
         requirement: whether nobody navigates without.
         document_id: of the newest version; empty where there is none.
         title: in words.
-        made_by: who made that version.
+        made_by: who made that version; of what came in with an archive, in words that say so.
         made_at: UTC, ISO 8601.
+        said_maker: the bare name, as an archive has it.
+        imported: that it came in with an archive; None where it was made here.
         sha256: of its content; empty where there is none.
         out_of_date: why it does not hold; empty where it does.
         signatures: of exactly this version.
@@ -68,6 +75,8 @@ class Signable:
     title: str = ""
     made_by: str = ""
     made_at: str = ""
+    said_maker: str = ""
+    imported: Imported | None = None
     sha256: str = ""
     out_of_date: str = ""
     signatures: tuple[Signature, ...] = ()
@@ -137,6 +146,7 @@ class SignatureDesk:
             signer_id=person.id,
             signer_role=person.role.value,
             second_person=person.id != ANYBODY.id,
+            signer_invited_by=person.invited_by,
         )
         name = f"{what.value} {document.name[:60]} by {person.id[:60]}"
         content = kept.model_dump(mode="json")
@@ -148,6 +158,16 @@ class SignatureDesk:
             content,
             made_by=person.name,
             stands_on=[document.id],
+        )
+        note(
+            {
+                "what": "signature",
+                "of": document.title,
+                "invited_by": person.invited_by,
+                "invited_by_maker": may_have_made(person.invited_by, document),
+                "from": None,
+                "to": "signed",
+            }
         )
         return self.overview()
 
@@ -178,12 +198,13 @@ class SignatureDesk:
                 "Look at the newest version, then sign that one.",
                 {"newest_id": document.id, "asked_id": document_id},
             )
-        if person.id != ANYBODY.id and is_same_name(person.name, document.made_by):
+        if person.id != ANYBODY.id and may_have_made(person.name, document):
+            taken_in = "" if document.imported is None else f", and taken in by {document.imported.by}"
             raise SetupOrderError(
                 "SIGNED_BY_MAKER",
-                f"{document.title} was made by {document.made_by}, and who made it cannot co-sign it",
+                f"{document.title} was made by {document.maker}{taken_in}, and who made it cannot co-sign it",
                 "Have somebody else look at it and sign.",
-                {"made_by": document.made_by},
+                {"made_by": list(document.makers)},
             )
 
     def _newest(self, what: Signed, case_id: str) -> Document | None:
@@ -204,7 +225,9 @@ class SignatureDesk:
                 by=one.made_by,
                 signer_id=kept.signer_id,
                 at=one.made_at,
-                second_person=kept.second_person and not is_same_name(one.made_by, document.made_by),
+                second_person=kept.second_person and not may_have_made(one.made_by, document),
+                invited_by=kept.signer_invited_by,
+                invited_by_maker=may_have_made(kept.signer_invited_by, document),
             )
             for one, kept in signatures_of(self._store, document)
         )
@@ -213,8 +236,10 @@ class SignatureDesk:
             requirement=requirement,
             document_id=document.id,
             title=document.title,
-            made_by=document.made_by,
+            made_by=document.maker,
             made_at=document.made_at,
+            said_maker=document.made_by,
+            imported=document.imported,
             sha256=content_sha256(document),
             out_of_date=_why(self._store.standing(document)),
             signatures=signatures,

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from server.supervision.asked import Asked
 from server.supervision.marks import Drawing, Pixel, Pointer
 from server.supervision.people import Present
 from server.supervision.signatures import Signable
@@ -18,8 +19,7 @@ class RoomPicture:
         people: who is here.
         pointers: that moved lately.
         drawings: whose moment is not over.
-        holding: names of those who ask to hold.
-        holding_ids: the same people.
+        holding: those who ask to hold.
         signable: plan and registration with their signatures; None where nothing is kept.
     """
 
@@ -28,8 +28,7 @@ class RoomPicture:
     people: tuple[Present, ...]
     pointers: tuple[Pointer, ...]
     drawings: tuple[Drawing, ...]
-    holding: tuple[str, ...] = ()
-    holding_ids: tuple[str, ...] = ()
+    holding: tuple[Asked, ...] = ()
     signable: tuple[Signable, ...] | None = None
 
 

@@ -27,6 +27,16 @@ DIGEST = """canvas => {
 BLACK = """canvas => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data
     .every((value, index) => index % 4 === 3 || value === 0)"""
 
+# Whether an opaque cover fills the pane, and is what a finger in its middle would touch.
+COVERED = """pane => {
+    const cover = pane.querySelector(".cover");
+    const [around, within] = [pane.getBoundingClientRect(), cover.getBoundingClientRect()];
+    const middle = document.elementFromPoint(around.x + around.width / 2, around.y + around.height / 2);
+    const fills = within.width >= around.width - 4 && within.height >= around.height - 4;
+    const { backgroundColor, opacity } = getComputedStyle(cover);
+    return fills && cover.contains(middle) && /^rgb\\(/.test(backgroundColor) && opacity === "1";
+}"""
+
 
 def is_live(page: Page, pane: str, *, live: bool = True) -> None:
     expect(page.get_by_test_id(pane)).to_have_attribute("data-live", "true" if live else "false")
@@ -210,10 +220,27 @@ def test_failure_looks_like_failure(theatre: Theatre, watch: Watch) -> None:
     theatre.tell("lost")
     is_live(page, "video", live=False)
     is_live(page, "scene", live=False)
+    for pane, words in (("video", "NO VIDEO"), ("scene", "SCENE STALE")):
+        cover = page.get_by_test_id(f"{pane}-cover")
+        expect(cover).to_contain_text(words)
+        expect(cover).to_be_visible()
+        assert page.get_by_test_id(pane).evaluate(COVERED), f"something shines through the words over {pane}"
+    assert page.locator("canvas.sharp").evaluate(BLACK), "an old picture is still on the canvas"
+    expect(page.get_by_test_id("no-tracking")).to_be_visible()
+    for name in ("entry", "angle", "depth", "toGo"):
+        expect(page.get_by_test_id(f"reading-{name}")).to_have_text("—")
+    expect(page.get_by_test_id("verdict")).to_have_count(0)
     picture(page, "camera-lost-1920x1080")
     theatre.tell("unseen")
+    # The picture is true again, so nothing covers it; numbers there are none, and it says why.
     is_live(page, "video")
     is_live(page, "scene")
+    for pane in ("video", "scene"):
+        expect(page.get_by_test_id(f"{pane}-cover")).to_be_hidden()
+    assert not page.locator("canvas.sharp").evaluate(BLACK), "the picture did not come back"
+    expect(page.get_by_test_id("numbers")).to_contain_text("too few of its edges are there")
+    for name in ("entry", "angle", "depth", "toGo"):
+        expect(page.get_by_test_id(f"reading-{name}")).to_have_text("—")
     picture(page, "marker-unseen-1920x1080")
 
 

@@ -7,6 +7,7 @@ and then: its longest pause is measured beside, and allowed for. What was measur
 import itertools
 import json
 import os
+import re
 import sys
 import urllib.request
 from collections.abc import Callable, Iterator
@@ -22,8 +23,10 @@ pytestmark = pytest.mark.browser
 
 Watch = Callable[..., Watched]
 PANES = ("video", "numbers", "scene")
+FIGURES = ("entry", "angle", "depth", "toGo")
 # Times hold where nothing else runs: COAXIAL_TIMES=1 asks for them, too.
 ON_A_QUIET_MACHINE = "COAXIAL_TIMES"
+LEAST_TRIES = 2
 GONE_FOR_MS, SAID_WITHIN_MS, RIGHT_WITHIN_MS = 5000, 1000, 2000
 
 expect.set_options(timeout=PATIENCE_MS)
@@ -66,6 +69,8 @@ class Absence:
         said_ms: from the last word of the server to each pane's saying so.
         right_ms: from the first word after it to each pane's being live again.
         since_return_ms: the same from the moment when the server was let go on.
+        gone_for_ms: from the last word before to the first one after it.
+        tries: how often the page tried to reach it.
         try_ms: the longest time between two attempts to reach it.
         pause_ms: the longest pause of the page itself.
     """
@@ -73,6 +78,8 @@ class Absence:
     said_ms: dict[str, float]
     right_ms: dict[str, float]
     since_return_ms: dict[str, float]
+    gone_for_ms: float
+    tries: int
     try_ms: float
     pause_ms: float
 
@@ -80,6 +87,26 @@ class Absence:
 def all_live(page: Page, *, live: bool) -> None:
     for pane in PANES:
         expect(page.get_by_test_id(pane)).to_have_attribute("data-live", "true" if live else "false")
+
+
+def says_gone(page: Page) -> None:
+    """Every pane says so in words that are seen, and no figure of before is left."""
+    expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+    for pane, words in (("video-cover", "NO VIDEO"), ("scene-cover", "SCENE STALE")):
+        expect(page.get_by_test_id(pane)).to_be_visible()
+        expect(page.get_by_test_id(pane)).to_contain_text(words)
+    expect(page.get_by_test_id("no-tracking")).to_be_visible()
+    for name in FIGURES:
+        expect(page.get_by_test_id(f"reading-{name}")).to_have_text("—")
+
+
+def is_right_again(page: Page) -> None:
+    """Nothing is covered, and every figure stands there."""
+    expect(page.get_by_test_id("link-state")).to_contain_text("connected")
+    for pane in ("video-cover", "scene-cover", "no-tracking"):
+        expect(page.get_by_test_id(pane)).to_be_hidden()
+    for name in FIGURES:
+        expect(page.get_by_test_id(f"reading-{name}")).to_have_text(re.compile(r"^−?\d+\.\d$"))
 
 
 def first_changes(page: Page, *, live: bool) -> dict[str, float]:
@@ -117,7 +144,7 @@ def absence(page: Page, *, go: Callable[[], None], come: Callable[[], None]) -> 
     page.evaluate("Object.assign(kept, { panes: [], tries: [], longestPause: 0 })")
     go()
     all_live(page, live=False)
-    expect(page.get_by_test_id("link-state")).to_contain_text("gone")
+    says_gone(page)
     last_heard = page.evaluate("kept.heardAt")
     said = first_changes(page, live=False)
     page.wait_for_function("forMs => performance.now() - kept.heardAt > forMs", arg=GONE_FOR_MS)
@@ -125,6 +152,7 @@ def absence(page: Page, *, go: Callable[[], None], come: Callable[[], None]) -> 
     come()
     returned = page.evaluate("performance.now()")
     all_live(page, live=True)
+    is_right_again(page)
     right = first_changes(page, live=True)
     kept = page.evaluate("kept")
     tries = [last_heard, *kept["tries"]]
@@ -132,6 +160,8 @@ def absence(page: Page, *, go: Callable[[], None], come: Callable[[], None]) -> 
         said_ms={pane: at - last_heard for pane, at in said.items()},
         right_ms={pane: at - kept["firstHeardAt"] for pane, at in right.items()},
         since_return_ms={pane: at - returned for pane, at in right.items()},
+        gone_for_ms=kept["firstHeardAt"] - last_heard,
+        tries=len(kept["tries"]),
         try_ms=max(later - earlier for earlier, later in itertools.pairwise(tries)),
         pause_ms=kept["longestPause"],
     )
@@ -144,6 +174,12 @@ def judge(what: str, seen: Absence) -> None:
         f"\n{what}: said gone after {rounded[0]} ms, right {rounded[1]} ms after its first word, {since} ms "
         f"after its return; tried every {seen.try_ms:.0f} ms at most; page paused {seen.pause_ms:.0f} ms\n"
     )
+    assert seen.gone_for_ms > GONE_FOR_MS
+    # It went on trying by itself, said so before the server was back, and was right only by its word.
+    assert seen.tries >= LEAST_TRIES
+    for pane in PANES:
+        assert seen.said_ms[pane] < seen.gone_for_ms
+        assert seen.right_ms[pane] >= 0.0
     if not os.environ.get(ON_A_QUIET_MACHINE):
         # That every pane said so, and came back without being loaded anew, was waited for above.
         return

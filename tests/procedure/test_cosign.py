@@ -11,6 +11,7 @@ from fastapi import FastAPI
 from server.app import AppParts, create_app
 from server.errors import SetupOrderError
 from server.procedure.state import Finding, Lack, StepName, StepState, judged
+from server.security.audit import noting
 from server.store import DocumentKind
 from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import Patient, plan_content, ready, with_plan, withheld
@@ -181,23 +182,83 @@ def test_a_signature_that_came_in_with_an_archive_does_not_count(guarded: Callab
     assert signable(server, "plan")["is_cosigned"]
 
 
+def test_who_took_an_archive_in_cannot_co_sign_what_they_may_have_written_into_it(
+    guarded: Callable[..., Server],
+) -> None:
+    server = guarded()
+    case_id = planned(server)
+    change_plan(server, case_id, made_by="Dr Kim")
+    archive = server.door.get(f"/api/cases/{case_id}/archive").content
+    by_ito = {"x-person": "o1"}
+    taken = server.ask("POST", "/api/cases/archive", 201, content=archive, headers=by_ito)["id"]
+    server.ask("POST", f"/api/cases/{taken}/open", 200)
+    plan = signable(server, "plan")
+    assert plan["made_by"] == "Dr Kim, says the archive"
+    assert (plan["imported"]["said_maker"], plan["imported"]["by"]) == ("Dr Kim", "ito")
+    documents = server.ask("GET", f"/api/cases/{taken}/documents", 200)["documents"]
+    assert {one["imported"]["by"] for one in documents} == {"ito"}
+    assert all(one["made_by"].endswith(", says the archive") for one in documents)
+    for person in ("o1", "s2"):
+        refused = sign(server, "plan", person, 409)
+        assert refused["code"] == "SIGNED_BY_MAKER"
+        assert "made by Dr Kim, says the archive, and taken in by ito" in refused["message"]
+    sign(server, "plan", "s1")
+    assert signable(server, "plan")["is_cosigned"]
+
+
+def test_a_signature_says_who_invited_the_signer_and_whether_that_was_the_maker(
+    guarded: Callable[..., Server],
+) -> None:
+    server = guarded()
+    case_id = planned(server)
+    change_plan(server, case_id, made_by=" ITO ")
+    sign(server, "plan", "s1")
+    with noting() as noted:
+        told = sign(server, "plan", "s3")["signable"][0]["signatures"]
+    assert [(one["by"], one["invited_by"], one["invited_by_maker"]) for one in told] == [
+        ("Dr Sato", "", False),
+        ("Dr Lee", "ito", True),
+    ]
+    (line,) = [dict(one) for one in noted if "invited_by" in one]
+    assert line == {
+        "what": "signature",
+        "of": "plan 'main' version 2",
+        "invited_by": "ito",
+        "invited_by_maker": True,
+        "from": None,
+        "to": "signed",
+    }
+    # It counts all the same: who invites is often who plans. Of what somebody else made, nothing is said.
+    assert signable(server, "plan")["is_cosigned"]
+    change_plan(server, case_id, made_by="abe")
+    (told,) = sign(server, "plan", "s3")["signable"][0]["signatures"]
+    assert (told["invited_by"], told["invited_by_maker"]) == ("ito", False)
+
+
 def test_the_room_is_told_of_a_signature_at_once(guarded: Callable[..., Server]) -> None:
     server = guarded()
     with server.door.websocket_connect("ws://127.0.0.1:8000/ws/room?view=supervisor&person=s2") as socket:
 
-        def heard(true: Callable[[dict[str, Any]], bool]) -> None:
+        def heard(true: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+            """The plan in the first message of this socket that says so."""
+            plans: list[dict[str, Any]] = []
+
             def told() -> bool:
                 socket.send_json({"next": True})
-                news = socket.receive_json()["signable"]
-                return news is not None and true(news[0])
+                plans.extend((socket.receive_json()["signable"] or [])[:1])
+                return bool(plans) and true(plans[-1])
 
             server.until(told)
+            return plans[-1]
 
-        heard(lambda plan: plan["document_id"] is None)
+        assert heard(lambda plan: plan["document_id"] is None)["signatures"] == []
         planned(server)
-        heard(lambda plan: plan["title"] == "plan 'main' version 1")
+        made = heard(lambda plan: plan["document_id"] is not None)
+        assert (made["title"], made["is_cosigned"]) == ("plan 'main' version 1", False)
         sign(server, "plan", "s1")
-        heard(lambda plan: plan["is_cosigned"] and plan["signatures"][0]["by"] == "Dr Sato")
+        signed = heard(lambda plan: plan["is_cosigned"])
+        assert signed == signable(server, "plan")
+        assert [(one["by"], one["is_yours"]) for one in signed["signatures"]] == [("Dr Sato", False)]
 
 
 def test_only_navigation_waits_for_a_signature() -> None:

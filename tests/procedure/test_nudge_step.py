@@ -54,6 +54,20 @@ def test_a_nudge_moves_the_vertebra_and_undone_it_is_as_it_was(server: Server) -
     assert server.ask("GET", "/api/procedure", 200)["may_navigate"]
 
 
+def test_nudges_that_came_in_with_an_archive_say_so_also_after_one_more(server: Server) -> None:
+    case_id = ready(server)
+    Patient(server=server).register()
+    step = {"made_by": "mori", "kind": "shift", "axis": "head", "amount": 1.0}
+    server.ask("POST", NUDGES, 201, json=step)
+    archive = server.door.get(f"/api/cases/{case_id}/archive").content
+    taken = server.ask("POST", "/api/cases/archive", 201, content=archive)["id"]
+    server.ask("POST", f"/api/cases/{taken}/open", 200)
+    (one,) = server.ask("GET", NUDGES, 200)["nudges"]
+    assert one["made_by"] == "mori, says the archive"
+    told = server.ask("POST", NUDGES, 201, json=step)
+    assert [one["made_by"] for one in told["nudges"]] == ["mori, says the archive", "mori"]
+
+
 def test_nudges_are_small_and_lead_only_so_far(server: Server) -> None:
     ready(server)
     Patient(server=server).register()

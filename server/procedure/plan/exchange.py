@@ -27,7 +27,7 @@ def plan_out(kept: KeptPlan, ct: CtInUse | None) -> dict[str, object]:
         "format": FORMAT,
         "format_version": FORMAT_VERSION,
         "made_at": document.made_at,
-        "made_by": document.made_by,
+        "made_by": document.maker,
         "version": document.version,
         "ct": None if ct is None else _marks_of(ct),
         "plan": plan_to_mapping(kept.plan),

@@ -36,6 +36,8 @@ class KeptSignature(Section):
     signer_role: str
     second_person: bool
     """Whether it is known that somebody else made the document; false where nobody signs in."""
+    signer_invited_by: str = ""
+    """The name of who had invited the signer; empty where that is not known."""
 
 
 def content_sha256(document: Document) -> str:
@@ -75,9 +77,14 @@ def signatures_of(store: CaseStore, document: Document) -> tuple[tuple[Document,
 def is_cosigned(store: CaseStore, document: Document) -> bool:
     """Whether somebody else than its maker has signed exactly this version."""
     return any(
-        kept.second_person and not is_same_name(one.made_by, document.made_by)
+        kept.second_person and not may_have_made(one.made_by, document)
         for one, kept in signatures_of(store, document)
     )
+
+
+def may_have_made(name: str, document: Document) -> bool:
+    """Whether somebody of this name made the document, or took it in from an archive."""
+    return any(is_same_name(name, maker) for maker in document.makers)
 
 
 def is_same_name(one: str, other: str) -> bool:

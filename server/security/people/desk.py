@@ -13,6 +13,7 @@ from server.security.audit import AuditLog
 from server.security.people.file import read_people, write_people
 from server.security.people.guesses import Guesses
 from server.security.people.kept import People
+from server.security.people.often import Often
 from server.security.people.records import Invitation, InvitationState, Session
 from server.security.people.tokens import Token, new_id
 from server.security.person import SERVER, Person, Role
@@ -30,6 +31,8 @@ OPERATOR_NAME = "Operator"
 OPERATOR_LINK_LASTS = timedelta(hours=24)
 # Who is in by one link: a hall of onlookers, and not a program that signs in again and again.
 MOST_BY_ONE_LINK = 20
+# Each sign-in is a line of the audit log: a full hall twice in an hour, and no program that fills the disk.
+SIGN_INS_BY_ONE_LINK, SIGN_INS_WITHIN_S = 40, 3600.0
 REFUSED_BY_STATE = {
     InvitationState.USED: InvitationRefused.used,
     InvitationState.EXPIRED: InvitationRefused.expired,
@@ -60,7 +63,7 @@ class PeopleDesk:
         required: whether people have to sign in at all.
         session_lasts: where an invitation says nothing else.
         clock: the wall clock in UTC: sessions end at a time of the day, over restarts.
-        seconds: a monotonic clock, for guesses.
+        seconds: a monotonic clock, for guesses and for how often a link lets in.
 
     Raises:
         StoreError: PEOPLE_DAMAGED, or the folder cannot be used.
@@ -82,7 +85,9 @@ class PeopleDesk:
         self._file = folder / PEOPLE_FILE
         self._session_lasts = session_lasts
         self._clock = clock
+        self._seconds = seconds
         self._guesses = Guesses(clock=seconds)
+        self._sign_ins = Often(most=SIGN_INS_BY_ONE_LINK, window_s=SIGN_INS_WITHIN_S)
         self._turn = threading.RLock()
         with told(folder):
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -148,7 +153,7 @@ class PeopleDesk:
         now = self._clock()
         return Invitation(
             id=token.id,
-            person=Person(id=new_id(), name=wanted.name, role=wanted.role),
+            person=Person(id=new_id(), name=wanted.name, role=wanted.role, invited_by=by),
             made_by=by,
             made_at=now,
             expires_at=now + wanted.lasts,
@@ -167,7 +172,7 @@ class PeopleDesk:
         Raises:
             InvitationRefused: it lets nobody in, or no longer, or no more.
             PeopleRefused: TOO_MANY_PEOPLE.
-            TooManyTries: the token is wrong, and so were too many before.
+            TooManyTries: the token is wrong, and so were too many before; or it let in too often of late.
             StoreError: the session cannot be kept, and is no operator's.
         """
         found = Token.read(shown)
@@ -183,6 +188,9 @@ class PeopleDesk:
             by_it = sum(one.invitation_id == invitation.id for one in self.sessions())
             if by_it >= MOST_BY_ONE_LINK:
                 raise InvitationRefused.full(by_it)
+            wait_s = self._sign_ins.wait_s(invitation.id, self._seconds())
+            if wait_s > 0.0:
+                raise TooManyTries.signing_in(SIGN_INS_BY_ONE_LINK, SIGN_INS_WITHIN_S, wait_s)
             token = Token.new()
             session = Session(
                 id=token.id,
@@ -194,6 +202,7 @@ class PeopleDesk:
                 token_sum=token.sum,
             )
             self._let_in(replace(invitation, uses=invitation.uses + 1), session)
+            self._sign_ins.count(invitation.id, self._seconds())
         return session, token
 
     def end(self, session_id: str) -> Session:

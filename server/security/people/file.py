@@ -54,11 +54,17 @@ def write_people(file: Path, invitations: Iterable[Invitation], sessions: Iterab
 
 
 def _told_person(person: Person) -> dict[str, str]:
-    return {"id": person.id, "name": person.name, "role": person.role.value}
+    return {
+        "id": person.id,
+        "name": person.name,
+        "role": person.role.value,
+        "invited_by": person.invited_by,
+    }
 
 
-def _person(told: Mapping[str, Any]) -> Person:
-    return Person(id=str(told["id"]), name=str(told["name"]), role=Role(told["role"]))
+def _person(told: Mapping[str, Any], *, invited_by: str = "") -> Person:
+    invited_by = str(told.get("invited_by", invited_by))
+    return Person(id=str(told["id"]), name=str(told["name"]), role=Role(told["role"]), invited_by=invited_by)
 
 
 def _time(text: str | None) -> datetime | None:
@@ -84,7 +90,7 @@ def _told_invitation(one: Invitation) -> dict[str, object]:
 def _invitation(told: Mapping[str, Any]) -> Invitation:
     return Invitation(
         id=str(told["id"]),
-        person=_person(told["person"]),
+        person=_person(told["person"], invited_by=str(told["made_by"])),
         made_by=str(told["made_by"]),
         made_at=datetime.fromisoformat(told["made_at"]),
         expires_at=datetime.fromisoformat(told["expires_at"]),

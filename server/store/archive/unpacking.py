@@ -21,7 +21,7 @@ from server.store.errors import told
 from server.store.files import READ_ONLY, UNFINISHED, make_folder
 from server.store.home import sync_file, sync_folder
 from server.store.ledger import Ledger
-from server.store.records import Case, DocumentKind
+from server.store.records import Case, DocumentKind, Imported, says_archive
 from server.store.sweep import remove_case
 from server.store.tables import (
     ARRIVING,
@@ -39,8 +39,11 @@ from tracker.errors import InvalidInput
 TAKING_IN = "Coaxial"
 
 
-def unpack(ledger: Ledger, archive: Path) -> Case:
+def unpack(ledger: Ledger, archive: Path, *, by: str) -> Case:
     """Take a case in; it is there whole when this returns, and otherwise nothing of it is.
+
+    Each of its documents says from then on that it came in, by whom and when: the names in an archive were
+    written by whoever wrote the archive.
 
     Raises:
         InvalidInput: ARCHIVE_INVALID, ARCHIVE_NEWER.
@@ -54,8 +57,9 @@ def unpack(ledger: Ledger, archive: Path) -> Case:
         try:
             _write_files(ledger.home.cases / arriving.id, case, parts)
             with ledger.writing() as session:
-                kept = [_unsigned(document, ledger.now) for document in documents]
-                return _arrive(session, arriving.id, case, kept, parts)
+                imported = Imported(by=by, at=ledger.now)
+                kept = [_doubted(document, imported.at) for document in documents]
+                return _arrive(session, arriving.id, case, kept, parts, imported)
         except BaseException:
             remove_case(ledger, arriving.id)
             raise
@@ -109,9 +113,13 @@ def _refuse_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
         newest[document.kind, document.name] = document.version
 
 
-def _unsigned(document: DocumentForm, now: str) -> DocumentForm:
-    """A signature no longer counts: who wrote it into the archive is not known."""
-    if document.kind is not DocumentKind.SIGNATURE or document.withdrawn is not None:
+def _doubted(document: DocumentForm, now: str) -> DocumentForm:
+    """A signature no longer counts, and nobody withdrew anything here: who wrote it is not known."""
+    withdrawn = document.withdrawn
+    if withdrawn is not None:
+        told_so = withdrawn.model_copy(update={"by": says_archive(withdrawn.by)})
+        return document.model_copy(update={"withdrawn": told_so})
+    if document.kind is not DocumentKind.SIGNATURE:
         return document
     reason = "it came in with an archive, and has to be signed again here"
     withdrawn = WithdrawalForm(at=now, by=TAKING_IN, reason=reason)
@@ -133,7 +141,12 @@ def _write_files(folder: Path, case: CaseForm, parts: Parts) -> None:
 
 
 def _arrive(
-    session: Session, case_id: str, case: CaseForm, documents: Iterable[DocumentForm], parts: Parts
+    session: Session,
+    case_id: str,
+    case: CaseForm,
+    documents: Iterable[DocumentForm],
+    parts: Parts,
+    imported: Imported,
 ) -> Case:
     row = session.get_one(CaseRow, case_id)
     row.state, row.created_at, row.changed_at = HERE, case.created_at, case.changed_at
@@ -151,7 +164,7 @@ def _arrive(
         )
     session.flush()
     for document in documents:
-        session.add(_document_row(case_id, document))
+        session.add(_document_row(case_id, document, imported))
         session.flush()
         for place, basis in enumerate(document.stands_on):
             session.add(BasisRow(case_id=case_id, document_id=document.id, place=place, basis_id=basis))
@@ -161,7 +174,7 @@ def _arrive(
     return case_of(row)
 
 
-def _document_row(case_id: str, document: DocumentForm) -> DocumentRow:
+def _document_row(case_id: str, document: DocumentForm, imported: Imported) -> DocumentRow:
     withdrawn = document.withdrawn
     return DocumentRow(
         case_id=case_id,
@@ -175,4 +188,6 @@ def _document_row(case_id: str, document: DocumentForm) -> DocumentRow:
         withdrawn_at=None if withdrawn is None else withdrawn.at,
         withdrawn_by=None if withdrawn is None else withdrawn.by,
         withdrawn_reason=None if withdrawn is None else withdrawn.reason,
+        imported_by=imported.by,
+        imported_at=imported.at,
     )

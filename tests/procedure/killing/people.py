@@ -190,11 +190,7 @@ class People:
             self.doing = "choosing"
             self._choose(self._chance.choice(("left", "right")))
         elif act < 0.7:
-            self.doing = "asking to hold"
-            name = self._name()
-            ask("POST", "/api/alarms/hold", 200, json={"by": name})
-            self._server.promised.names.add(name)
-            ask("POST", "/api/alarms/release", 200, json={"by": name})
+            self._ask_to_hold_or_release()
         elif act < 0.8:
             self.doing = "a second case"
             name = self._name()
@@ -207,6 +203,22 @@ class People:
             self.doing = "registering again"
             self._team.touch(5)
             ask("POST", f"{POINTS}/conclusion", 201, json=BY)
+
+    def _ask_to_hold_or_release(self) -> None:
+        """A hold is asked for and, when it is this one's turn again, released: so kills find it standing."""
+        promised, name = self._server.promised, self._name()
+        asked_by = promised.holding
+        # Until it is confirmed, nobody was promised either.
+        promised.holding = None
+        if asked_by == "":
+            self.doing = "asking to hold"
+            self._server.ask("POST", "/api/alarms/hold", 200, json={"by": name})
+            promised.holding = name
+        else:
+            self.doing = "releasing the hold"
+            self._server.ask("POST", "/api/alarms/release", 200, json={"by": name})
+            promised.holding = ""
+        promised.names.add(name)
 
     def _choose(self, side: str) -> None:
         name = self._name()

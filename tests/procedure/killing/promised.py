@@ -21,6 +21,7 @@ class Promised:
         lines: of the alarm log of the open case, as last read.
         opened: the open case, as last confirmed; None for none.
         steps: states as last read, with the ids of the documents that were there.
+        holding: who asks to hold, empty for nobody, as last confirmed; None where that is not known.
         changes: how many were confirmed.
     """
 
@@ -30,6 +31,7 @@ class Promised:
     opened: str | None = None
     steps: Mapping[str, str] = field(default_factory=dict)
     seen_ids: frozenset[str] = frozenset()
+    holding: str | None = ""
     changes: int = 0
 
     def note(self, answer: Any) -> None:  # noqa: ANN401  JSON
@@ -59,6 +61,9 @@ class Promised:
         told = server.ask("GET", "/api/cases", 200)
         if told["opened_id"] != self.opened:
             yield f"the open case was {self.opened}, and is {told['opened_id']}"
+        asked_by = server.ask("GET", "/api/supervision/room", 200)["hold"]["asked_by"]
+        if self.holding is not None and asked_by != [name for name in [self.holding] if name]:
+            yield f"{self.holding or 'nobody'} asked to hold, and now {asked_by} does"
         if self.opened is None:
             return
         outline = server.ask("GET", f"/api/cases/{self.opened}/documents", 200)["documents"]

@@ -61,6 +61,19 @@ def test_with_a_case_it_belongs_to_the_case_and_says_who(store: CaseStore, log: 
     assert numbers(log) == [1], "of the time without a case"
 
 
+def test_lines_that_came_in_with_an_archive_say_so_of_who_did_what(
+    store: CaseStore, log: StoredAlarmLog
+) -> None:
+    first = store.open(store.create("L3").id)
+    log.append([Entry(line={"by": "Dr Sato", "change": "acknowledged"}, by="Dr Sato"), entry(1)])
+    log.flush()
+    taken = store.copy_in(store.copy_out(first.id).path, by="M. Ito")
+    store.open(taken.id)
+    log.append([Entry(line={"by": "Dr Sato", "change": "acknowledged"}, by="Dr Sato")])
+    log.flush()
+    assert [line.get("by") for line in log.newest(10)] == ["Dr Sato, says the archive", None, "Dr Sato"]
+
+
 @pytest.mark.parametrize("name", ["\u202eDr. Ito", "\u200b"])
 def test_a_name_that_the_store_does_not_take_holds_no_alarm_up(
     store: CaseStore, log: StoredAlarmLog, name: str

@@ -1,5 +1,6 @@
 """Bodies that are too long, or come too slowly, are refused in words, and the line goes."""
 
+import asyncio
 import contextlib
 import itertools
 import socket
@@ -7,11 +8,14 @@ import threading
 from collections.abc import Iterator
 
 import pytest
+from starlette.types import Message, Receive, Scope, Send
 
 from server.api import bodies
-from server.api.bodies import MOST_BYTES, MOST_TO_SIGN_IN_BYTES, UPLOADS
+from server.api.bodies import MOST_BYTES, MOST_TO_SIGN_IN_BYTES, UPLOADS, LimitedBodies
 from tests.served import served
 from tests.server.security.doors import Guarded, guarded
+from tests.server.stream.made_time import run_in_made_time
+from tracker.errors import NavigationError
 
 
 @pytest.fixture(scope="module")
@@ -60,6 +64,111 @@ def test_what_has_a_limit_of_its_own_is_every_address_that_takes_a_file(house: G
         if content and not any("schema" in kind for kind in content.values())
     }
     assert files == UPLOADS
+
+
+def sent(path: str, pieces: list[tuple[float, int]], *, works_s: float = 0.0) -> tuple[str, float]:
+    """What becomes of a body of these pieces (seconds before each, bytes), and after how long.
+
+    The application works so long on each piece before it takes the next. Time is made: nobody waits.
+    """
+    came: list[tuple[str, float]] = []
+
+    async def run() -> None:
+        now, waiting = asyncio.get_running_loop().time, iter(pieces)
+
+        async def receive() -> Message:
+            after_s, size = next(waiting, (float("inf"), 0))
+            await (asyncio.sleep(after_s) if after_s < float("inf") else asyncio.Event().wait())
+            return {"type": "http.request", "body": b"x" * size, "more_body": size != 1}
+
+        async def reads(_scope: Scope, receive: Receive, _send: Send) -> None:
+            while (await receive())["more_body"]:
+                await asyncio.sleep(works_s)
+
+        async def send(_message: Message) -> None:
+            raise AssertionError("nothing is answered here")
+
+        try:
+            await LimitedBodies(reads)({"type": "http", "path": path, "headers": []}, receive, send)
+            came.append(("whole", now()))
+        except NavigationError as refused:
+            came.append((f"{refused.code}: {refused.message}" if refused.remedy else "no remedy", now()))
+
+    run_in_made_time(run())
+    return came[0]
+
+
+END = (0.0, 1)
+JSON, FILE = "/api/cases", "/api/ct"
+
+
+@pytest.mark.parametrize("path", [JSON, FILE])
+def test_a_body_that_stops_coming_is_refused_in_words(path: str) -> None:
+    said, after_s = sent(path, [(0.1, 5000), (0.1, 0)])
+    assert said == (
+        "BODY_TOO_SLOW: of the request 4.9 kB came, the last 4.9 kB of them in 20 s; asked for are 32 kB in "
+        "that time"
+    )
+    assert after_s == pytest.approx(20.0)
+
+
+@pytest.mark.parametrize("path", [JSON, FILE])
+def test_letter_by_letter_is_no_progress(path: str) -> None:
+    said, after_s = sent(path, [(1.0, 100)] * 10_000)
+    assert said.startswith("BODY_TOO_SLOW")
+    assert after_s == pytest.approx(20.0)
+
+
+def test_a_large_file_takes_as_long_as_a_thin_line_needs() -> None:
+    # 40 MB over 128 kbit/s, with a pause of 15 s now and then: three quarters of an hour.
+    pieces = [(15.0 if number % 100 == 0 else 1.0, 16_384) for number in range(2500)]
+    said, after_s = sent(FILE, [*pieces, END])
+    assert (said, after_s > 2500.0) == ("whole", True)
+
+
+def test_the_time_in_which_the_server_writes_to_its_disk_is_not_the_senders() -> None:
+    assert sent(FILE, [(0.1, 1000)] * 50 + [END], works_s=60.0)[0] == "whole"
+
+
+def test_to_sign_in_there_is_one_time_for_all() -> None:
+    said, after_s = sent("/api/session", [(1.0, 600)] * 100)
+    assert said == "BODY_TOO_SLOW: the request was not whole after 20 s"
+    assert after_s == pytest.approx(20.0)
+
+
+def test_whoever_was_heard_to_the_end_may_stay_silent() -> None:
+    """A picture without end waits for its viewer to go."""
+    silent: list[Message] = []
+
+    async def run() -> None:
+        async def receive() -> Message:
+            if silent:
+                await asyncio.sleep(3600.0)
+                return {"type": "http.disconnect"}
+            return {"type": "http.request", "body": b"", "more_body": False}
+
+        async def watches(_scope: Scope, receive: Receive, _send: Send) -> None:
+            silent.append(await receive())
+            silent.append(await receive())
+
+        async def send(_message: Message) -> None: ...
+
+        scope: Scope = {"type": "http", "path": "/video/main.mjpg", "headers": []}
+        await LimitedBodies(watches)(scope, receive, send)
+
+    run_in_made_time(run())
+    assert [one["type"] for one in silent] == ["http.request", "http.disconnect"]
+
+
+def test_every_request_with_a_body_has_the_refusal_in_its_description(house: Guarded) -> None:
+    with_body = [
+        (path, method, operation)
+        for path, methods in house.app.openapi()["paths"].items()
+        for method, operation in methods.items()
+        if "requestBody" in operation
+    ]
+    assert len(with_body) > 20
+    assert [one[:2] for one in with_body if "408" not in one[2]["responses"]] == []
 
 
 def test_who_signs_in_letter_by_letter_is_cut_off(house: Guarded, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,7 @@ from starlette.routing import Route
 
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.scene import mount_scene
+from server.stream.viewers import ViewerKind, Viewers
 from tracker.camera import CameraModel
 from tracker.geometry import Camera, Rigid, Tool, Vertebra, rotation_between
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
@@ -156,7 +157,7 @@ def running(
     theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0, most_viewers: int = 32
 ) -> Iterator[Running]:
     """The scene behind a real socket on 127.0.0.1, with a page around it at `/`."""
-    hub = LiveHub()
+    hub, viewers = LiveHub(), Viewers(most=most_viewers)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
@@ -171,7 +172,7 @@ def running(
         setup=theatre.setup,
         surface=theatre.surface,
         stale_after_ms=stale_after_ms,
-        most_viewers=most_viewers,
+        admit=lambda person: viewers.watching(ViewerKind.SCENE, person=person),
     )
     listener = socket.socket()
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

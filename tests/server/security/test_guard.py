@@ -115,6 +115,7 @@ def test_too_many_wrong_links_are_told_to_wait(house: Guarded) -> None:
         assert enter(house, "x").json()["code"] == "INVITATION_UNKNOWN"
     told = enter(house, "x")
     assert (told.status_code, told.json()["code"]) == (429, "TOO_MANY_TRIES")
+    assert told.headers["retry-after"] == "60"
     assert enter(house, house.invited()).status_code == 200
     house.door.cookies.clear()
     assert house.door.get("/api/live", headers={"Authorization": "Bearer x"}).headers["retry-after"] == "60"

@@ -11,7 +11,7 @@ import pytest
 
 from server.security import PeopleDesk, Role
 from server.security.people import Token, kept
-from server.security.people.desk import Wanted
+from server.security.people.desk import PEOPLE_FILE, Wanted
 from server.security.refusals import (
     InvitationRefused,
     PeopleRefused,
@@ -48,6 +48,20 @@ def test_an_invitation_lets_in_once_with_its_name_and_role(desk: PeopleDesk) -> 
     with pytest.raises(InvitationRefused) as refused:
         desk.enter(link, address=HERE)
     assert refused.value.code == "INVITATION_USED"
+
+
+def test_who_invited_somebody_is_known_of_them_over_a_restart(tmp_path: Path, clock: Clock) -> None:
+    link = invited(people_of(tmp_path, clock))
+    _, token = people_of(tmp_path, clock).enter(link, address=HERE)
+    assert people_of(tmp_path, clock).who(token.text, address=HERE).person.invited_by == "test"
+    # An invitation that was made before it was written down says who made it.
+    link, file = invited(people_of(tmp_path, clock)), tmp_path / PEOPLE_FILE
+    older = json.loads(file.read_bytes())
+    for one in (*older["invitations"], *older["sessions"]):
+        del one["person"]["invited_by"]
+    file.write_text(json.dumps(older))
+    assert people_of(tmp_path, clock).enter(link, address=HERE)[0].person.invited_by == "test"
+    assert people_of(tmp_path, clock).who(token.text, address=HERE).person.invited_by == ""
 
 
 def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
@@ -228,6 +242,34 @@ def test_one_link_lets_in_twenty_at_a_time(desk: PeopleDesk) -> None:
     desk.end(sessions[0].id)
     desk.enter(link, address=HERE)
     desk.enter(invited(desk), address=HERE)
+
+
+def test_one_link_signs_in_forty_times_an_hour_and_its_audit_lines_end_there(
+    desk: PeopleDesk, clock: Clock
+) -> None:
+    lasting = Wanted(name="Hall", role=Role.VIEWER, lasts=timedelta(hours=3), single_use=False)
+    link, other = desk.invite(lasting, by="test")[1].text, desk.invite(lasting, by="test")[1].text
+    for _ in range(40):
+        clock.passes(seconds=30)
+        session, token = desk.enter(link, address=HERE)
+        desk.end(session.id)
+    session, token = desk.enter(other, address=HERE)
+    with pytest.raises(TooManyTries) as told:
+        desk.enter(link, address=HERE)
+    assert told.value.code == "TOO_MANY_SIGN_INS"
+    assert told.value.message == (
+        "this link has signed in 40 times within 60 min, and signs in again in 41 min"
+    )
+    assert told.value.context["wait_s"] == 3600 - 39 * 30
+    assert told.value.remedy
+    # Who is in stays in, and other links let in.
+    assert desk.who(token.text, address=HERE) == session
+    clock.passes(seconds=3600 - 39 * 30)
+    desk.enter(link, address=HERE)
+    # A refused try does not make the wait longer, and each place comes back for itself.
+    with pytest.raises(TooManyTries) as told:
+        desk.enter(link, address=HERE)
+    assert told.value.context["wait_s"] == 30
 
 
 def test_nobody_waits_at_the_door_while_the_disk_is_slow(

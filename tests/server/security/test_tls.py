@@ -12,17 +12,21 @@ import subprocess
 import sys
 import urllib.request
 from collections.abc import Iterator
+from contextlib import ExitStack
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
 from websockets.sync.client import connect
 
+from server.app import AppParts, create_app
 from server.config import Config
 from server.errors import ConfigError
-from server.security.tls import chosen_tls, refuse_unsafe, self_made
+from server.live import LiveHub
+from server.security.tls import chosen_tls, handshake, refuse_unsafe, self_made
 from server.security.tls.choose import PROXY_WORDS
 from server.security.tls.self_made import kept_or_made
+from tests.served import served
 
 REPOSITORY = Path(__file__).parents[3]
 
@@ -74,6 +78,40 @@ def test_nobody_is_a_second_person_where_nobody_signs_in(what: str) -> None:
         refuse_unsafe(Config.model_validate({**required, "security": {"sign_in": "off"}}))
     assert told.value.code == "SIGN_IN_NEEDED"
     assert "cosign" in told.value.message
+
+
+def test_who_connects_and_does_not_finish_the_handshake_is_cut_off(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(handshake, "HANDSHAKE_WITHIN_S", 0.2)
+    tls = chosen_tls(config_of(host="0.0.0.0"), tmp_path)  # noqa: S104  nothing listens there
+    assert tls is not None
+    app = create_app(AppParts(hub=LiveHub(), config=Config()))
+    trusting = ssl.create_default_context(cafile=str(tls.certificate))
+    trusting.check_hostname = False
+    # The lines end before the server does: a farewell that nobody answers would be open at its end.
+    with served(app, tls=tls) as port, ExitStack() as lines:
+
+        def connected() -> socket.socket:
+            # asyncio alone would hold each of them for 60 s.
+            return lines.enter_context(socket.create_connection(("127.0.0.1", port), timeout=20.0))
+
+        silent, halting, whole = connected(), connected(), connected()
+        # The first bytes of a greeting that never ends.
+        halting.sendall(b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03")
+        sealed = lines.enter_context(trusting.wrap_socket(whole))
+        wait_for_end(silent)
+        wait_for_end(halting)
+        # Who has finished it is not in a hurry because of that.
+        sealed.sendall(b"GET /health HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
+        assert sealed.recv(1024).startswith(b"HTTP/1.1 ")
+
+
+def wait_for_end(line: socket.socket) -> None:
+    """Until the other side ends it; a line that is held on to is a TimeoutError."""
+    with contextlib.suppress(ConnectionResetError):
+        while line.recv(1024):
+            pass
 
 
 def test_a_self_made_one_is_made_anew_when_it_ends_or_a_name_is_missing(

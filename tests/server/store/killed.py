@@ -176,7 +176,7 @@ def write_for_ever(folder: Path, *, seed: int, fault: str) -> None:
                 _say("gone", case_id)
             elif act < 0.2:
                 archive = store.copy_out(chance.choice(cases), with_identity=True)
-                case = store.copy_in(archive.path)
+                case = store.copy_in(archive.path, by="M. Ito")
                 archive.path.unlink()
                 cases.append(case.id)
                 _say("case", case.id, name=case.name)

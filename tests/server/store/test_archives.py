@@ -6,12 +6,26 @@ import json
 import stat
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 
 import pytest
 
+from server.clock import utc_text
 from server.disk import DiskFull
-from server.store import Case, CaseStore, DocumentKind, Home, OutOfDate, StoreConflict, StoreError
+from server.store import (
+    Case,
+    CaseStore,
+    Change,
+    DocumentKind,
+    Entry,
+    Home,
+    OutOfDate,
+    StoreConflict,
+    StoreError,
+)
+from server.store.records import SAYS_ARCHIVE
 from tracker.errors import InvalidInput
 
 PATIENT = "Beeblebrox"
@@ -56,14 +70,16 @@ def written(folder: Path, parts: dict[str, bytes], *, fix_manifest: bool = True)
 
 def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
     archive = store.copy_out(case.id, with_identity=True)
-    again = store.copy_in(archive.path)
+    again = store.copy_in(archive.path, by="M. Ito")
     assert again.id != case.id
     assert (again.name, again.created_at, again.copied_from) == (PATIENT, case.created_at, case.id)
 
-    def without_case(entries: object) -> str:
-        return repr(entries).replace(case.id, "").replace(again.id, "")
+    def alike(entries: tuple[Entry, ...]) -> str:
+        """But for the case that they are in, and that they came in."""
+        told = repr([(replace(one.heading, imported=None), one.standing) for one in entries])
+        return told.replace(case.id, "").replace(again.id, "").replace(SAYS_ARCHIVE, "")
 
-    assert without_case(store.outline(again.id)) == without_case(store.outline(case.id))
+    assert alike(store.outline(again.id)) == alike(store.outline(case.id))
     assert store.latest(again.id, DocumentKind.CT, "main").content == {"mm": 0.1 + 0.2}  # type: ignore[union-attr]  # there
     assert store.verify(again.id) == ()
     before, after = store.files(case.id)[0], store.files(again.id)[0]
@@ -76,11 +92,55 @@ def test_a_case_comes_back_as_it_was(store: CaseStore, case: Case) -> None:
     assert isinstance(store.standing(plan), OutOfDate)
 
 
+def test_what_came_in_never_looks_as_if_somebody_here_had_made_it(
+    store: CaseStore, case: Case, clock: Callable[[], datetime]
+) -> None:
+    """An archive may name anybody as who made and withdrew what is in it."""
+    taken_at = utc_text(clock())
+    again = store.copy_in(store.copy_out(case.id).path, by="M. Ito")
+    came = [one.heading for one in store.outline(again.id)]
+    assert {(one.made_by, one.maker) for one in came} == {
+        ("ito", "ito, says the archive"),
+        ("abe", "abe, says the archive"),
+    }
+    assert [one.imported.by for one in came if one.imported is not None] == ["M. Ito"] * len(came)
+    assert all(one.imported is not None and one.imported.at > taken_at for one in came)
+    (withdrawn,) = [one.withdrawn for one in came if one.withdrawn is not None]
+    assert withdrawn.by == "abe, says the archive"
+    plan = store.latest(again.id, DocumentKind.PLAN, "L3 😀")
+    assert plan is not None
+    assert plan.makers == ("abe", "M. Ito")
+    # What is made here afterwards was made here, also on what came in.
+    made = store.put(again.id, DocumentKind.CHECK, "tip", {}, made_by="abe", stands_on=[plan.id])
+    assert (made.imported, made.maker, made.makers) == (None, "abe", ("abe",))
+    assert [one.heading.maker for one in store.outline(case.id) if one.heading.imported is None][:1] == [
+        "ito"
+    ]
+
+
+def test_taken_in_twice_it_is_said_once_and_who_took_it_in_last_stands_for_it(
+    store: CaseStore, case: Case
+) -> None:
+    first = store.copy_in(store.copy_out(case.id).path, by="M. Ito")
+    second = store.copy_in(store.copy_out(first.id).path, by="Dr Sato")
+    check = store.history(second.id, DocumentKind.CHECK, "tip")[0]
+    assert (check.maker, check.withdrawn and check.withdrawn.by) == ("abe, says the archive",) * 2
+    assert check.imported is not None
+    assert check.imported.by == "Dr Sato"
+
+
+def test_who_takes_a_case_in_is_in_the_log_of_changes(store: CaseStore, case: Case) -> None:
+    changes: list[Change] = []
+    store.tell_changes(changes.append)
+    store.copy_in(store.copy_out(case.id).path, by="M. Ito")
+    assert [(one.after, one.by) for one in changes] == [("copied in", "M. Ito")]
+
+
 def test_who_the_patient_is_stays_at_home_unless_asked_for(store: CaseStore, case: Case) -> None:
     archive = store.copy_out(case.id)
     assert not any(PATIENT.encode() in part for part in parts_of(archive.path).values())
     assert PATIENT not in archive.path.name
-    again = store.copy_in(archive.path)
+    again = store.copy_in(archive.path, by="M. Ito")
     assert again.name == f"Case {case.id[:6]}"
     assert store.all(again.id, DocumentKind.PATIENT) == ()
     assert len(store.outline(again.id)) == len(store.outline(case.id)) - 1
@@ -108,8 +168,8 @@ def first_id(parts: dict[str, bytes]) -> object:
     return json.loads(parts["documents.jsonl"].split(b"\n")[0])["id"]
 
 
-Change = Callable[[dict[str, bytes]], object]
-AGREEING: list[tuple[str, Change, str]] = [
+Damaging = Callable[[dict[str, bytes]], object]
+AGREEING: list[tuple[str, Damaging, str]] = [
     ("traversal", lambda parts: parts.update({"../../evil": b"x"}), "does not belong into a case"),
     ("absolute", lambda parts: parts.update({"/etc/evil": b"x"}), "does not belong into a case"),
     ("in-a-folder", lambda parts: parts.update({"files/../case.json": b"x"}), "does not belong"),
@@ -131,7 +191,7 @@ AGREEING: list[tuple[str, Change, str]] = [
     ("newer", lambda parts: changed_manifest(parts, version=2, more=1), "form 2, this Coaxial reads form 1"),
     ("other-format", lambda parts: changed_manifest(parts, format="recipe"), "manifest.json: format"),
 ]
-DISAGREEING: list[tuple[str, Change, str]] = [
+DISAGREEING: list[tuple[str, Damaging, str]] = [
     ("changed-file", lambda parts: change_file(parts, lambda part: part[::-1]), "SHA-256 differs"),
     ("longer-file", lambda parts: change_file(parts, lambda part: part + b"x"), "manifest says"),
     ("changed-case", lambda parts: parts.update({"case.json": parts["case.json"][::-1]}), "SHA-256"),
@@ -152,7 +212,7 @@ def everything_in(home: Home) -> set[Path]:
     ("change", "said", "agreeing"), [row[1:] for row in CHANGES], ids=[row[0] for row in CHANGES]
 )
 def test_a_hostile_archive_is_refused_whole(
-    store: CaseStore, home: Home, case: Case, tmp_path: Path, change: Change, said: str, *, agreeing: bool
+    store: CaseStore, home: Home, case: Case, tmp_path: Path, change: Damaging, said: str, *, agreeing: bool
 ) -> None:
     parts = parts_of(store.copy_out(case.id, with_identity=True).path)
     # The patient's line comes first and is not interesting here.
@@ -162,7 +222,7 @@ def test_a_hostile_archive_is_refused_whole(
     change(parts)
     before = everything_in(home)
     with pytest.raises(InvalidInput) as refused:
-        store.copy_in(written(tmp_path, parts, fix_manifest=agreeing))
+        store.copy_in(written(tmp_path, parts, fix_manifest=agreeing), by="M. Ito")
     assert said in refused.value.message
     assert refused.value.code == ("ARCHIVE_NEWER" if "reads form" in said else "ARCHIVE_INVALID")
     assert everything_in(home) == before
@@ -174,7 +234,7 @@ def test_what_is_no_zip_is_refused(store: CaseStore, tmp_path: Path, content: by
     path = tmp_path / "a.zip"
     path.write_bytes(content)
     with pytest.raises(InvalidInput, match="no sound zip file"):
-        store.copy_in(path)
+        store.copy_in(path, by="M. Ito")
 
 
 def test_an_archive_cut_or_changed_anywhere_is_refused(store: CaseStore, case: Case, tmp_path: Path) -> None:
@@ -185,7 +245,7 @@ def test_an_archive_cut_or_changed_anywhere_is_refused(store: CaseStore, case: C
             path.write_bytes(changed)
             with contextlib.suppress(InvalidInput):
                 # It may be a byte that means nothing, as a time inside the zip.
-                taken = store.copy_in(path)
+                taken = store.copy_in(path, by="M. Ito")
                 assert store.verify(taken.id) == ()
                 assert len(store.outline(taken.id)) == 4
 
@@ -198,7 +258,7 @@ def test_a_bomb_is_refused_before_it_is_unpacked(
     assert path.stat().st_size < 2**17
     monkeypatch.setattr("server.store.archive.reading.LARGEST_WHOLE_BYTES", 2**23)
     with pytest.raises(InvalidInput, match="it unpacks to"):
-        store.copy_in(path)
+        store.copy_in(path, by="M. Ito")
     assert [one.name for one in home.cases.iterdir()] == [case.id]
 
 
@@ -212,7 +272,7 @@ def test_a_link_in_an_archive_is_refused(store: CaseStore, case: Case, tmp_path:
                 entry.external_attr = (stat.S_IFLNK | 0o777) << 16
             archive.writestr(entry, part)
     with pytest.raises(InvalidInput, match="does not belong"):
-        store.copy_in(path)
+        store.copy_in(path, by="M. Ito")
 
 
 def test_a_case_without_room_is_refused_before_it_is_unpacked(
@@ -221,7 +281,7 @@ def test_a_case_without_room_is_refused_before_it_is_unpacked(
     archive = store.copy_out(case.id)
     monkeypatch.setattr("server.disk.SPARE_BYTES", 2**60)
     with pytest.raises(DiskFull) as full:
-        store.copy_in(archive.path)
+        store.copy_in(archive.path, by="M. Ito")
     assert full.value.code == "STORE_FULL"
     assert store.list() == (store.get(case.id),)
 

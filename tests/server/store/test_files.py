@@ -167,7 +167,7 @@ def test_power_lost_between_any_two_steps_costs_nothing_that_was_confirmed(
     put_file(store, case_id, b"second")
     archive = store.copy_out(case_id)
     after_second = len(copies.taken)
-    store.copy_in(archive.path)
+    store.copy_in(archive.path, by="M. Ito")
     after_copy = len(copies.taken)
     store.delete(case_id, confirm="one")
     copies.take()

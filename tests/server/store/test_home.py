@@ -16,7 +16,7 @@ from alembic.runtime.migration import MigrationContext
 from sqlalchemy import create_engine
 
 from server.clock import utc_now
-from server.store import CaseStore, DocumentKind, Home, StoreError, home_folder
+from server.store import CaseStore, DocumentKind, Home, Imported, StoreError, home_folder
 from server.store.database import MIGRATIONS, open_database
 from server.store.tables import Table
 
@@ -113,12 +113,19 @@ def test_what_is_committed_is_on_the_disk_and_documents_do_not_change(store: Cas
         raw.execute("UPDATE documents SET content = '{}'")
 
 
-def with_a_second_form(folder: Path, upgrade: str) -> Path:
+def with_a_third_form(folder: Path, upgrade: str) -> Path:
     """The migrations, and one more."""
     shutil.copytree(MIGRATIONS, folder)
-    (folder / "versions" / "form_2.py").write_text(
-        f"from alembic import op\nrevision = '2'\ndown_revision = '1'\ndef upgrade():\n    {upgrade}\n"
+    (folder / "versions" / "form_3.py").write_text(
+        f"from alembic import op\nrevision = '3'\ndown_revision = '2'\ndef upgrade():\n    {upgrade}\n"
     )
+    return folder
+
+
+def with_the_first_form_alone(folder: Path) -> Path:
+    """The migrations as they were at first."""
+    shutil.copytree(MIGRATIONS, folder)
+    (folder / "versions" / "form_2_imported.py").unlink()
     return folder
 
 
@@ -128,25 +135,25 @@ def revision_of(database: Path) -> str:
 
 
 def test_an_older_database_is_kept_before_it_is_changed_and_a_newer_one_refused(tmp_path: Path) -> None:
-    migrations = with_a_second_form(tmp_path / "m", "op.execute('ALTER TABLE cases ADD COLUMN more TEXT')")
+    migrations = with_a_third_form(tmp_path / "m", "op.execute('ALTER TABLE cases ADD COLUMN more TEXT')")
     with Home(tmp_path / "h") as home:
         with CaseStore(home) as store:
             store.create("one")
         open_database(home, now=utc_now, migrations=migrations).dispose()
-        assert revision_of(home.database) == "2"
+        assert revision_of(home.database) == "3"
         (backup,) = home.backups.iterdir()
-        assert revision_of(backup) == "1"
+        assert revision_of(backup) == "2"
         with closing(sqlite3.connect(backup)) as raw:
             assert raw.execute("SELECT name FROM cases").fetchall() == [("one",)]
         with pytest.raises(
-            StoreError, match=r"made by a newer Coaxial \(its form is 2, this program knows"
+            StoreError, match=r"made by a newer Coaxial \(its form is 3, this program knows"
         ) as newer:
             CaseStore(home)
         assert newer.value.code == "STORE_NEWER"
 
 
 def test_a_migration_that_fails_changes_nothing(tmp_path: Path) -> None:
-    migrations = with_a_second_form(
+    migrations = with_a_third_form(
         tmp_path / "m",
         "op.execute('ALTER TABLE cases ADD COLUMN more TEXT'); op.execute('DROP TABLE no_such')",
     )
@@ -155,9 +162,31 @@ def test_a_migration_that_fails_changes_nothing(tmp_path: Path) -> None:
             case = store.create("one")
         with pytest.raises(StoreError, match="no such table"):
             open_database(home, now=utc_now, migrations=migrations)
-        assert revision_of(home.database) == "1"
+        assert revision_of(home.database) == "2"
         with CaseStore(home) as store:
             assert store.list() == (case,)
+
+
+def test_of_what_was_taken_in_before_it_was_written_down_nothing_looks_made_here(tmp_path: Path) -> None:
+    columns = "case_id, id, kind, name, version, content, made_at, made_by"
+    with Home(tmp_path / "h") as home:
+        first = with_the_first_form_alone(tmp_path / "m")
+        open_database(home, now=utc_now, migrations=first).dispose()
+        with closing(sqlite3.connect(home.database)) as raw:
+            raw.execute("INSERT INTO cases VALUES ('a', 'made here', 'here', '1', '2', NULL)")
+            raw.execute("INSERT INTO cases VALUES ('b', 'taken in', 'here', '1', '2', 'a')")
+            for case_id in "ab":
+                values = (case_id, "d", "plan", "main", 1, "{}", "1", "ito")
+                raw.execute(f"INSERT INTO documents ({columns}) VALUES (?,?,?,?,?,?,?,?)", values)  # noqa: S608  our own words
+            raw.commit()
+        with CaseStore(home) as store:
+            assert store.document("a", "d").imported is None
+            assert store.document("b", "d").imported == Imported(by="somebody (not written down)", at="2")
+        with (
+            closing(sqlite3.connect(home.database)) as raw,
+            pytest.raises(sqlite3.IntegrityError, match="never changes"),
+        ):
+            raw.execute("UPDATE documents SET imported_by = NULL")
 
 
 def test_a_damaged_database_stops_the_start_with_a_sentence(tmp_path: Path) -> None:

@@ -33,14 +33,14 @@ def test_the_place_is_taken_where_it_is_looked_for() -> None:
         with pytest.raises(TooManyViewers), viewers.watching(ViewerKind.VIEW):
             pass
         assert viewers.count(ViewerKind.VIEW) == 0
-        # Who sits in the room takes no picture from anybody, and nobody who watches a seat.
-        with viewers.watching(ViewerKind.ROOM):
+        # Who sits in the room takes no picture from anybody, and nobody who watches a seat; so the scene.
+        with viewers.watching(ViewerKind.ROOM), viewers.watching(ViewerKind.SCENE):
             pass
     with viewers.watching(ViewerKind.VIEW):
         pass
 
 
-@pytest.mark.parametrize("kind", [ViewerKind.LIVE, ViewerKind.ROOM])
+@pytest.mark.parametrize("kind", [ViewerKind.LIVE, ViewerKind.ROOM, ViewerKind.SCENE])
 def test_one_person_has_eight_places_by_all_ways_together(kind: ViewerKind) -> None:
     viewers = Viewers(most=64)
     with ExitStack() as here:

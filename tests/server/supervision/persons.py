@@ -15,9 +15,10 @@ from server.security.person import STATE_KEY
 
 SATO = Person(id="s1", name="Dr Sato", role=Role.SUPERVISOR)
 KIM = Person(id="s2", name="Dr Kim", role=Role.SUPERVISOR)
+LEE = Person(id="s3", name="Dr Lee", role=Role.SUPERVISOR, invited_by="ito")
 ITO = Person(id="o1", name="ito", role=Role.OPERATOR)
 GUEST = Person(id="v1", name="Guest", role=Role.VIEWER)
-PERSONS = {person.id: person for person in (SATO, KIM, ITO, GUEST)}
+PERSONS = {person.id: person for person in (SATO, KIM, LEE, ITO, GUEST)}
 
 
 def sign_people_in(app: FastAPI) -> None:

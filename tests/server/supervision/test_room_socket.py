@@ -110,9 +110,15 @@ def test_what_a_supervisor_marks_is_told_in_theatre(page: Callable[..., Page], i
 def test_the_operator_clears_what_others_drew(page: Callable[..., Page], image: dict[str, Any]) -> None:
     sato, ito = page("s1"), page("o1", "operator")
     sato.say(draw={"key": 7, "shape": "circle", "points_px": [[100, 100], [150, 100]], **image})
-    ito.until(lambda told: told["drawings"])
+    (drawn,) = ito.until(lambda told: told["grown"])["grown"]
+    assert (drawn["name"], drawn["is_yours"], drawn["shape"]) == ("Dr Sato", False, "circle")
+    assert sato.until(lambda told: told["drawings"])["drawings"] == [drawn["key"]]
     ito.say(clear="all")
-    sato.until(lambda told: not told["drawings"])
+    assert [page.until(lambda told: not told["drawings"])["drawings"] for page in (sato, ito)] == [[], []]
+    # Nothing of it comes back with what is drawn next.
+    sato.say(draw={"key": 8, "shape": "circle", "points_px": [[200, 100], [250, 100]], **image})
+    (after,) = ito.until(lambda told: told["drawings"])["drawings"]
+    assert after != drawn["key"]
 
 
 POINT = {"at_px": [1, 2], "image_number": 1, "captured_at_s": 1.0}
@@ -192,6 +198,8 @@ def test_holds_of_several_stand_until_each_has_released(client: TestClient) -> N
     assert (refused["code"], "Dr Sato" in refused["message"]) == ("HOLD_NOT_YOURS", True)
     post("hold", "s2")
     told = client.get("/api/supervision/room", headers={"x-person": "s2"}).json()
+    since = told["hold"].pop("since")
+    assert since.endswith("Z")
     assert told["hold"] == {"asked_by": ["Dr Sato", "Dr Kim"], "is_yours": True}
     assert by(post("release", "s1")) == ["Dr Kim"]
     assert by(post("hold", "s1")) == ["Dr Kim, Dr Sato"]

@@ -4,6 +4,7 @@ import { EnterPage } from "../enter/EnterPage";
 import { LiveProvider } from "../live/LiveContext";
 import { RoomProvider } from "../room/RoomContext";
 import { TheatreView } from "../theatre/TheatreView";
+import { ProcedureProvider } from "./procedure";
 import { useSession } from "./session";
 import { viewAt, type ViewName } from "./views";
 
@@ -24,9 +25,11 @@ export function App(): ReactNode {
   return (
     <LiveProvider>
       <RoomProvider view={view}>
-        <Suspense fallback={null}>
-          <View />
-        </Suspense>
+        <ProcedureProvider view={view}>
+          <Suspense fallback={null}>
+            <View />
+          </Suspense>
+        </ProcedureProvider>
       </RoomProvider>
     </LiveProvider>
   );

@@ -3,12 +3,10 @@ import { useState, type ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
-import { useAsked } from "../rest/useAsked";
 import { useDo } from "../rest/useDo";
 import { useWords } from "../words/WordsContext";
+import { useProcedureOften } from "./procedure";
 import { useSession } from "./session";
-
-const ASK_EVERY_MS = 1000;
 
 /** After a start: why navigation is stopped, and the operator's button to go on. Nothing at other times. */
 export function ConfirmRestart(): ReactNode {
@@ -24,9 +22,7 @@ export function ConfirmRestart(): ReactNode {
 function Question(): ReactNode {
   const words = useWords().restart;
   const { session } = useSession();
-  const { data, again } = useAsked((signal) => answered(server.GET("/api/procedure", { signal })), {
-    everyMs: ASK_EVERY_MS,
-  });
+  const { data, again } = useProcedureOften();
   const doing = useDo();
   const [needed, setNeeded] = useState(data?.confirmation ?? null);
   // A server that does not answer has not said that it is over either.

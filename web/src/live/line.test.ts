@@ -1,5 +1,4 @@
 import { beforeEach, expect, test } from "vitest";
-import { LONGEST_WAIT_MS, waitBeforeMs } from "./backoff";
 import { bytes, message } from "./builders";
 import { ViewLine, type Socket } from "./line";
 
@@ -53,10 +52,6 @@ beforeEach(() => {
   line.start();
 });
 
-test("waits grow, and never over half a second", () => {
-  expect([0, 1, 2, 3, 50].map(waitBeforeMs)).toEqual([100, 200, 400, 500, LONGEST_WAIT_MS]);
-});
-
 test("grants one image when it opens, and no other before it is told", () => {
   newest().onopen?.();
   newest().onmessage?.({ data: bytes(message()) });
@@ -106,24 +101,10 @@ test("a bad message costs the line, and nothing of it is shown", () => {
   expect(newest().closed).toBe(true);
 });
 
-test("a server that takes the call and never answers is left", () => {
-  passWait(2000);
-  expect(states).toEqual(["lost"]);
-  passWait(100);
-  expect(sockets).toHaveLength(2);
-});
-
 test("what a lost line still brings is not heard", () => {
   const old = newest();
   old.onopen?.();
   line.restart();
   expect(old.onmessage).toBeNull();
   expect(old.onclose).toBeNull();
-});
-
-test("a stopped line stays down", () => {
-  newest().onclose?.();
-  line.stop();
-  passWait(100);
-  expect(sockets).toHaveLength(1);
 });

@@ -7,20 +7,12 @@ import { Announcer } from "../panes/Announcer";
 import { useWords } from "../words/WordsContext";
 import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
-import { ProcedureProvider, useProcedure } from "./procedure";
+import { useProcedure } from "./procedure";
 import { StepHead } from "./StepHead";
 import { StepRail } from "./StepRail";
 
 /** The operator's view: the procedure step by step. */
 export function OperatorView(): ReactNode {
-  return (
-    <ProcedureProvider>
-      <Steps />
-    </ProcedureProvider>
-  );
-}
-
-function Steps(): ReactNode {
   const words = useWords();
   const [path] = useLocation();
   const { data } = useProcedure();

@@ -1,14 +1,9 @@
-// The line to /ws/room: opens, asks for the next message when one is dealt with, and comes back after a loss.
-import { waitBeforeMs } from "../live/backoff";
+// The line to /ws/room: asks for the next message when one is dealt with. `live/keptLine.ts` takes it up again.
+import { KeptLine, type KeptSocket } from "../live/keptLine";
 import type { RoomMessage, Said } from "./messages";
 
-export interface RoomSocket {
-  onopen: (() => void) | null;
-  onmessage: ((event: { data: unknown }) => void) | null;
-  onclose: (() => void) | null;
+export interface RoomSocket extends KeptSocket {
   readonly bufferedAmount: number;
-  send(text: string): void;
-  close(): void;
 }
 
 export interface RoomDoors {
@@ -24,87 +19,67 @@ export interface RoomDoors {
 export const SILENT_AFTER_MS = 3000;
 /** Marks that wait for a thin line would come too late: above this much unsent they are left out. */
 const MOST_UNSENT_BYTES = 4096;
+const NEXT = JSON.stringify({ next: true } satisfies Said);
 
 export class RoomLine {
-  private socket: RoomSocket | null = null;
-  private attempt = 0;
-  private stopped = true;
+  private readonly kept: KeptLine<RoomSocket>;
   private heardAtMs = 0;
 
-  constructor(private readonly doors: RoomDoors) {}
+  constructor(private readonly doors: RoomDoors) {
+    this.kept = new KeptLine<RoomSocket>({
+      open: () => {
+        this.heardAtMs = doors.now();
+        return doors.open();
+      },
+      later: (action, waitMs) => {
+        doors.later(action, waitMs);
+      },
+      onOpen: (socket) => {
+        socket.send(NEXT);
+      },
+      onData: (data) => {
+        this.take(data);
+      },
+      onLost: () => {
+        doors.onLine(false);
+      },
+    });
+  }
 
   start(): void {
-    this.stopped = false;
-    this.connect();
+    this.kept.start();
   }
 
   stop(): void {
-    this.stopped = true;
-    this.release();
+    this.kept.stop();
   }
 
   /** To be called now and then: a line on which nothing comes is taken anew. */
   look(): void {
-    if (!this.stopped && this.socket !== null && this.doors.now() - this.heardAtMs > SILENT_AFTER_MS) {
-      this.lose();
-    }
+    if (this.kept.socket !== null && this.doors.now() - this.heardAtMs > SILENT_AFTER_MS) this.kept.lose();
   }
 
   /** False where it did not go out: there is no line, or it is full. */
   say(said: Said): boolean {
-    const { socket } = this;
-    if (socket === null || this.attempt > 0 || socket.bufferedAmount > MOST_UNSENT_BYTES) return false;
+    const { socket } = this.kept;
+    if (socket === null || !this.kept.hasHeard || socket.bufferedAmount > MOST_UNSENT_BYTES) return false;
     socket.send(JSON.stringify(said));
     return true;
   }
 
-  private connect(): void {
-    if (this.stopped) return;
-    const socket = this.doors.open();
-    this.socket = socket;
-    this.heardAtMs = this.doors.now();
-    socket.onopen = () => {
-      socket.send(JSON.stringify({ next: true } satisfies Said));
-    };
-    socket.onmessage = ({ data }) => {
-      this.take(socket, data);
-    };
-    socket.onclose = () => {
-      this.lose();
-    };
-  }
-
-  private take(socket: RoomSocket, data: unknown): void {
+  private take(data: unknown): void {
     let message: RoomMessage;
     try {
       message = JSON.parse(String(data)) as RoomMessage;
     } catch {
-      this.lose();
+      this.kept.lose();
       return;
     }
     this.heardAtMs = this.doors.now();
-    this.attempt = 0;
+    this.kept.heard();
     this.doors.onLine(true);
     this.doors.onMessage(message);
-    if (this.socket === socket) socket.send(JSON.stringify({ next: true } satisfies Said));
-  }
-
-  private lose(): void {
-    this.release();
-    this.doors.onLine(false);
-    if (this.stopped) return;
-    const waitMs = waitBeforeMs(this.attempt);
-    this.attempt += 1;
-    this.doors.later(() => {
-      if (this.socket === null) this.connect();
-    }, waitMs);
-  }
-
-  private release(): void {
-    const { socket } = this;
-    this.socket = null;
-    if (socket === null) return;
-    socket.onopen = socket.onmessage = socket.onclose = null;
-    socket.close();
+    // Where hearing it has ended the line, there is none to ask for more.
+    this.kept.standing?.send(NEXT);
   }
 }

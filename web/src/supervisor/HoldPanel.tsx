@@ -4,6 +4,7 @@ import { RefusalNote } from "../rest/RefusalNote";
 import { useDo } from "../rest/useDo";
 import { useRoomWords } from "../room/RoomContext";
 import { useWords } from "../words/WordsContext";
+import { shownTime } from "./shownTime";
 import { TwoSteps } from "./TwoSteps";
 
 /** Asks those in theatre to hold: big, in two steps so that a slip does nothing. */
@@ -19,6 +20,7 @@ export function HoldPanel(): ReactNode {
       {asked.length > 0 && (
         <p className="hold-asked" role="status">
           <span aria-hidden="true">▲▲</span> {words.asked} <strong>{asked.join(", ")}</strong>
+          {hold?.since != null && ` (${words.since} ${shownTime(hold.since)})`}
         </p>
       )}
       {!mine && (

@@ -1,11 +1,13 @@
 import type { ReactNode } from "react";
 import { useSession } from "../app/session";
+import { Maker } from "../operator/parts/Maker";
 import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
 import { useDo } from "../rest/useDo";
 import type { Signable } from "../room/messages";
 import { useWords } from "../words/WordsContext";
 import { shownTime } from "./shownTime";
+import { SignatureLine } from "./SignatureLine";
 import { TwoSteps } from "./TwoSteps";
 
 /** What exactly is signed, by whom it was, and the way to sign it or to take that back. */
@@ -28,7 +30,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
         {words.title} <small>({words[signable.requirement]})</small>
       </h3>
       <p>
-        {words.signs} <b>{signable.title}</b>, {words.madeBy} {signable.made_by},{" "}
+        {words.signs} <b>{signable.title}</b>, {words.madeBy} <Maker of={signable} />,{" "}
         {shownTime(signable.made_at)}, {words.print}{" "}
         <code title={signable.sha256}>{signable.sha256.slice(0, 12)}</code>
       </p>
@@ -44,9 +46,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
         <ul>
           {signatures.map((one) => (
             <li key={one.id}>
-              <span aria-hidden="true">{one.second_person ? "✓" : "○"}</span> {words.signedBy} <b>{one.by}</b>
-              , {shownTime(one.at)}
-              {!one.second_person && ` · ${words.notSecond}`}
+              <SignatureLine of={one} />
             </li>
           ))}
         </ul>

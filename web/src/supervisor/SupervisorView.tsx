@@ -6,7 +6,6 @@ import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
-import { ProcedureProvider } from "../operator/procedure";
 import { AlertBand } from "../panes/AlertBand";
 import { Announcer } from "../panes/Announcer";
 import { NumbersPane } from "../panes/NumbersPane";
@@ -61,23 +60,21 @@ export function SupervisorView(): ReactNode {
           <HoldPanel />
           <NumbersPane />
         </div>
-        <ProcedureProvider>
-          <div className="supervisor-folds">
-            <Fold id="steps" title={own.steps.title} open>
-              <StepsShown />
-            </Fold>
-            <Signables />
-            <Fold id="log" title={own.log.title}>
-              <LogPanel />
-            </Fold>
-            <Fold id="audit" title={own.audit}>
-              <AuditLog />
-            </Fold>
-            <Fold id="scene" title={own.scene.title} aside={<span className="soft">{own.scene.hint}</span>}>
-              <ScenePane />
-            </Fold>
-          </div>
-        </ProcedureProvider>
+        <div className="supervisor-folds">
+          <Fold id="steps" title={own.steps.title} open>
+            <StepsShown />
+          </Fold>
+          <Signables />
+          <Fold id="log" title={own.log.title}>
+            <LogPanel />
+          </Fold>
+          <Fold id="audit" title={own.audit}>
+            <AuditLog />
+          </Fold>
+          <Fold id="scene" title={own.scene.title} aside={<span className="soft">{own.scene.hint}</span>}>
+            <ScenePane />
+          </Fold>
+        </div>
       </main>
       <Announcer />
     </div>

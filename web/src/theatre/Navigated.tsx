@@ -1,10 +1,10 @@
 import type { ReactNode } from "react";
+import { useProcedure } from "../app/procedure";
 import { useLive } from "../live/LiveContext";
 import { Fact } from "../panes/Fact";
 import { heardOf } from "../panes/heard";
 import { useWords } from "../words/WordsContext";
 import { checkText, registrationText } from "./standing";
-import { useStanding } from "./useStanding";
 
 /** Which case, level and side are navigated, how it was registered, and how old that and its check are. */
 export function Navigated(): ReactNode {
@@ -12,7 +12,7 @@ export function Navigated(): ReactNode {
   const { view } = useLive();
   const { linkState, snapshot } = heardOf(view);
   const isHeard = linkState === "open";
-  const procedure = useStanding();
+  const procedure = useProcedure().data;
   const known = isHeard ? procedure : null;
   const t = words.theatre;
   const registration = registrationText(snapshot, known, t);

@@ -2,11 +2,11 @@ import { expect, test } from "vitest";
 import { snapshot } from "../live/builders";
 import { theatreEn } from "../words/theatre/en";
 import { ageText, checkText, registrationText } from "./standing";
-import type { Standing } from "./useStanding";
+import type { Procedure } from "../app/procedure";
 
-type State = Standing["steps"][number]["state"];
+type State = Procedure["steps"][number]["state"];
 
-function standing(check: State, checkAgeMin: number | null = 3): Standing {
+function standing(check: State, checkAgeMin: number | null = 3): Procedure {
   const step = { said: "", remedy: "", document_id: null, allowed: true, lacks: null };
   return {
     case_id: "c1",

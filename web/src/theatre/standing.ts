@@ -2,7 +2,7 @@
 import type { SnapshotMessage } from "../live/messages";
 import type { Mood } from "../panes/Fact";
 import type { TheatreWords } from "../words/theatre/en";
-import type { Standing } from "./useStanding";
+import type { Procedure } from "../app/procedure";
 
 export interface Said {
   value: string;
@@ -15,7 +15,7 @@ const HOURS_FROM = 100;
 /** How plan and patient were registered, as the newest image says, and when, as the case says. */
 export function registrationText(
   snapshot: SnapshotMessage | null,
-  standing: Standing | null,
+  standing: Procedure | null,
   words: TheatreWords,
 ): Said | null {
   if (snapshot === null) return null;
@@ -28,7 +28,7 @@ export function registrationText(
 /** Whether the tip was held on a landmark since; null where there is nothing to be checked. */
 export function checkText(
   snapshot: SnapshotMessage | null,
-  standing: Standing | null,
+  standing: Procedure | null,
   words: TheatreWords,
 ): Said | null {
   const step = standing?.steps.find((one) => one.step === "check") ?? null;
@@ -54,7 +54,7 @@ export function ageText(minutes: number | null, words: TheatreWords): string {
   return `${Math.floor(minutes / MINUTES_OF_HOUR)} ${words.hoursAgo}`;
 }
 
-function numberOf(standing: Standing | null, step: "register" | "check", name: string): number | null {
+function numberOf(standing: Procedure | null, step: "register" | "check", name: string): number | null {
   const value = standing?.steps.find((one) => one.step === step)?.numbers[name];
   return typeof value === "number" ? value : null;
 }

@@ -6,6 +6,7 @@ import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
+import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
 import { shownTime } from "../parts/shown";
 import { StandsOn } from "../parts/StandsOn";
@@ -41,7 +42,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
         <>
           <StandsOn heading={check.heading} documents={[]} />
           <p className="soft">
-            {shownTime(check.heading.made_at, all.language)} · {check.heading.made_by}
+            {shownTime(check.heading.made_at, all.language)} · <Maker of={check.heading} />
           </p>
           <dl className="measures">
             <Measure

@@ -4,6 +4,7 @@ import { shownFigure } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
+import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
 import { filled, sentence, shownTime } from "../parts/shown";
 import { StandsOn } from "../parts/StandsOn";
@@ -26,8 +27,8 @@ export function CalibrationReport({ caseId, kept, gate }: CalibrationReportProps
     <Card title={words.reportTitle} testId="calibration">
       <StandsOn heading={kept.heading} documents={[]} />
       <p className="soft">
-        {shownTime(kept.heading.made_at, all.language)} · {kept.heading.made_by} · {report.sizePx.join(" × ")}{" "}
-        px
+        {shownTime(kept.heading.made_at, all.language)} · <Maker of={kept.heading} /> ·{" "}
+        {report.sizePx.join(" × ")} px
       </p>
       <dl className="measures">
         <Measure

@@ -5,6 +5,7 @@ import { RefusalNote } from "../../rest/RefusalNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
+import { Maker } from "../parts/Maker";
 import { TwiceButton } from "../parts/TwiceButton";
 import { useMaker } from "../parts/useMaker";
 import type { MarkerGate } from "./Markers";
@@ -53,9 +54,13 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
           <strong className="case-name">{marker.name}</strong>{" "}
           <span className="soft">
             {words.camera.side} {marker.side_mm} mm ·{" "}
-            {marker.document_id === null
-              ? words.camera.ofSettings
-              : `${words.camera.ofCase}, ${marker.made_by ?? ""}`}
+            {marker.document_id === null ? (
+              words.camera.ofSettings
+            ) : (
+              <>
+                {words.camera.ofCase}, <Maker of={marker} />
+              </>
+            )}
           </span>
         </p>
         <p className={seen === null ? "bad" : "good"}>{state}</p>

@@ -6,6 +6,7 @@ import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
+import { Maker } from "../parts/Maker";
 import { sentence, shownTime } from "../parts/shown";
 import { newestOf } from "./newest";
 
@@ -88,7 +89,10 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
         )}
       </Table.Td>
       <Table.Td>
-        {shownTime(heading.made_at, words.language)} <span className="soft">· {heading.made_by}</span>
+        {shownTime(heading.made_at, words.language)}{" "}
+        <span className="soft">
+          · <Maker of={heading} />
+        </span>
       </Table.Td>
     </Table.Tr>
   );

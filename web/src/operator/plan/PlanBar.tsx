@@ -3,6 +3,7 @@ import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
 import { useWords } from "../../words/WordsContext";
+import { Maker } from "../parts/Maker";
 import { PartTabs } from "./PartTabs";
 import { usePlanning } from "./state/PlanContext";
 import { useWork } from "./state/WorkContext";
@@ -72,7 +73,7 @@ export function PlanBar(): ReactNode {
           closeButtonLabel={words.close}
           onClose={forget}
         >
-          {words.conflict.by} {conflict.made_by} · {words.version} {conflict.version}.{" "}
+          {words.conflict.by} <Maker of={conflict} /> · {words.version} {conflict.version}.{" "}
           {words.conflict.sentence}
         </Alert>
       )}

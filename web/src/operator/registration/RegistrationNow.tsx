@@ -5,6 +5,7 @@ import { answered, server } from "../../rest/client";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
+import { Maker } from "../parts/Maker";
 import { useProcedure } from "../procedure";
 import { filled } from "./filled";
 import { Refused } from "./Refused";
@@ -46,7 +47,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
         </Badge>
       </h3>
       <p>
-        {words.method[data.method]} · {heading.made_by} · {timeOf(heading.made_at)} ·{" "}
+        {words.method[data.method]} · <Maker of={heading} /> · {timeOf(heading.made_at)} ·{" "}
         {data.reference === null
           ? words.now.toCamera
           : filled(words.now.toMarker, { marker: data.reference })}

@@ -3,6 +3,7 @@ import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { newestOf } from "../case/newest";
+import { Maker } from "../parts/Maker";
 import { sentence, shownTime } from "../parts/shown";
 
 /** What was made, by whom and when, and whether it holds. */
@@ -41,7 +42,9 @@ export function DocumentsReport({
                       : `! ${sentence(one.out_of_date ?? "")}`}
                   </Table.Td>
                   <Table.Td>{shownTime(one.made_at, words.language)}</Table.Td>
-                  <Table.Td>{one.made_by}</Table.Td>
+                  <Table.Td>
+                    <Maker of={one} />
+                  </Table.Td>
                 </Table.Tr>
               ))}
             </Table.Tbody>

@@ -12,6 +12,7 @@ import { useProcedure } from "../procedure";
 import { Alarms } from "./Alarms";
 import { DocumentsReport } from "./DocumentsReport";
 import { PlanReport } from "./PlanReport";
+import { SignaturesReport } from "./SignaturesReport";
 import { StepsReport } from "./StepsReport";
 
 /** What the case has, on paper: steps with their numbers, plan, registration, check, alarms. */
@@ -83,6 +84,7 @@ function Report({ caseId }: { caseId: string }): ReactNode {
         </header>
         <StepsReport />
         {plan !== null && <PlanReport caseId={caseId} heading={plan} />}
+        <SignaturesReport />
         <DocumentsReport documents={documents} />
         <Alarms />
       </article>

@@ -3,6 +3,7 @@ import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
+import { Maker } from "../parts/Maker";
 import { Measure } from "../parts/Measure";
 import { StandsOn } from "../parts/StandsOn";
 import { shownTime } from "../parts/shown";
@@ -33,7 +34,8 @@ export function ToolCard({ tool, gate, documents, busy, onBegin }: ToolCardProps
         <>
           <StandsOn heading={tool.kept.heading} documents={documents} />
           <p className="soft">
-            {words.made} {shownTime(tool.kept.heading.made_at, all.language)} · {tool.kept.heading.made_by}
+            {words.made} {shownTime(tool.kept.heading.made_at, all.language)} ·{" "}
+            <Maker of={tool.kept.heading} />
           </p>
         </>
       )}

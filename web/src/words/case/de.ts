@@ -70,6 +70,10 @@ export const caseDe: CaseWords = {
     signature: "Gegenzeichnung",
     audit: "Protokoll",
   },
+  maker: {
+    saysArchive: "laut Archiv",
+    takenIn: "übernommen von",
+  },
   filesTitle: "Dateien",
   filesCount: "{count} Dateien, {size}",
   verify: "Alle Dateien prüfen",

@@ -63,6 +63,10 @@ export const caseEn = {
     signature: "Co-signature",
     audit: "Log",
   },
+  maker: {
+    saysArchive: "says the archive",
+    takenIn: "taken in by",
+  },
   filesTitle: "Files",
   filesCount: "{count} files, {size}",
   verify: "Verify all files",

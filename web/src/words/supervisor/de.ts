@@ -21,6 +21,7 @@ export const supervisorDe: SupervisorWords = {
     sure: "Ja, sie sollen innehalten",
     hint: "Löst im Saal einen Alarm aus. Von selbst hält dadurch nichts an.",
     asked: "Um Innehalten bittet",
+    since: "seit",
     release: "Bitte zurücknehmen",
     releaseAll: "Bitte für alle zurücknehmen",
     othersOnly: "Zurücknehmen kann sie, wer gebeten hat, oder die Bedienung.",
@@ -90,6 +91,8 @@ export const supervisorDe: SupervisorWords = {
     changed: "Seit der Unterschrift wurde etwas geändert: Sie gilt nicht mehr.",
     outOfDate: "Veraltet, deshalb nicht zu unterschreiben",
     notSecond: "nicht sicher eine zweite Person",
+    invitedBy: "eingeladen von",
+    invitedByMaker: "eingeladen von {name}, und das Gezeichnete stammt von {name}",
     anybody:
       "An diesem Server meldet sich niemand an; eine Unterschrift zählt deshalb nicht als die einer zweiten Person.",
     done: "gegengezeichnet",

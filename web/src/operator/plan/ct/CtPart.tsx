@@ -2,6 +2,7 @@ import { useState, type ReactNode } from "react";
 import { Alert, Button } from "@mantine/core";
 import { shownNumber } from "../../../live/rounding";
 import { useWords } from "../../../words/WordsContext";
+import { Maker } from "../../parts/Maker";
 import { useSlices } from "../slices/SlicesContext";
 import { CtIntake } from "./CtIntake";
 
@@ -25,7 +26,7 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
         <dd>{ct.spacing_mm.map((one) => shownNumber(one, 2)).join(" × ")} mm</dd>
         <dt>{words.madeBy}</dt>
         <dd>
-          {ct.heading.made_by}, {new Date(ct.heading.made_at).toLocaleString()}
+          <Maker of={ct.heading} />, {new Date(ct.heading.made_at).toLocaleString()}
         </dd>
       </dl>
       {ct.warnings.map((warning) => (

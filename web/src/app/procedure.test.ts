@@ -1,0 +1,13 @@
+import { expect, test } from "vitest";
+
+/** The text of every source file of the page, by its path from here; without tests. */
+const TEXTS = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.*", "!../schema.d.ts"], {
+  query: "?raw",
+  import: "default",
+  eager: true,
+});
+
+test("how the procedure stands is asked for in one place, and shared by all that show it", () => {
+  const asking = Object.entries(TEXTS).filter(([, text]) => text.includes('"/api/procedure"'));
+  expect(asking.map(([file]) => file)).toEqual(["./procedure.tsx"]);
+});

@@ -1,0 +1,62 @@
+// How the procedure stands, asked of the server once for everything on the page, and often enough that no gate
+// looks open that is shut.
+import { createContext, use, useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
+import { answered, server } from "../rest/client";
+import { useAsked, type Asked } from "../rest/useAsked";
+import type { components } from "../schema";
+import type { ViewName } from "./views";
+
+export type Procedure = components["schemas"]["ProcedureMessage"];
+export type Step = components["schemas"]["StepMessage"];
+
+const OFTEN_MS = 1000;
+/** On a screen that is only looked at: what moves quickly comes with each image. */
+const SELDOM_MS = 4000;
+
+interface SharedAsking extends Asked<Procedure> {
+  /** From now on it is asked for often, until what this gives is called. */
+  hurry: () => () => void;
+}
+
+const ProcedureContext = createContext<SharedAsking | null>(null);
+
+export function ProcedureProvider({ view, children }: { view: ViewName; children: ReactNode }): ReactNode {
+  const [hurried, setHurried] = useState(0);
+  const asked = useAsked((signal) => answered(server.GET("/api/procedure", { signal })), {
+    everyMs: view === "theatre" && hurried === 0 ? SELDOM_MS : OFTEN_MS,
+  });
+  const hurry = useCallback(() => {
+    setHurried((before) => before + 1);
+    return () => {
+      setHurried((before) => before - 1);
+    };
+  }, []);
+  const { data, refusal, asking, again } = asked;
+  const shared = useMemo(
+    () => ({ data, refusal, asking, again, hurry }),
+    [data, refusal, asking, again, hurry],
+  );
+  return <ProcedureContext value={shared}>{children}</ProcedureContext>;
+}
+
+function useShared(): SharedAsking {
+  const value = use(ProcedureContext);
+  if (value === null) throw new Error("useProcedure stands outside ProcedureProvider");
+  return value;
+}
+
+/** As the page asks for it anyway. */
+export function useProcedure(): Asked<Procedure> {
+  return useShared();
+}
+
+/** Asked for often as long as this stands on the page, and at once when it comes. */
+export function useProcedureOften(): Asked<Procedure> {
+  const shared = useShared();
+  const { hurry, again } = shared;
+  useEffect(() => {
+    again();
+    return hurry();
+  }, [hurry, again]);
+  return shared;
+}

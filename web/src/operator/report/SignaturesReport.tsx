@@ -1,0 +1,41 @@
+import type { ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useAsked } from "../../rest/useAsked";
+import { SignatureLine } from "../../supervisor/SignatureLine";
+import { useWords } from "../../words/WordsContext";
+import { Maker } from "../parts/Maker";
+
+/** Who signed plan and registration, and who had invited them. */
+export function SignaturesReport(): ReactNode {
+  const words = useWords().supervisor.sign;
+  const { data, refusal } = useAsked((signal) =>
+    answered(server.GET("/api/supervision/signatures", { signal })),
+  );
+  const there = data?.signable.filter((one) => one.document_id !== null) ?? [];
+  if (refusal !== null) return <RefusalNote refusal={refusal} />;
+  if (there.length === 0) return null;
+  return (
+    <section className="stack" data-testid="report-signatures">
+      <h4>{words.title}</h4>
+      {there.map((signable) => (
+        <div key={signable.what}>
+          <p>
+            <b>{signable.title}</b>, {words.madeBy} <Maker of={signable} />
+          </p>
+          {signable.signatures.length === 0 ? (
+            <p className="soft">{words.none}</p>
+          ) : (
+            <ul>
+              {signable.signatures.map((one) => (
+                <li key={one.id}>
+                  <SignatureLine of={one} />
+                </li>
+              ))}
+            </ul>
+          )}
+        </div>
+      ))}
+    </section>
+  );
+}
