@@ -95,6 +95,7 @@ def marks_reach(theatre: Page, sato: Page) -> None:
     for turn in range(1000):
         sato.mouse.move(*on_picture(sato, 900 + turn % 2, 500))
         if is_painted(marks, 900, 500):
+            assert is_painted(own, 900, 500), "who points sees nothing of it"
             break
     else:
         pytest.fail("the pointer did not appear in theatre")

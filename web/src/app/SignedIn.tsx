@@ -1,8 +1,12 @@
-import { Button, Modal } from "@mantine/core";
+import { Alert, Button, Modal } from "@mantine/core";
 import { useState, type ReactNode } from "react";
+import { Link } from "wouter";
+import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
+import { useAsked } from "../rest/useAsked";
 import { useDo } from "../rest/useDo";
 import { useWords } from "../words/WordsContext";
+import { isOnlyOperator } from "./onlyOperator";
 import { useSession } from "./session";
 
 /** Who is signed in, and the way out; nothing where nobody has to sign in. */
@@ -11,7 +15,14 @@ export function SignedIn(): ReactNode {
   const { session, leave } = useSession();
   const [asked, setAsked] = useState(false);
   const { busy, refusal, run, forget } = useDo();
+  const isOperator = session.state === "in" && session.who.role === "operator";
+  const { data: people, refusal: silent } = useAsked(
+    async (signal) => (asked && isOperator ? answered(server.GET("/api/people", { signal })) : null),
+    { key: String(asked && isOperator) },
+  );
   if (session.state !== "in" || !session.required) return null;
+  const isUnknown = isOperator && people === null && silent === null;
+  const isOnly = people !== null && isOnlyOperator(people);
   const { name, role } = session.who;
   const close = (): void => {
     setAsked(false);
@@ -30,14 +41,30 @@ export function SignedIn(): ReactNode {
         {name} · {words.role[role]}
       </Button>
       <Modal opened={asked} onClose={close} title={words.leaveTitle} centered withCloseButton={false}>
-        <p>{words.leaveSentence}</p>
+        {isOnly ? (
+          <Alert className="consequence" title={words.onlyTitle} role="alert" data-testid="only-operator">
+            <p>{words.onlySentence}</p>
+            <Link className="big-link" href="/operator/people" onClick={close}>
+              {words.onlyInvite}
+            </Link>
+          </Alert>
+        ) : (
+          <p>{words.leaveSentence}</p>
+        )}
         <RefusalNote refusal={refusal} />
         <div className="enter-choices">
-          <Button size="lg" variant="default" onClick={close}>
+          <Button size="lg" variant={isOnly ? "filled" : "default"} onClick={close}>
             {words.stay}
           </Button>
-          <Button size="lg" loading={busy} onClick={() => void run(leave)} data-testid="sign-out">
-            {words.leave}
+          <Button
+            size="lg"
+            variant={isOnly ? "default" : "filled"}
+            // Whether anybody else can come back is known in a moment; until then a slip must not sign out.
+            loading={busy || isUnknown}
+            onClick={() => void run(leave)}
+            data-testid="sign-out"
+          >
+            {isOnly ? words.leaveAnyway : words.leave}
           </Button>
         </div>
       </Modal>

@@ -7,7 +7,7 @@ const TEXTS = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.*", "
   eager: true,
 });
 
-test("how the procedure stands is asked for in one place, and shared by all that show it", () => {
+test("how the procedure stands is asked for in one place, but for the report, which is of one moment", () => {
   const asking = Object.entries(TEXTS).filter(([, text]) => text.includes('"/api/procedure"'));
-  expect(asking.map(([file]) => file)).toEqual(["./procedure.tsx"]);
+  expect(asking.map(([file]) => file)).toEqual(["../operator/report/ReportPage.tsx", "./procedure.tsx"]);
 });

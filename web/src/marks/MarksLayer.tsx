@@ -115,6 +115,7 @@ export function MarksLayer(): ReactNode {
     const at: Point = [clamped(x + far * step[0], size.width), clamped(y + far * step[1], size.height)];
     key.current = at;
     marking.hand.point(at, moment, performance.now());
+    board.current?.ask();
   };
 
   const shared = { className: "marks-layer", "data-testid": "marks", ref: canvas };
@@ -130,8 +131,10 @@ export function MarksLayer(): ReactNode {
       onPointerDown={down}
       onPointerUp={up}
       onPointerCancel={up}
-      onPointerLeave={() => {
-        marking.hand.lift();
+      onPointerLeave={({ pointerType }) => {
+        // A finger leaves with every tap: where it pointed stays until it goes by itself.
+        if (pointerType !== "touch") marking.hand.lift();
+        board.current?.ask();
       }}
       onKeyDown={steer}
     />

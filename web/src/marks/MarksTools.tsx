@@ -1,26 +1,19 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
+import { shownNumber } from "../live/rounding";
 import { useRoomWords } from "../room/RoomContext";
+import { Icon } from "../panes/Icon";
 import { useWords } from "../words/WordsContext";
 import type { Tool } from "./hand";
 import { useMarking } from "./MarkingContext";
 
 const TOOLS: readonly Tool[] = ["point", "pen", "arrow", "circle"];
-const SYMBOL: Record<Tool | "undo" | "clear" | "clearAll", string> = {
-  point: "●",
-  pen: "✎",
-  arrow: "➚",
-  circle: "◯",
-  undo: "↶",
-  clear: "✕",
-  clearAll: "✕✕",
-};
 
 /** What the hand does on the video, and how it is taken back. */
 export function MarksTools(): ReactNode {
   const words = useWords().marks;
   const marking = useMarking();
-  const { stands, you } = useRoomWords();
+  const { stands, you, fadesAfterS } = useRoomWords();
   const { view } = useLive();
   if (marking === null) return null;
   const trouble = !stands ? words.lineGone : !view.video.live ? words.noPicture : "";
@@ -36,7 +29,7 @@ export function MarksTools(): ReactNode {
             marking.choose(tool);
           }}
         >
-          <span aria-hidden="true">{SYMBOL[tool]}</span> {words.tool[tool]}
+          <Icon name={tool} /> {words.tool[tool]}
         </button>
       ))}
       <button
@@ -47,7 +40,7 @@ export function MarksTools(): ReactNode {
           marking.hand.undo();
         }}
       >
-        <span aria-hidden="true">{SYMBOL.undo}</span> {words.undo}
+        <Icon name="undo" /> {words.undo}
       </button>
       <button
         type="button"
@@ -57,7 +50,7 @@ export function MarksTools(): ReactNode {
           marking.hand.clear("own");
         }}
       >
-        <span aria-hidden="true">{SYMBOL.clear}</span> {words.clear}
+        <Icon name="cross" /> {words.clear}
       </button>
       {you?.role === "operator" && (
         <button
@@ -68,11 +61,15 @@ export function MarksTools(): ReactNode {
             marking.hand.clear("all");
           }}
         >
-          <span aria-hidden="true">{SYMBOL.clearAll}</span> {words.clearAll}
+          <Icon name="cross" /> {words.clearAll}
         </button>
       )}
       <p role="status" className="marks-trouble">
-        {trouble === "" ? words.seenBy : `▲ ${trouble}`}
+        {trouble !== ""
+          ? `▲ ${trouble}`
+          : fadesAfterS === null
+            ? words.seenBy
+            : `${words.seenBy} ${words.fades.replace("#", shownNumber(fadesAfterS, 0))}`}
       </p>
     </div>
   );

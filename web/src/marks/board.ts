@@ -59,7 +59,9 @@ export class Board {
     );
     const pointers = state.pointers.filter((one) => one.seat !== you);
     canvas.dataset["marks"] = String(state.marks.length);
+    const pointed = this.hand()?.pointed(nowMs) ?? null;
     canvas.dataset["pointers"] = String(pointers.length);
+    canvas.dataset["pointed"] = String(pointed !== null);
     this.fit(context);
     if (placement === null) return;
     const pen: Pen = { context, placement, width: canvas.clientWidth };
@@ -72,7 +74,8 @@ export class Board {
       paintMark(pen, { ...one, seat: you, name: state.you?.name ?? "", strength: 1, age: "" });
     }
     for (const pointer of pointers) paintPointer(pen, pointer);
-    if (state.marks.length + own.length + pointers.length > 0) {
+    if (pointed !== null) paintPointer(pen, { ...pointed, seat: you, name: state.you?.name ?? "" });
+    if (state.marks.length + own.length + pointers.length > 0 || pointed !== null) {
       this.timer = setTimeout(() => {
         this.ask();
       }, AGAIN_AFTER_MS);

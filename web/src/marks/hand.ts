@@ -1,5 +1,6 @@
 // A hand that points and draws: from where it goes to what is said. Pure: time and image are handed in.
 import type { Moment, Point, Said, Shape } from "../room/messages";
+import { POINTER_GOES_AFTER_MS } from "../room/roomState";
 
 export type Tool = "point" | Shape;
 
@@ -22,6 +23,12 @@ const MOST_A_MESSAGE = 50;
 const MOST_A_DRAWING = 380;
 const FORGOTTEN_AFTER_MS = 3000;
 
+/** Where the others see this hand point. */
+export interface Pointed {
+  at: Point;
+  goesAtMs: number;
+}
+
 export class Hand {
   readonly own: Own[] = [];
   private key = 0;
@@ -31,6 +38,8 @@ export class Hand {
   private moment: Moment | null = null;
   /** Where the hand is, while that was not said. */
   private rests: { at: Point; moment: Moment } | null = null;
+
+  private told: Pointed | null = null;
 
   constructor(private readonly say: (said: Said) => boolean) {}
 
@@ -45,13 +54,21 @@ export class Hand {
     if (rests !== null && nowMs - this.pointedAtMs >= POINT_EVERY_MS) {
       this.pointedAtMs = nowMs;
       this.rests = null;
-      this.say({ point: { at_px: rests.at, ...rests.moment } });
+      const isTold = this.say({ point: { at_px: rests.at, ...rests.moment } });
+      // What nobody was told of is not shown here either.
+      this.told = isTold ? { at: rests.at, goesAtMs: nowMs + POINTER_GOES_AFTER_MS } : null;
     }
     if (drawing?.shape === "pen" && nowMs - this.saidAtMs >= EXTEND_EVERY_MS) this.tellPen(drawing, nowMs);
   }
 
+  /** Null once it is gone for the others, too. */
+  pointed(nowMs: number): Pointed | null {
+    return this.told !== null && this.told.goesAtMs > nowMs ? this.told : null;
+  }
+
   lift(): void {
     this.rests = null;
+    this.told = null;
     this.say({ lift: true });
   }
 

@@ -59,6 +59,25 @@ describe("a hand", () => {
     expect(said).toHaveLength(3);
   });
 
+  test("is seen here where the others see it, for as long, and not where nobody was told", () => {
+    let open = true;
+    const { made } = hand(() => open);
+    expect(made.pointed(0)).toBeNull();
+    made.point([1, 1], MOMENT, 0);
+    made.point([2, 2], MOMENT, 10);
+    expect(made.pointed(20)?.at).toEqual([1, 1]);
+    made.flush(50);
+    expect(made.pointed(60)?.at).toEqual([2, 2]);
+    expect(made.pointed(2049)).not.toBeNull();
+    expect(made.pointed(2050)).toBeNull();
+    made.point([3, 3], MOMENT, 3000);
+    made.lift();
+    expect(made.pointed(3001)).toBeNull();
+    open = false;
+    made.point([4, 4], MOMENT, 4000);
+    expect(made.pointed(4001)).toBeNull();
+  });
+
   test("says a pen's line in parts that make the whole", () => {
     const { made, said } = hand();
     made.down("pen", [0, 0], MOMENT, 0);

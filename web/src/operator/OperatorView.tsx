@@ -3,13 +3,13 @@ import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
-import { Announcer } from "../panes/Announcer";
 import { useWords } from "../words/WordsContext";
 import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
 import { useProcedure } from "./procedure";
 import { StepHead } from "./StepHead";
 import { StepRail } from "./StepRail";
+import { useBandHeight } from "./useBandHeight";
 
 /** The operator's view: the procedure step by step. */
 export function OperatorView(): ReactNode {
@@ -17,6 +17,7 @@ export function OperatorView(): ReactNode {
   const [path] = useLocation();
   const { data } = useProcedure();
   const next = data?.case_id == null ? "case" : data.next_step;
+  const band = useBandHeight<HTMLDivElement>();
   const page = pageAt(path) ?? PAGES.find((one) => one.step === next || one.name === next) ?? null;
   return (
     <div className="operator">
@@ -24,7 +25,9 @@ export function OperatorView(): ReactNode {
         {words.operator.skip}
       </a>
       <OperatorTop />
-      <AlarmBand />
+      <div className="operator-band" ref={band}>
+        <AlarmBand />
+      </div>
       <ConfirmRestart />
       <AlertBand />
       <div className="operator-body">
@@ -38,7 +41,6 @@ export function OperatorView(): ReactNode {
           )}
         </main>
       </div>
-      <Announcer />
     </div>
   );
 }

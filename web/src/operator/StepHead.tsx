@@ -1,10 +1,14 @@
-import type { ReactNode } from "react";
+import { useEffect, useRef, type ReactNode, type RefObject } from "react";
+import { useLocation } from "wouter";
 import { RefusalNote } from "../rest/RefusalNote";
 import { useWords } from "../words/WordsContext";
 import { NextStep } from "./NextStep";
 import type { OperatorPage } from "./pages";
+import { useGates } from "./parts/useGates";
+import { bringIntoView } from "./parts/useIntoView";
 import { useProcedure } from "./procedure";
 import { MARK_OF_STATE } from "./stepMarks";
+import { stateWord, stepNote } from "./stepWords";
 
 /** A remedy that names an address of the API is for programs: whoever is here has the page's own buttons. */
 const FOR_MACHINES = "/api/";
@@ -13,9 +17,12 @@ const FOR_MACHINES = "/api/";
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const words = useWords().operator;
   const { data, refusal } = useProcedure();
+  const gates = useGates();
+  const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
+  const note = step === null ? "" : stepNote(step, gates?.registration.least_points ?? null, words);
   return (
-    <header className="step-head">
+    <header className="step-head" ref={head}>
       <div className="step-title">
         <h2>{words.page[page.name]}</h2>
         <NextStep page={page} />
@@ -24,10 +31,15 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
       {step !== null && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>
-            <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {words.state[step.state]}
+            <span aria-hidden="true">{MARK_OF_STATE[step.state]}</span> {stateWord(step, words)}
           </strong>{" "}
           {/* The server speaks English. */}
           <span lang="en">{sentence(step.said)}</span>
+          {note !== "" && (
+            <span className="step-remedy" data-testid="step-note">
+              ▲ {note}
+            </span>
+          )}
           {step.remedy !== "" && !step.remedy.includes(FOR_MACHINES) && (
             <span className="step-remedy" lang="en">
               {step.remedy}
@@ -37,6 +49,19 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
       )}
     </header>
   );
+}
+
+/** Whoever goes on to another step begins at its head, wherever the last one was left. */
+function useArrival(): RefObject<HTMLElement | null> {
+  const [path] = useLocation();
+  const head = useRef<HTMLElement>(null);
+  const before = useRef(path);
+  useEffect(() => {
+    if (before.current === path || head.current === null) return;
+    before.current = path;
+    bringIntoView(head.current);
+  }, [path]);
+  return head;
 }
 
 /** The server's sentences begin small and have no full stop. */

@@ -4,6 +4,7 @@ import { useWords } from "../words/WordsContext";
 import { PAGES, type OperatorPage } from "./pages";
 import { useProcedure, type Step } from "./procedure";
 import { MARK_OF_STATE } from "./stepMarks";
+import { stateWord } from "./stepWords";
 
 type Mark = Step["state"] | "none";
 
@@ -30,7 +31,7 @@ export function StepRail({ now }: { now: OperatorPage | null }): ReactNode {
                 </span>
                 <span className="rail-name">{words.page[page.name]}</span>
                 <span className="rail-state">
-                  {step === null ? "" : words.state[step.state]}
+                  {step === null ? "" : stateWord(step, words)}
                   {step !== null && !step.allowed && ` · ${words.locked}`}
                   {isNext && ` · ${words.now}`}
                 </span>

@@ -5,7 +5,7 @@ import { useWords } from "../words/WordsContext";
 /** A state must last this long before it is read out: what flickers is not worth a voice. */
 const LASTS_MS = 700;
 
-/** Reads changes of state out, never numbers. */
+/** Beside a live picture: reads changes of its state out, never numbers. */
 export function Announcer(): ReactNode {
   const words = useWords();
   const { video, numbers } = useLive().view;

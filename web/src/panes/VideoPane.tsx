@@ -4,6 +4,7 @@ import { useLive, usePainter } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
 import { useWords } from "../words/WordsContext";
+import { Announcer } from "./Announcer";
 import { Cover } from "./Cover";
 import { clearPicture, drawPicture } from "./drawPicture";
 import { Moves } from "./Moves";
@@ -93,6 +94,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           />
         </div>
       </div>
+      <Announcer />
     </Pane>
   );
 }

@@ -4,7 +4,14 @@ import type { ViewName } from "../app/views";
 import { Room, type RoomWords } from "./room";
 
 const RoomContext = createContext<Room | null>(null);
-const ALONE: RoomWords = { stands: false, you: null, people: [], hold: null, signable: null };
+const ALONE: RoomWords = {
+  stands: false,
+  you: null,
+  people: [],
+  hold: null,
+  fadesAfterS: null,
+  signable: null,
+};
 const never = (): (() => void) => () => undefined;
 const alone = (): RoomWords => ALONE;
 

@@ -10,6 +10,7 @@ export interface RoomWords {
   you: You | null;
   people: readonly Person[];
   hold: Hold | null;
+  fadesAfterS: number | null;
   signable: readonly Signable[] | null;
 }
 
@@ -17,7 +18,7 @@ const LOOK_EVERY_MS = 500;
 
 export class Room {
   private state: RoomState = NOBODY;
-  private said: RoomWords = { stands: false, you: null, people: [], hold: null, signable: null };
+  private said: RoomWords = { stands: false, ...wordsOf(NOBODY) };
   private readonly listeners = new Set<() => void>();
   private readonly painters = new Set<() => void>();
   private readonly line: RoomLine;
@@ -92,8 +93,8 @@ export class Room {
   }
 }
 
-function wordsOf({ you, people, hold, signable }: RoomState): Omit<RoomWords, "stands"> {
-  return { you, people, hold, signable };
+function wordsOf({ you, people, hold, fadesAfterS, signable }: RoomState): Omit<RoomWords, "stands"> {
+  return { you, people, hold, fadesAfterS, signable };
 }
 
 function addressOf(view: ViewName): string {

@@ -28,6 +28,8 @@ export interface RoomState {
   pointers: readonly Pointer[];
   marks: readonly Mark[];
   hold: Hold | null;
+  /** How long a drawing stays, counted from the image that it was made on; null until it was told. */
+  fadesAfterS: number | null;
   /** Null where nothing is kept, or nothing was told yet. */
   signable: readonly Signable[] | null;
 }
@@ -38,6 +40,7 @@ export const NOBODY: RoomState = {
   pointers: [],
   marks: [],
   hold: null,
+  fadesAfterS: null,
   signable: null,
 };
 
@@ -53,6 +56,7 @@ export function afterMessage(state: RoomState, message: RoomMessage, nowMs: numb
     })),
     marks: marksAfter(state.marks, message, nowMs),
     hold: message.hold,
+    fadesAfterS: message.fades_after_s,
     signable: message.signable ?? state.signable,
   };
 }

@@ -4,12 +4,13 @@ import { RefusalNote } from "../rest/RefusalNote";
 import { useDo } from "../rest/useDo";
 import { useRoomWords } from "../room/RoomContext";
 import { useWords } from "../words/WordsContext";
-import { shownTime } from "./shownTime";
+import { shownTime } from "../operator/parts/shown";
 import { TwoSteps } from "./TwoSteps";
 
 /** Asks those in theatre to hold: big, in two steps so that a slip does nothing. */
 export function HoldPanel(): ReactNode {
-  const words = useWords().supervisor.hold;
+  const all = useWords();
+  const words = all.supervisor.hold;
   const { hold, you } = useRoomWords();
   const { busy, refusal, run } = useDo();
   const asked = hold?.asked_by ?? [];
@@ -20,7 +21,7 @@ export function HoldPanel(): ReactNode {
       {asked.length > 0 && (
         <p className="hold-asked" role="status">
           <span aria-hidden="true">▲▲</span> {words.asked} <strong>{asked.join(", ")}</strong>
-          {hold?.since != null && ` (${words.since} ${shownTime(hold.since)})`}
+          {hold?.since != null && ` (${words.since} ${shownTime(hold.since, all.language)})`}
         </p>
       )}
       {!mine && (

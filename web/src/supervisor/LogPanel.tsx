@@ -1,10 +1,10 @@
 import type { ReactNode } from "react";
+import { shownSecond } from "../operator/parts/shown";
 import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
 import { useAsked } from "../rest/useAsked";
 import { useWords } from "../words/WordsContext";
 import type { Words } from "../words/en";
-import { shownTime } from "./shownTime";
 
 type Line = Record<string, unknown>;
 
@@ -27,7 +27,7 @@ export function LogPanel(): ReactNode {
       <ul className="log" data-testid="log">
         {[...(data?.lines ?? [])].reverse().map((line, index) => (
           <li key={`${text(line, "at")} ${index}`}>
-            <time>{shownTime(text(line, "at"))}</time> {said(line, words)}
+            <time>{shownSecond(text(line, "at"), words.language)}</time> {said(line, words)}
           </li>
         ))}
       </ul>

@@ -77,7 +77,7 @@ function Channel({ channel }: { channel: ChannelShown }): ReactNode {
         {words.channel} {words.side[channel.side]}
       </dt>
       <dd>
-        {channel.diameterMm !== null && `⌀ ${shownNumber(channel.diameterMm)} mm`}
+        {channel.diameterMm !== null && `Ø ${shownNumber(channel.diameterMm)} mm`}
         {channel.lengthMm !== null && ` × ${shownNumber(channel.lengthMm)} mm`}
         {` · ${channel.byHand ? words.byHand : words.measured}`}
       </dd>
@@ -85,7 +85,7 @@ function Channel({ channel }: { channel: ChannelShown }): ReactNode {
       <dd>
         {screw === null
           ? words.noScrew
-          : `⌀ ${shownNumber(screw.diameterMm)} × ${shownNumber(screw.lengthMm, 0)} mm`}
+          : `Ø ${shownNumber(screw.diameterMm)} × ${shownNumber(screw.lengthMm, 0)} mm`}
       </dd>
       {screw?.leastMm != null && (
         <>

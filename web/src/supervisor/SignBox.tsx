@@ -3,16 +3,17 @@ import { useSession } from "../app/session";
 import { Maker } from "../operator/parts/Maker";
 import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
+import { shownTime } from "../operator/parts/shown";
 import { useDo } from "../rest/useDo";
 import type { Signable } from "../room/messages";
 import { useWords } from "../words/WordsContext";
-import { shownTime } from "./shownTime";
 import { SignatureLine } from "./SignatureLine";
 import { TwoSteps } from "./TwoSteps";
 
 /** What exactly is signed, by whom it was, and the way to sign it or to take that back. */
 export function SignBox({ signable }: { signable: Signable }): ReactNode {
-  const words = useWords().supervisor.sign;
+  const all = useWords();
+  const words = all.supervisor.sign;
   const { session } = useSession();
   const { busy, refusal, run } = useDo();
   const { document_id, signatures, what } = signable;
@@ -31,7 +32,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
       </h3>
       <p>
         {words.signs} <b>{signable.title}</b>, {words.madeBy} <Maker of={signable} />,{" "}
-        {shownTime(signable.made_at)}, {words.print}{" "}
+        {shownTime(signable.made_at, all.language)}, {words.print}{" "}
         <code title={signable.sha256}>{signable.sha256.slice(0, 12)}</code>
       </p>
       {signable.out_of_date !== "" && (

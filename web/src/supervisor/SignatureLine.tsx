@@ -1,16 +1,16 @@
 import type { ReactNode } from "react";
-import { filled } from "../operator/parts/shown";
+import { filled, shownTime } from "../operator/parts/shown";
 import type { components } from "../schema";
 import { useWords } from "../words/WordsContext";
-import { shownTime } from "./shownTime";
 
 /** One signature: who, when, whether that is known to be a second person, and who had invited them. */
 export function SignatureLine({ of: one }: { of: components["schemas"]["SignatureMessage"] }): ReactNode {
-  const words = useWords().supervisor.sign;
+  const all = useWords();
+  const words = all.supervisor.sign;
   return (
     <>
       <span aria-hidden="true">{one.second_person ? "✓" : "○"}</span> {words.signedBy} <b>{one.by}</b>,{" "}
-      {shownTime(one.at)}
+      {shownTime(one.at, all.language)}
       {!one.second_person && ` · ${words.notSecond}`}
       {one.invited_by_maker ? (
         <span className="warn"> · ▲ {filled(words.invitedByMaker, { name: one.invited_by })}</span>

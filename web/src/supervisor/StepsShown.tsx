@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { useProcedure, type Step } from "../operator/procedure";
+import { stateWord } from "../operator/stepWords";
 import { RefusalNote } from "../rest/RefusalNote";
 import { useWords } from "../words/WordsContext";
 
@@ -24,11 +25,11 @@ export function StepsShown(): ReactNode {
       {data.steps.map((step) => (
         <li key={step.step} data-state={step.lacks === null ? step.state : "missing"} data-step={step.step}>
           <span aria-hidden="true" className="steps-mark">
-            {step.lacks === null ? SYMBOL[step.state] : "✎"}
+            {step.lacks === null ? SYMBOL[step.state] : "○"}
           </span>
           <div>
             <b>{words.operator.page[step.step]}</b> ·{" "}
-            {step.lacks === null ? words.operator.state[step.state] : own.steps.lacks}
+            {step.lacks === null ? stateWord(step, words.operator) : own.steps.lacks}
             <p className="soft">{step.said}</p>
           </div>
         </li>

@@ -7,7 +7,6 @@ import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
 import { AlertBand } from "../panes/AlertBand";
-import { Announcer } from "../panes/Announcer";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
@@ -76,7 +75,6 @@ export function SupervisorView(): ReactNode {
           </Fold>
         </div>
       </main>
-      <Announcer />
     </div>
   );
 }

@@ -4,7 +4,6 @@ import { AlarmsShown } from "../alarms/AlarmsShown";
 import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
-import { Announcer } from "../panes/Announcer";
 import { BullseyePane } from "../panes/BullseyePane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
@@ -35,7 +34,6 @@ export function TheatreView(): ReactNode {
         <BullseyePane />
         <ScenePane />
       </main>
-      <Announcer />
     </div>
   );
 }

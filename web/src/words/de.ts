@@ -8,6 +8,7 @@ import { lineDe } from "./line/de";
 import { navigateDe } from "./navigate/de";
 import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
+import { auditDe } from "./audit/de";
 import { peopleDe } from "./people/de";
 import { planDe } from "./plan/de";
 import { reasonsDe } from "./reasons/de";
@@ -78,7 +79,7 @@ export const de: Words = {
     "not-at-all": "Kein Marker am Patienten: bewegt sich Patient oder Kamera, wird es nicht gesehen.",
   },
   depthWords: {
-    before: "vor der Eintrittsebene",
+    before: "vor Eintritt",
     inside: "hinter der Eintrittsebene",
     past: "GEPLANTES ENDE ÜBERSCHRITTEN",
     across: "Bohrer liegt quer zum Kanal",
@@ -148,6 +149,7 @@ export const de: Words = {
   camera: cameraDe,
   tool: toolDe,
   people: peopleDe,
+  audit: auditDe,
   plan: planDe,
   registration: registrationDe,
   check: checkDe,

@@ -8,6 +8,7 @@ import { lineEn } from "./line/en";
 import { navigateEn } from "./navigate/en";
 import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
+import { auditEn } from "./audit/en";
 import { peopleEn } from "./people/en";
 import { planEn } from "./plan/en";
 import { reasonsEn } from "./reasons/en";
@@ -80,7 +81,7 @@ export const en: Words = {
     "not-at-all": "No marker on the patient: a move of patient or camera is not seen.",
   },
   depthWords: {
-    before: "before the entry plane",
+    before: "before entry",
     inside: "past the entry plane",
     past: "PAST THE PLANNED END",
     across: "drill lies across the channel",
@@ -150,6 +151,7 @@ export const en: Words = {
   camera: cameraEn,
   tool: toolEn,
   people: peopleEn,
+  audit: auditEn,
   plan: planEn,
   registration: registrationEn,
   check: checkEn,

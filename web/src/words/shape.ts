@@ -11,6 +11,7 @@ import type {
   Wall,
 } from "../live/messages";
 
+import type { AuditWords } from "./audit/en";
 import type { CameraWords } from "./camera/en";
 import type { CaseWords } from "./case/en";
 import type { CheckWords } from "./check/en";
@@ -135,6 +136,7 @@ export interface Words {
   camera: CameraWords;
   tool: ToolWords;
   people: PeopleWords;
+  audit: AuditWords;
   plan: PlanWords;
   registration: RegistrationWords;
   check: CheckWords;

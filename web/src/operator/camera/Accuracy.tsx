@@ -1,5 +1,5 @@
 import { Button } from "@mantine/core";
-import type { ReactNode } from "react";
+import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
 import { useDo } from "../../rest/useDo";
@@ -27,16 +27,24 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
   const words = all.camera;
   const madeBy = useMaker();
   const checking = useDo();
+  const [checkedHere, setCheckedHere] = useState(false);
   const run = (): void => {
     void checking
       .run(async () => {
         await answered(server.POST("/api/camera/accuracy", { body: { board, made_by: madeBy } }));
       })
-      .then(onChecked);
+      .then((done) => {
+        setCheckedHere(done);
+        onChecked();
+      });
   };
   const limit = { kind: "most", value: gate.most_error_mm } as const;
   return (
-    <Card title={words.accuracyTitle} testId="accuracy">
+    <Card
+      title={words.accuracyTitle}
+      testId="accuracy"
+      fresh={checkedHere ? (check?.heading.id ?? null) : null}
+    >
       <p>{words.accuracyLead}</p>
       {check !== null && (
         <>

@@ -15,16 +15,18 @@ interface CalibrationReportProps {
   caseId: string;
   kept: components["schemas"]["DocumentMessage"];
   gate: components["schemas"]["CalibrationConfig"];
+  /** Names this calibration where it was just made here. */
+  fresh: string | null;
 }
 
 /** The calibration that the case has: its numbers with their limits, its warnings, its pictures, its views. */
-export function CalibrationReport({ caseId, kept, gate }: CalibrationReportProps): ReactNode {
+export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationReportProps): ReactNode {
   const all = useWords();
   const words = all.camera;
   const report = reportIn(kept.content);
   const used = report.views.filter((one) => one.used).length;
   return (
-    <Card title={words.reportTitle} testId="calibration">
+    <Card title={words.reportTitle} testId="calibration" fresh={fresh}>
       <StandsOn heading={kept.heading} documents={[]} />
       <p className="soft">
         {shownTime(kept.heading.made_at, all.language)} · <Maker of={kept.heading} /> ·{" "}

@@ -22,6 +22,7 @@ export function CameraPage(): ReactNode {
   const words = useWords().camera;
   const procedure = useProcedure();
   const gates = useGates();
+  const [calibratedHere, setCalibratedHere] = useState(false);
   const [board, setBoard] = useState<Board>(startingBoard);
   const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/camera", { signal })), {
     everyMs: ASK_EVERY_MS,
@@ -42,17 +43,32 @@ export function CameraPage(): ReactNode {
         {data !== null && gates !== null && caseId !== null && (
           <>
             {data.collecting ? (
-              <Collection gates={gates} onOver={changed} />
+              <Collection
+                gates={gates}
+                onCalibrated={() => {
+                  setCalibratedHere(true);
+                }}
+                onOver={changed}
+              />
             ) : (
               <BoardCard
                 board={board}
                 first={data.calibration === null}
                 onBoard={setBoard}
-                onBegun={changed}
+                onBegun={() => {
+                  setCalibratedHere(false);
+                  changed();
+                }}
               />
             )}
             {data.calibration !== null && (
-              <CalibrationReport caseId={caseId} kept={data.calibration} gate={gates.calibration} />
+              <CalibrationReport
+                caseId={caseId}
+                kept={data.calibration}
+                gate={gates.calibration}
+                // While views are still shown above it, it would move again.
+                fresh={calibratedHere && !data.collecting ? data.calibration.heading.id : null}
+              />
             )}
             {data.calibration?.heading.current === true && (
               <Accuracy board={board} check={data.accuracy} gate={gates.calibration} onChecked={changed} />

@@ -19,8 +19,14 @@ import { TiltCross } from "./TiltCross";
 
 const ASK_EVERY_MS = 350;
 
+interface CollectionProps {
+  gates: Gates;
+  onCalibrated: () => void;
+  onOver: () => void;
+}
+
 /** Views as they are collected: where the board has been, how it was tilted, what is missing; then the fit. */
-export function Collection({ gates, onOver }: { gates: Gates; onOver: () => void }): ReactNode {
+export function Collection({ gates, onCalibrated, onOver }: CollectionProps): ReactNode {
   const words = useWords().camera;
   const madeBy = useMaker();
   const doing = useDo();
@@ -36,7 +42,9 @@ export function Collection({ gates, onOver }: { gates: Gates; onOver: () => void
   };
   const followed = useJob((job) => {
     // What was kept needs its views no more; after a failure they stay, for another try.
-    if (job.state === "done") void end();
+    if (job.state !== "done") return;
+    onCalibrated();
+    void end();
   });
   const calibrate = (): void => {
     void doing.run(async () => {

@@ -24,7 +24,7 @@ export function TiltCross({
   const told = arms.map((arm) => `${words.ways[arm.way]} ${shownFigure(arm.reachedDeg, 0)}°`).join(", ");
   return (
     <figure className="tilts">
-      <svg viewBox="-30 0 260 200" role="img" aria-label={`${words.tilts}: ${told}`}>
+      <svg viewBox="-40 0 280 200" role="img" aria-label={`${words.tilts}: ${told}`}>
         {arms.map(({ way, reachedDeg, ratio }) => {
           const { x, y, dx, dy } = PLACES[way];
           const to = (share: number): { x2: number; y2: number } => ({
@@ -35,7 +35,7 @@ export function TiltCross({
             <g key={way} data-reached={ratio >= 1}>
               <line className="arm-open" x1={x} y1={y} {...to(1)} />
               <line className="arm-done" x1={x} y1={y} {...to(Math.max(ratio, 0.001))} />
-              <text x={x + dx * 82} y={y + dy * 74 + 5} textAnchor="middle">
+              <text x={x + dx * 94} y={y + dy * 74 + 5} textAnchor="middle">
                 {ratio >= 1 ? "✓" : ""}
                 {shownFigure(reachedDeg, 0)}°
               </text>

@@ -8,6 +8,7 @@ import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
 import { Maker } from "../parts/Maker";
 import { sentence, shownTime } from "../parts/shown";
+import { documentTitle } from "./documentTitle";
 import { newestOf } from "./newest";
 
 export type Heading = components["schemas"]["HeadingMessage"];
@@ -72,7 +73,7 @@ function DocumentRow({ heading }: { heading: Heading }): ReactNode {
   return (
     <Table.Tr data-standing={state}>
       <Table.Th scope="row">
-        {words.case.kinds[heading.kind]} · {heading.name}{" "}
+        {documentTitle(heading, words.case)}{" "}
         <span className="soft">
           {words.case.version} {heading.version}
         </span>

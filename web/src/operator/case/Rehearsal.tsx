@@ -12,6 +12,12 @@ type Wish = components["schemas"]["SceneRequest"];
 type Scene = Wish["scene"];
 type Skill = NonNullable<Wish["skill"]>;
 type Board = NonNullable<Wish["board"]>;
+interface Played {
+  scene: Scene;
+  skill: Skill;
+  board: Board;
+}
+
 const SCENES: readonly Scene[] = ["board", "pivot", "spin", "landmarks", "sweep", "check", "operation"];
 
 const ASK_EVERY_MS = 1500;
@@ -20,24 +26,29 @@ const ASK_EVERY_MS = 1500;
 export function Rehearsal(): ReactNode {
   const words = useWords().case.rehearsal;
   const asked = useRehearsal({ everyMs: ASK_EVERY_MS });
-  const [skill, setSkill] = useState<Skill | null>(null);
-  const [board, setBoard] = useState<Board | null>(null);
+  // What was just chosen, until the server says that it plays it.
+  const [wish, setWish] = useState<Partial<Played>>({});
   const playing = useDo();
   const { data, again } = asked;
   if (data === null) return <RefusalNote refusal={asked.refusal} />;
   // The answer has them as text; they are what was asked for before.
-  const played = {
+  const played: Played = {
     scene: data.scene as Scene,
     skill: data.skill as Skill,
     board: data.board as Board,
+    ...wish,
   };
-  const play = (scene: Scene): void => {
+  const play = (chosen: Partial<Played>): void => {
+    setWish(chosen);
     void playing
       .run(async () => {
-        const body = { scene, skill: skill ?? played.skill, board: board ?? played.board, events: [] };
+        const body = { ...played, ...chosen, events: [] };
         await answered(server.PUT("/api/rehearsal", { body }));
       })
-      .then(again);
+      .then(() => {
+        again();
+        setWish({});
+      });
   };
   return (
     <Card
@@ -56,7 +67,7 @@ export function Rehearsal(): ReactNode {
             data-testid={`scene-${scene}`}
             disabled={playing.busy}
             onClick={() => {
-              play(scene);
+              play({ scene });
             }}
           >
             {words.scenes[scene]}
@@ -72,9 +83,11 @@ export function Rehearsal(): ReactNode {
           label={words.skill}
           allowDeselect={false}
           data={Object.entries(words.skills).map(([value, label]) => ({ value, label }))}
-          value={skill ?? played.skill}
+          value={played.skill}
+          disabled={playing.busy}
+          data-testid="skill"
           onChange={(value) => {
-            setSkill(value as Skill);
+            play({ skill: value as Skill });
           }}
         />
         <Select
@@ -82,12 +95,15 @@ export function Rehearsal(): ReactNode {
           label={words.board}
           allowDeselect={false}
           data={Object.entries(words.boards).map(([value, label]) => ({ value, label }))}
-          value={board ?? played.board}
+          value={played.board}
+          disabled={playing.busy}
+          data-testid="rehearsed-board"
           onChange={(value) => {
-            setBoard(value as Board);
+            play({ board: value as Board });
           }}
         />
       </div>
+      <p className="soft">{words.atOnce}</p>
       <RefusalNote refusal={playing.refusal} />
     </Card>
   );

@@ -3,18 +3,37 @@ import { shownNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../procedure";
+import { useIntoView } from "../parts/useIntoView";
 import { filled } from "../registration/filled";
 import { minutesLeft } from "./due";
 
+interface CheckDueProps {
+  rule: components["schemas"]["CheckRuleMessage"];
+  /** Names the check that was just kept here. */
+  fresh: string | null;
+}
+
 /** How the last check stands, and when the next is due. */
-export function CheckDue({ rule }: { rule: components["schemas"]["CheckRuleMessage"] }): ReactNode {
+export function CheckDue({ rule, fresh }: CheckDueProps): ReactNode {
   const words = useWords().check;
   const step = useProcedure().data?.steps.find((one) => one.step === "check");
   const left = minutesLeft(step?.numbers["age_min"], rule.again_after_min);
   const every = filled(words.every, { minutes: rule.again_after_min, most: shownNumber(rule.most_mm, 1) });
-  if (step?.state === "due") return <p className="warning">▲ {words.dueNow}</p>;
+  const said = useIntoView<HTMLParagraphElement>(fresh);
+  if (step?.state === "due")
+    return (
+      <p className="warning" ref={said}>
+        ▲ {words.dueNow}
+      </p>
+    );
+  if (step?.state === "failed")
+    return (
+      <p className="warning" role="status" data-testid="check-failed" ref={said}>
+        ▲▲ {words.lastFailed} {every}
+      </p>
+    );
   return (
-    <p className="quiet" data-testid="check-due">
+    <p className="quiet" data-testid="check-due" ref={said}>
       {step?.state === "done" && left !== null
         ? `${filled(words.dueIn, { minutes: shownNumber(left, 0) })} ${every}`
         : every}

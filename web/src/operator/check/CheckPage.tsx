@@ -1,4 +1,4 @@
-import type { ReactNode } from "react";
+import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
 import { useAsked } from "../../rest/useAsked";
@@ -33,6 +33,7 @@ export function CheckPage(): ReactNode {
 
 function Checking({ registrationId }: { registrationId: string }): ReactNode {
   const running = useRunning();
+  const [kept, setKept] = useState(0);
   const registration = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
     key: registrationId,
   });
@@ -41,9 +42,14 @@ function Checking({ registrationId }: { registrationId: string }): ReactNode {
   return (
     <div className="registration">
       <RehearsalStrip scenes={["check"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
-      <CheckDue rule={check} />
+      <CheckDue rule={check} fresh={kept === 0 ? null : String(kept)} />
       {running.data?.check === true ? (
-        <CheckWork onOver={running.again} />
+        <CheckWork
+          onOver={running.again}
+          onKept={() => {
+            setKept(kept + 1);
+          }}
+        />
       ) : (
         <CheckChoice
           vertebra={vertebra}

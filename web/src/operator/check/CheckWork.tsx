@@ -4,6 +4,7 @@ import { useLocation } from "wouter";
 import { answered, server } from "../../rest/client";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
+import { Icon } from "../../panes/Icon";
 import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../procedure";
 import { CaptureProgress } from "../registration/CaptureProgress";
@@ -15,8 +16,14 @@ import { CheckOutcome } from "./CheckOutcome";
 
 const ASK_EVERY_MS = 250;
 
+interface CheckWorkProps {
+  onOver: () => void;
+  /** It was kept, whether it passed or not. */
+  onKept: () => void;
+}
+
 /** The tip held on the landmark until it is taken; then its distance, and what to do with it. */
-export function CheckWork({ onOver }: { onOver: () => void }): ReactNode {
+export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
   const words = useWords().check;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
@@ -58,6 +65,7 @@ export function CheckWork({ onOver }: { onOver: () => void }): ReactNode {
               (done) => {
                 procedure.again();
                 onOver();
+                if (done) onKept();
                 if (done && passed) navigate("/operator/navigate");
               },
             );
@@ -82,7 +90,7 @@ export function CheckWork({ onOver }: { onOver: () => void }): ReactNode {
               );
             }}
           >
-            ↶ {words.again}
+            <Icon name="undo" /> {words.again}
           </Button>
           <Button
             size="lg"

@@ -1,7 +1,10 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
+import { shownNumber } from "../../live/rounding";
 import { useWords } from "../../words/WordsContext";
-import { useProcedure } from "../procedure";
+import { filled } from "../parts/shown";
+import { stateWord } from "../stepWords";
+import { useProcedure, type Step } from "../procedure";
 
 /** Every step that does not hold or is due again, why, and the way to it; or that all hold. */
 export function Gates(): ReactNode {
@@ -9,10 +12,11 @@ export function Gates(): ReactNode {
   const { data } = useProcedure();
   if (data === null) return null;
   const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
+  const check = data.steps.find((one) => one.step === "check");
   if (open.length === 0)
     return (
-      <p className="good" data-testid="gates-open">
-        ✓ {words.navigate.open}{" "}
+      <p className="good" role="status" data-testid="gates-open">
+        ✓ {words.navigate.open} {check !== undefined && checkSaid(words.navigate.checked, check.numbers)}{" "}
         <Link className="big-link" href="/operator/check" data-testid="re-check">
           {words.navigate.recheck}
         </Link>
@@ -25,7 +29,7 @@ export function Gates(): ReactNode {
         {open.map((one) => (
           <li key={one.step}>
             <strong>
-              {words.operator.page[one.step]} · {words.operator.state[one.state]}
+              {words.operator.page[one.step]} · {stateWord(one, words.operator)}
             </strong>{" "}
             {one.said}.{" "}
             <Link className="big-link" href={`/operator/${one.step}`}>
@@ -36,4 +40,11 @@ export function Gates(): ReactNode {
       </ul>
     </section>
   );
+}
+
+/** On what it was checked and how far off it was; nothing where no check says so. */
+function checkSaid(words: string, { landmark, distance_mm, most_mm }: Step["numbers"]): string {
+  if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof most_mm !== "number")
+    return "";
+  return filled(words, { landmark, mm: shownNumber(distance_mm, 1), most: shownNumber(most_mm, 1) });
 }

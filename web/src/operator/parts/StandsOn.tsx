@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
+import { documentTitle } from "../case/documentTitle";
 import { sentence } from "./shown";
 
 type Heading = components["schemas"]["HeadingMessage"];
@@ -18,7 +19,7 @@ export function StandsOn({
     const found = documents.find((one) => one.id === id);
     return found === undefined
       ? words.another
-      : `${words.kinds[found.kind]} ${found.name}, ${words.version} ${String(found.version)}`;
+      : `${documentTitle(found, words)}, ${words.version} ${String(found.version)}`;
   });
   return (
     <p className="soft">

@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { filled, sentence, shownBytes, shownTime } from "./shown";
+import { filled, sentence, shownBytes, shownClock, shownSecond, shownTime } from "./shown";
 
 test("values come where the sentence names them, and a name without one stays to be seen", () => {
   expect(filled("{there} of {wanted} views", { there: 3, wanted: 12 })).toBe("3 of 12 views");
@@ -23,6 +23,8 @@ test("a time is of where the page is, and what is none is shown as it is", () =>
   expect(shownTime("2026-03-01T23:30:00.000Z", "en", "Europe/Berlin")).toBe("2 Mar 2026, 00:30");
   expect(shownTime("2026-03-01T23:30:00.000Z", "de", "UTC")).toBe("01.03.2026, 23:30");
   expect(shownTime("later", "en")).toBe("later");
+  expect(shownSecond("2026-03-01T23:30:05.900Z", "de", "UTC")).toBe("01.03.2026, 23:30:05");
+  expect(shownClock("2026-03-01T23:30:05.900Z", "en", "Europe/Berlin")).toBe("00:30:05");
 });
 
 test("a sentence begins large and ends", () => {

@@ -8,13 +8,30 @@ export function filled(text: string, values: Record<string, string | number>): s
 
 /** The day and time where this page is, to the minute. */
 export function shownTime(iso: string, language: string, zone?: string): string {
+  return shownAs(iso, { dateStyle: "medium", timeStyle: "short" }, language, zone);
+}
+
+/** The same to the second, for logs, in which much happens within a minute. */
+export function shownSecond(iso: string, language: string, zone?: string): string {
+  return shownAs(iso, { dateStyle: "medium", timeStyle: "medium" }, language, zone);
+}
+
+/** The time of today alone, to the second. */
+export function shownClock(iso: string, language: string, zone?: string): string {
+  return shownAs(iso, { timeStyle: "medium" }, language, zone);
+}
+
+/** What is no time is shown as it is. */
+function shownAs(
+  iso: string,
+  form: Intl.DateTimeFormatOptions,
+  language: string,
+  zone: string | undefined,
+): string {
   const at = new Date(iso);
   if (Number.isNaN(at.getTime())) return iso;
-  return new Intl.DateTimeFormat(language === "en" ? "en-GB" : language, {
-    dateStyle: "medium",
-    timeStyle: "short",
-    ...(zone === undefined ? {} : { timeZone: zone }),
-  }).format(at);
+  const inZone = zone === undefined ? form : { ...form, timeZone: zone };
+  return new Intl.DateTimeFormat(language === "en" ? "en-GB" : language, inZone).format(at);
 }
 
 /** In the unit that leaves one to three digits before the point. */

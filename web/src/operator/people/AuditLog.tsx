@@ -4,8 +4,8 @@ import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
+import { shownSecond } from "../parts/shown";
 import { auditRow } from "./auditRow";
-import { clockTime } from "./clockTime";
 
 const LINES = 25;
 
@@ -19,10 +19,10 @@ export function AuditLog(): ReactNode {
     (signal) => answered(server.GET("/api/audit", { params: { query }, signal })),
     { key: String(before) },
   );
-  const rows = (data?.lines ?? []).map(auditRow).reverse();
+  const rows = (data?.lines ?? []).map((line) => auditRow(line, all)).reverse();
   const oldest = rows.at(-1)?.number ?? 0;
   return (
-    <section aria-labelledby="audit">
+    <section className="audit" aria-labelledby="audit">
       <h3 id="audit">{words.log}</h3>
       <RefusalNote refusal={refusal} />
       {data?.is_whole === true && (
@@ -35,7 +35,7 @@ export function AuditLog(): ReactNode {
           {words.brokenRemedy}
         </Alert>
       )}
-      <div className="people-scroll" tabIndex={0} role="region" aria-label={words.log}>
+      <div className="people-scroll stacked" tabIndex={0} role="region" aria-label={words.log}>
         <Table>
           <Table.Thead>
             <Table.Tr>
@@ -50,15 +50,18 @@ export function AuditLog(): ReactNode {
             {rows.map((row) => (
               <Table.Tr key={row.number}>
                 <Table.Td>{row.number}</Table.Td>
-                <Table.Td>{row.at === "" ? "" : clockTime(row.at, all.language)}</Table.Td>
+                <Table.Td>{row.at === "" ? "" : shownSecond(row.at, all.language)}</Table.Td>
                 <Table.Td>{row.who}</Table.Td>
-                <Table.Td>
+                <Table.Td title={row.written}>
                   {row.what}
                   {row.changes.map((change) => (
                     <small key={change}>{change}</small>
                   ))}
                 </Table.Td>
-                <Table.Td>{row.result}</Table.Td>
+                <Table.Td>
+                  {row.result}
+                  {row.code !== "" && <small>{row.code}</small>}
+                </Table.Td>
               </Table.Tr>
             ))}
           </Table.Tbody>

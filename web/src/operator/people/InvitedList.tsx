@@ -5,7 +5,7 @@ import { RefusalNote } from "../../rest/RefusalNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { clockTime } from "./clockTime";
+import { shownTime } from "../parts/shown";
 
 interface Props {
   invitations: components["schemas"]["InvitationMessage"][];
@@ -33,7 +33,7 @@ export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
             <span>
               <strong>{one.name}</strong> · {all.enter.role[one.role]} · {words.state[one.state]}
               <small>
-                {words.until} {clockTime(one.expires_at, all.language)}
+                {words.until} {shownTime(one.expires_at, all.language)}
               </small>
             </span>
             {one.state === "open" && (

@@ -5,7 +5,7 @@ import { RefusalNote } from "../../rest/RefusalNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { clockTime } from "./clockTime";
+import { shownTime } from "../parts/shown";
 
 interface Props {
   sessions: components["schemas"]["SignedInMessage"][];
@@ -33,7 +33,7 @@ export function SignedInList({ sessions, onEnded }: Props): ReactNode {
               <strong>{one.name}</strong> · {all.enter.role[one.role]}
               {one.for_machine && ` · ${words.machine}`}
               <small>
-                {words.until} {clockTime(one.expires_at, all.language)}
+                {words.until} {shownTime(one.expires_at, all.language)}
               </small>
             </span>
             {one.is_own ? (

@@ -1,26 +1,77 @@
 import { expect, test } from "vitest";
+import openapi from "../../../openapi.json?raw";
+import { auditDe } from "../../words/audit/de";
+import { auditEn } from "../../words/audit/en";
+import { en } from "../../words/en";
 import { auditRow } from "./auditRow";
 
-test("a line is told with who, what, and from which version to which", () => {
+const ITO = { id: "a", name: "Ito", role: "operator" };
+
+test("a line is told with who, what, and from which version to which, in words", () => {
   const line = {
     number: 7,
     at: "2026-11-21T08:00:00.000Z",
-    who: { id: "a", name: "Ito", role: "operator" },
-    what: "PUT /api/plan",
-    of: { name: "L3" },
+    who: ITO,
+    what: "PUT /api/plan/vertebrae/{name}/channels/{side}",
+    of: { name: "L3", side: "left" },
     status: 200,
-    changes: [{ what: "plan", name: "L3", from: 3, to: 4 }],
+    changes: [{ what: "plan", name: "main", from: 3, to: 4 }],
   };
-  expect(auditRow(line)).toEqual({
+  expect(auditRow(line, en)).toEqual({
     number: 7,
     at: "2026-11-21T08:00:00.000Z",
-    who: "Ito · operator",
-    what: "PUT /api/plan · L3",
-    changes: ["plan L3: 3 → 4"],
-    result: "200",
+    who: "Ito · Operator",
+    what: "Laid a channel · L3 · left",
+    written: "PUT /api/plan/vertebrae/{name}/channels/{side}",
+    changes: ["Plan: version 3 → 4"],
+    result: "✓ done",
+    code: "",
   });
 });
 
+test.each([
+  [
+    { what: "PUT /api/something/{new}", of: { id: "7f3a" } },
+    "Did something for which this page has no words",
+  ],
+  [{ what: "GET /api/people" }, "Tried to look at something"],
+  [{ what: "constructor" }, "Did something for which this page has no words"],
+])("%j has no words of its own", (line, what) => {
+  expect(auditRow(line, en).what).toBe(what);
+});
+
+test.each([
+  [204, "✓ done"],
+  [403, "✕ refused"],
+  [507, "✕ failed"],
+  [undefined, ""],
+])("an answer of %s", (status, result) => {
+  expect(auditRow({ what: "start", status }, en).result).toBe(result);
+});
+
+test("what the server does by itself is nobody's work", () => {
+  expect(auditRow({ what: "start", who: { id: "server", name: "Coaxial", role: "operator" } }, en).who).toBe(
+    "Coaxial itself",
+  );
+});
+
 test("what is left of a damaged line is shown", () => {
-  expect(auditRow({ damaged: "nonsen", who: 3, changes: [1] })).toMatchObject({ number: 0, what: "nonsen" });
+  expect(auditRow({ damaged: "nonsen", who: 3, changes: [1] }, en)).toMatchObject({
+    number: 0,
+    what: "A damaged line: nonsen",
+    written: "nonsen",
+  });
+});
+
+test("everything that the server writes down has words", () => {
+  const schema = JSON.parse(openapi) as { paths: Record<string, object> };
+  const changing = Object.entries(schema.paths).flatMap(([path, methods]) =>
+    Object.keys(methods)
+      .filter((method) => ["post", "put", "patch", "delete"].includes(method))
+      .map((method) => `${method.toUpperCase()} ${path}`),
+  );
+  // Pages say every two seconds that they are there; nobody writes that down.
+  const written = changing.filter((one) => one !== "POST /api/alarms/screens");
+  expect(written.filter((one) => !Object.hasOwn(auditEn.actions, one))).toEqual([]);
+  expect(Object.keys(auditDe.actions)).toEqual(Object.keys(auditEn.actions));
 });

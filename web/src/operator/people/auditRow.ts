@@ -1,38 +1,100 @@
-// A line of the audit log as a row of a table.
+// A line of the audit log as a row of a table, in words for people; the log itself is taken along as it is.
+import type { components } from "../../schema";
+import type { Words } from "../../words/shape";
+import { documentTitle } from "../case/documentTitle";
 
 export interface AuditRow {
   number: number;
   at: string;
   who: string;
   what: string;
+  /** As the log has it, for whoever compares. */
+  written: string;
   changes: string[];
   result: string;
+  /** Why it was refused, as the server names it. */
+  code: string;
+}
+
+type Line = Readonly<Record<string, unknown>>;
+type Kind = components["schemas"]["DocumentKind"];
+
+const REFUSED = 400;
+const FAILED = 500;
+/** Names in an address that people know; the others are long numbers. */
+const TOLD = ["name", "side", "series", "plane"] as const;
+
+/** What cannot be read in a line is empty: a damaged one is shown as what is left of it. */
+export function auditRow(line: Line, words: Words): AuditRow {
+  const written = text(line["what"]) || text(line["damaged"]);
+  const changes = Array.isArray(line["changes"]) ? line["changes"].filter(isRecord) : [];
+  return {
+    number: typeof line["number"] === "number" ? line["number"] : 0,
+    at: text(line["at"]),
+    who: whoText(line["who"], words),
+    what: [actionText(line, words), ...ofText(line["of"], words)].join(" · "),
+    written,
+    changes: changes.map((change) => changeText(change, words)),
+    result: resultText(line["status"], words),
+    code: text(line["code"]),
+  };
+}
+
+function whoText(value: unknown, { enter, audit }: Words): string {
+  const who = isRecord(value) ? value : {};
+  if (who["id"] === "server") return audit.server;
+  if (who["id"] === "nobody") return audit.nobody;
+  const role = text(who["role"]);
+  const roles: Partial<Record<string, string>> = enter.role;
+  return [text(who["name"]), roles[role] ?? role].filter(Boolean).join(" · ");
+}
+
+function actionText(line: Line, { audit }: Words): string {
+  const what = text(line["what"]);
+  if (what === "") return [audit.damaged, text(line["damaged"])].filter(Boolean).join(": ");
+  if (Object.hasOwn(audit.actions, what)) return audit.actions[what] ?? audit.other;
+  return /^(GET|WS) /.test(what) ? audit.looked : audit.other;
+}
+
+function ofText(value: unknown, { registration }: Words): string[] {
+  const of = isRecord(value) ? value : {};
+  const sides: Partial<Record<string, string>> = registration.side;
+  return TOLD.map((name) => sides[text(of[name])] ?? text(of[name])).filter(Boolean);
+}
+
+function changeText(change: Line, words: Words): string {
+  const title = titleOf(text(change["what"]), text(change["name"]), words);
+  const said = text(change["said"]);
+  if (said !== "") return `${title}: ${said}`;
+  // The ids of cases say nothing to anybody.
+  if (change["what"] === "open case") return title;
+  const [from, to] = [text(change["from"]), text(change["to"])];
+  if (typeof change["to"] === "number") {
+    return `${title}: ${words.case.version} ${from === "" ? to : `${from} → ${to}`}`;
+  }
+  return `${title}: ${from || "–"} → ${to || "–"}`;
+}
+
+function titleOf(what: string, name: string, { audit, case: words }: Words): string {
+  if (Object.hasOwn(words.kinds, what)) return documentTitle({ kind: what as Kind, name }, words);
+  const own: Partial<Record<string, string>> = {
+    case: audit.caseChanged,
+    "open case": audit.openCase,
+    invitation: audit.invitation,
+    session: audit.session,
+    "audit log": audit.log,
+  };
+  return [own[what] ?? what, name].filter(Boolean).join(" ");
+}
+
+function resultText(status: unknown, { audit }: Words): string {
+  if (typeof status !== "number") return "";
+  if (status < REFUSED) return `✓ ${audit.done}`;
+  return `✕ ${status < FAILED ? audit.refused : audit.failed}`;
 }
 
 const text = (value: unknown): string =>
   typeof value === "string" || typeof value === "number" ? String(value) : "";
-
-/** What cannot be read in a line is empty: a damaged one is shown as what is left of it. */
-export function auditRow(line: Record<string, unknown>): AuditRow {
-  const who = isRecord(line["who"]) ? line["who"] : {};
-  const changes = Array.isArray(line["changes"]) ? line["changes"].filter(isRecord) : [];
-  const named = isRecord(line["of"]) ? Object.values(line["of"]).map(text) : [];
-  return {
-    number: typeof line["number"] === "number" ? line["number"] : 0,
-    at: text(line["at"]),
-    who: [text(who["name"]), text(who["role"])].filter(Boolean).join(" · "),
-    what: [text(line["what"]) || text(line["damaged"]), ...named].filter(Boolean).join(" · "),
-    changes: changes.map(changeText),
-    result: [text(line["status"]), text(line["code"])].filter(Boolean).join(" "),
-  };
-}
-
-function changeText(change: Record<string, unknown>): string {
-  const what = [text(change["what"]), text(change["name"])].filter(Boolean).join(" ");
-  const said = text(change["said"]);
-  if (said !== "") return `${what}: ${said}`;
-  return `${what}: ${text(change["from"]) || "–"} → ${text(change["to"]) || "–"}`;
-}
 
 function isRecord(value: unknown): value is Record<string, unknown> {
   return typeof value === "object" && value !== null && !Array.isArray(value);

@@ -2,6 +2,7 @@ import { Alert, Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
+import { Icon } from "../../panes/Icon";
 import { useWords } from "../../words/WordsContext";
 import { Maker } from "../parts/Maker";
 import { PartTabs } from "./PartTabs";
@@ -32,7 +33,7 @@ export function PlanBar(): ReactNode {
             undo();
           }}
         >
-          ↶ {words.undo}
+          <Icon name="undo" /> {words.undo}
         </Button>
       </div>
       <RefusalNote refusal={planRefusal} />

@@ -2,10 +2,12 @@ import { Button } from "@mantine/core";
 import { useEffect, useRef, useState, type ReactNode, type RefObject } from "react";
 import { useLive, usePainter } from "../../live/LiveContext";
 import { shownNumber } from "../../live/rounding";
+import { Announcer } from "../../panes/Announcer";
 import { Cover } from "../../panes/Cover";
 import { clearPicture, drawPicture } from "../../panes/drawPicture";
 import { setData, setText } from "../../panes/setText";
 import { useWords } from "../../words/WordsContext";
+import { shownClock } from "../parts/shown";
 import { filled } from "./filled";
 import { useImageSize } from "./useImageSize";
 
@@ -82,7 +84,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
       still.current.height = canvas.current.height;
       still.current.getContext("2d", { alpha: false })?.drawImage(canvas.current, 0, 0);
       heldAt.current = performance.now();
-      setHeldClock(new Date().toLocaleTimeString(words.language));
+      setHeldClock(shownClock(new Date().toISOString(), words.language));
     }
     onHeld(!held);
   };
@@ -126,6 +128,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
           />
         </div>
       </div>
+      <Announcer />
     </div>
   );
 }

@@ -18,7 +18,7 @@ export function Measure({ name, value, unit, most, digits = 2, hint }: MeasurePr
   const limited = most !== undefined && most !== null;
   const kept = value === null || !limited ? null : value <= most;
   return (
-    <div className="measure" data-kept={kept ?? undefined}>
+    <div className="limit" data-kept={kept ?? undefined}>
       <dt>
         {name}
         {hint !== undefined && <small>{hint}</small>}

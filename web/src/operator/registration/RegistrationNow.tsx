@@ -6,6 +6,7 @@ import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { Maker } from "../parts/Maker";
+import { shownTime } from "../parts/shown";
 import { useProcedure } from "../procedure";
 import { filled } from "./filled";
 import { Refused } from "./Refused";
@@ -26,7 +27,8 @@ export function RegistrationNow(): ReactNode {
 }
 
 function Newest({ caseId, documentId }: { caseId: string; documentId: string }): ReactNode {
-  const words = useWords().registration;
+  const all = useWords();
+  const words = all.registration;
   const procedure = useProcedure();
   const madeBy = useMadeBy();
   const asked = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
@@ -47,7 +49,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
         </Badge>
       </h3>
       <p>
-        {words.method[data.method]} · <Maker of={heading} /> · {timeOf(heading.made_at)} ·{" "}
+        {words.method[data.method]} · <Maker of={heading} /> · {shownTime(heading.made_at, all.language)} ·{" "}
         {data.reference === null
           ? words.now.toCamera
           : filled(words.now.toMarker, { marker: data.reference })}
@@ -92,8 +94,4 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
       </div>
     </section>
   );
-}
-
-function timeOf(utc: string): string {
-  return new Date(utc).toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
 }

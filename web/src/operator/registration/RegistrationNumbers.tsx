@@ -31,7 +31,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
   if (method === "needles")
     return (
       <>
-        <dl className="measures">
+        <dl className="limits">
           {target}
           <Measure
             name={words.worstOffset}
@@ -51,7 +51,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
     );
   if (method === "points")
     return (
-      <dl className="measures">
+      <dl className="limits">
         {target}
         <Measure
           name={words.fre}
@@ -71,7 +71,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
     );
   if (method === "surface")
     return (
-      <dl className="measures">
+      <dl className="limits">
         {target}
         <Measure
           name={words.rms}
@@ -85,5 +85,5 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
         <Measure name={words.weakest} value={of("weakest_sd_mm")} unit="mm" />
       </dl>
     );
-  return <dl className="measures">{target}</dl>;
+  return <dl className="limits">{target}</dl>;
 }

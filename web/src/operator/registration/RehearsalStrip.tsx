@@ -19,7 +19,8 @@ interface RehearsalStripProps {
 
 /** In a rehearsal alone: which scene is played before the camera, so that a step can be done without hardware. */
 export function RehearsalStrip({ scenes, children }: RehearsalStripProps): ReactNode {
-  const words = useWords().registration.rehearsal;
+  const all = useWords();
+  const words = all.registration.rehearsal;
   const { data, again } = useRehearsal({ everyMs: ASK_EVERY_MS, truth: true });
   const playing = useDo();
   if (data === null) return null;
@@ -47,7 +48,7 @@ export function RehearsalStrip({ scenes, children }: RehearsalStripProps): React
                 .then(again);
             }}
           >
-            {words.scene[scene]}
+            {all.case.rehearsal.scenes[scene]}
           </Button>
         ))}
         {children?.(data)}

@@ -1,3 +1,4 @@
+import { Maker } from "../parts/Maker";
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownFigure } from "../../live/rounding";
@@ -6,7 +7,7 @@ import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { StandsOn } from "../parts/StandsOn";
+import { shownTime } from "../parts/shown";
 import { channelsIn } from "./plan";
 
 interface PlanReportProps {
@@ -29,7 +30,10 @@ export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
   return (
     <section className="stack">
       <h4>{words.plan}</h4>
-      <StandsOn heading={heading} documents={[]} />
+      <p className="soft">
+        {all.case.version} {heading.version} · {shownTime(heading.made_at, all.language)} ·{" "}
+        <Maker of={heading} />
+      </p>
       <RefusalNote refusal={refusal} />
       {data !== null && channels.length === 0 && <p className="soft">{words.noChannels}</p>}
       {channels.length > 0 && (
@@ -49,13 +53,13 @@ export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
                   <Table.Th scope="row">{one.vertebra}</Table.Th>
                   <Table.Td>{words.sides[one.side] ?? one.side}</Table.Td>
                   <Table.Td className="figure">
-                    ⌀ {shownFigure(one.diameterMm, 1)} mm, {shownFigure(one.lengthMm, 1)} mm
+                    Ø {shownFigure(one.diameterMm, 1)} mm, {shownFigure(one.lengthMm, 1)} mm
                     {one.byHand && ` · ${words.byHand}`}
                   </Table.Td>
                   <Table.Td className="figure">
                     {one.screw === null
                       ? "—"
-                      : `⌀ ${shownFigure(one.screw.diameterMm, 1)} × ${shownFigure(one.screw.lengthMm, 0)} mm`}
+                      : `Ø ${shownFigure(one.screw.diameterMm, 1)} × ${shownFigure(one.screw.lengthMm, 0)} mm`}
                   </Table.Td>
                 </Table.Tr>
               ))}

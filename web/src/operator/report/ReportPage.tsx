@@ -10,12 +10,14 @@ import { newestOf } from "../case/newest";
 import { shownTime } from "../parts/shown";
 import { useProcedure } from "../procedure";
 import { Alarms } from "./Alarms";
-import { DocumentsReport } from "./DocumentsReport";
+import { TELLING } from "./facts";
 import { PlanReport } from "./PlanReport";
 import { SignaturesReport } from "./SignaturesReport";
+import { recordOf, type Heading } from "./record";
+import { RecordReport } from "./RecordReport";
 import { StepsReport } from "./StepsReport";
 
-/** What the case has, on paper: steps with their numbers, plan, registration, check, alarms. */
+/** The case on paper: the record of what was made, the plan, the alarms, and how the steps stood at last. */
 export function ReportPage(): ReactNode {
   const words = useWords().report;
   const { data, refusal } = useProcedure();
@@ -41,18 +43,22 @@ function Report({ caseId }: { caseId: string }): ReactNode {
   const { data, refusal, again } = useAsked(
     async (signal) => {
       const params = { path: { case_id: caseId } };
-      const [kept, documents] = await Promise.all([
+      const [kept, { documents }, procedure] = await Promise.all([
         answered(server.GET("/api/cases/{case_id}", { signal, params })),
         answered(server.GET("/api/cases/{case_id}/documents", { signal, params })),
+        answered(server.GET("/api/procedure", { signal })),
       ]);
-      return { kept, documents: documents.documents, at: new Date().toISOString() };
+      const entries = recordOf(documents);
+      const telling = entries.map((one) => one.last).filter(isTelling);
+      const contents = await contentsOf(caseId, telling, signal);
+      return { kept, documents, entries, contents, procedure, readAt: new Date().toISOString() };
     },
     { key: caseId },
   );
   if (data === null) {
     return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
   }
-  const { kept, documents, at } = data;
+  const { kept, documents, entries, contents, procedure, readAt } = data;
   const plan = newestOf(documents).find((one) => one.kind === "plan" && one.name === "main") ?? null;
   return (
     <div className="cards">
@@ -77,17 +83,40 @@ function Report({ caseId }: { caseId: string }): ReactNode {
           </h3>
           <p className="report-notice">{all.notice}</p>
           <p className="soft">
-            {words.made} {shownTime(at, all.language)} · {all.case.madeAt}{" "}
+            {words.made} {shownTime(readAt, all.language)} · {all.case.madeAt}{" "}
             {shownTime(kept.created_at, all.language)} · {words.caseId} {kept.id}
           </p>
           <p className="soft">{words.identity}</p>
         </header>
-        <StepsReport />
+        <RecordReport entries={entries} contents={contents} readAt={readAt} />
         {plan !== null && <PlanReport caseId={caseId} heading={plan} />}
         <SignaturesReport />
-        <DocumentsReport documents={documents} />
         <Alarms />
+        <StepsReport procedure={procedure} readAt={readAt} />
       </article>
     </div>
   );
+}
+
+/** The plan's own content is told by its channels. */
+function isTelling({ kind, name }: Heading): boolean {
+  return TELLING.has(kind) && !(kind === "plan" && name === "main");
+}
+
+/** What these documents say, by their ids. */
+async function contentsOf(
+  caseId: string,
+  documents: readonly Heading[],
+  signal: AbortSignal,
+): Promise<Map<string, Record<string, unknown>>> {
+  const contents = new Map<string, Record<string, unknown>>();
+  // One after the other: a report is in no hurry, and the server has navigation to serve.
+  for (const { id } of documents) {
+    const params = { path: { case_id: caseId, document_id: id } };
+    const { content } = await answered(
+      server.GET("/api/cases/{case_id}/documents/{document_id}", { signal, params }),
+    );
+    contents.set(id, content);
+  }
+  return contents;
 }

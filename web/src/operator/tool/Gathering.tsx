@@ -19,7 +19,8 @@ const ASK_EVERY_MS = 400;
 interface GatheringProps {
   tools: readonly KnownTool[];
   gate: ToolGate;
-  onOver: () => void;
+  /** With the name of the tool that was kept; null where nothing was. */
+  onOver: (kept: string | null) => void;
 }
 
 /** Poses as they are gathered: how far it has come, what is missing, and what they give so far. */
@@ -36,7 +37,9 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
       .run(async () => {
         await answered(server.DELETE("/api/tools/collection"));
       })
-      .then(onOver);
+      .then(() => {
+        onOver(null);
+      });
   };
   if (data === null) {
     return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
@@ -55,7 +58,7 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
         );
       })
       .then((done) => {
-        if (done) onOver();
+        if (done) onOver(data.tool);
       });
   };
   return (

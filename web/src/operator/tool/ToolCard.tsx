@@ -16,11 +16,13 @@ interface ToolCardProps {
   gate: ToolGate;
   documents: readonly components["schemas"]["HeadingMessage"][];
   busy: boolean;
+  /** Names this tool where something of it was just kept here. */
+  fresh: string | null;
   onBegin: (tool: string, purpose: Purpose, marker: string | null) => void;
 }
 
 /** One tool: what is known of it, with its limits, and what can be done with it. */
-export function ToolCard({ tool, gate, documents, busy, onBegin }: ToolCardProps): ReactNode {
+export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCardProps): ReactNode {
   const all = useWords();
   const words = all.tool;
   const kept = tool.kept === null ? null : keptTool(tool.kept.content);
@@ -28,7 +30,7 @@ export function ToolCard({ tool, gate, documents, busy, onBegin }: ToolCardProps
   const next = nextPurpose(tool);
   const canPivotOnly = tool.kept?.heading.current !== true;
   return (
-    <Card title={tool.name} testId={`tool-${tool.name}`}>
+    <Card title={tool.name} testId={`tool-${tool.name}`} fresh={fresh}>
       {tool.kept === null && <p className="soft">{tool.of_settings ? words.ofSettings : words.nothing}</p>}
       {tool.kept !== null && (
         <>

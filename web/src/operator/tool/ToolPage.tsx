@@ -1,5 +1,5 @@
 import { Loader } from "@mantine/core";
-import type { ReactNode } from "react";
+import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
@@ -26,6 +26,7 @@ export function ToolPage(): ReactNode {
     everyMs: ASK_EVERY_MS,
   });
   const beginning = useDo();
+  const [keptHere, setKeptHere] = useState<string | null>(null);
   const begin = (tool: string, purpose: Purpose, marker: string | null): void => {
     void beginning
       .run(async () => {
@@ -33,7 +34,8 @@ export function ToolPage(): ReactNode {
       })
       .then(again);
   };
-  const over = (): void => {
+  const over = (kept: string | null): void => {
+    setKeptHere(kept);
     again();
     procedure.again();
   };
@@ -56,6 +58,7 @@ export function ToolPage(): ReactNode {
                 gate={gates.tool_calibration}
                 documents={documents}
                 busy={beginning.busy}
+                fresh={keptHere === tool.name ? tool.name : null}
                 onBegin={begin}
               />
             ))}

@@ -31,5 +31,6 @@ export const checkDe: CheckWords = {
     "Neu tasten, falls die Spitze abgerutscht ist. Sonst neu registrieren; hiernach navigiert niemand.",
   every: "Verlangt alle {minutes} min, höchstens {most} mm.",
   dueIn: "Die nächste Prüfung ist in {minutes} min fällig.",
+  lastFailed: "Die letzte Prüfung ist nicht bestanden: Navigiert wird erst nach einer bestandenen.",
   dueNow: "Die Prüfung ist wieder fällig. Die Navigation läuft inzwischen weiter.",
 };

@@ -60,6 +60,11 @@ export const enterDe: EnterWords = {
   role: { operator: "Bedienung", supervisor: "Aufsicht", viewer: "Zuschauer", screen: "OP-Bildschirm" },
   leaveTitle: "Abmelden?",
   leaveSentence: "Danach zeigt dieses Gerät nichts mehr. Zum Wiederkommen brauchen Sie eine neue Einladung.",
+  onlyTitle: "Sie sind die einzige Bedienung",
+  onlySentence:
+    "Danach kann niemand mehr einrichten, registrieren oder bestätigen. Einen neuen Link für die Bedienung gibt der Server erst aus, wenn er beendet und neu gestartet wird; so lange steht die Navigation still.",
+  onlyInvite: "Erst jemanden als Bedienung einladen",
+  leaveAnyway: "Trotzdem abmelden",
   leave: "Abmelden",
   stay: "Bleiben",
 };

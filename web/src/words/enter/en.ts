@@ -57,6 +57,11 @@ export const enterEn = {
   role: { operator: "Operator", supervisor: "Supervisor", viewer: "Viewer", screen: "Theatre screen" },
   leaveTitle: "Sign out?",
   leaveSentence: "This device shows nothing more after that. To come back you need a new invitation.",
+  onlyTitle: "You are the only operator",
+  onlySentence:
+    "Nobody else can set up, register or confirm after that. A new link for an operator is printed only when the server is stopped and started again, and navigation stands still meanwhile.",
+  onlyInvite: "Invite another operator first",
+  leaveAnyway: "Sign out all the same",
   leave: "Sign out",
   stay: "Stay",
 };

@@ -9,7 +9,9 @@ export const marksDe: MarksWords = {
   clear: "Meine löschen",
   clearAll: "Alle löschen",
   ago: "vor # s",
-  seenBy: "Alle, die zusehen, sehen es. Zeichnungen verschwinden von selbst.",
+  seenBy: "Alle, die zusehen, sehen es.",
+  fades:
+    "Ein Zeiger verschwindet 2 s nach seiner letzten Bewegung, eine Zeichnung # s nach dem Bild, auf dem sie entstand.",
   lineGone: "Die Leitung ist weg: Niemand sieht, was Sie zeigen.",
   noPicture: "Es gibt kein Live-Bild, auf dem man zeichnen könnte.",
 };

@@ -6,7 +6,8 @@ export const marksEn = {
   clear: "Clear mine",
   clearAll: "Clear all",
   ago: "# s ago",
-  seenBy: "Everybody who watches sees it. Drawings go by themselves.",
+  seenBy: "Everybody who watches sees it.",
+  fades: "A pointer goes 2 s after it moved last, a drawing # s after the image that it was made on.",
   lineGone: "The line is gone: nobody sees what you mark.",
   noPicture: "There is no live picture to mark on.",
 };

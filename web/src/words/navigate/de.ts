@@ -3,6 +3,7 @@ import type { NavigateWords } from "./en";
 export const navigateDe: NavigateWords = {
   title: "Navigation im Kanal",
   open: "Alle Schritte sind gültig.",
+  checked: "Die Prüfung an {landmark} ist bestanden: {mm} mm, erlaubt {most} mm.",
   recheck: "Erneut prüfen",
   shutTitle: "Noch keine Navigation",
   dueTitle: "Wieder fällig; die Navigation läuft weiter",

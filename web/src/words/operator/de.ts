@@ -17,6 +17,9 @@ export const operatorDe: OperatorWords = {
     report: "Bericht",
     people: "Personen",
   },
+  ready: "bereit",
+  fewLandmarks:
+    "Sie hat {there} Landmarken; zum Registrieren mit Punkten braucht es mindestens {least}, mit drei Nadeln keine.",
   state: {
     missing: "offen",
     out_of_date: "veraltet",

@@ -15,6 +15,9 @@ export const operatorEn = {
     report: "Report",
     people: "People",
   },
+  ready: "ready",
+  fewLandmarks:
+    "It has {there} landmarks; registering by points needs at least {least}. Three needles need none.",
   state: { missing: "to do", out_of_date: "out of date", failed: "failed", due: "due again", done: "done" },
 };
 

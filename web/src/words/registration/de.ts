@@ -165,15 +165,6 @@ export const registrationDe: RegistrationWords = {
     hint: "Was vor der Kamera gespielt wird",
     inTheAir: "Die Spitze ist in der Luft.",
     restsOn: "Die Spitze ruht auf:",
-    scene: {
-      operation: "Bohren",
-      pivot: "Kippen",
-      spin: "Drehen",
-      board: "Tafel",
-      landmarks: "Punkte antasten",
-      sweep: "Knochen abfahren",
-      check: "Für die Prüfung tasten",
-    },
   },
   remedies: {
     REFERENCE_MISSING:

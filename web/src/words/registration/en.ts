@@ -164,15 +164,6 @@ export const registrationEn = {
     hint: "What is played before the camera",
     inTheAir: "The tip is in the air.",
     restsOn: "The tip rests on:",
-    scene: {
-      operation: "Drill",
-      pivot: "Pivot",
-      spin: "Spin",
-      board: "Board",
-      landmarks: "Touch landmarks",
-      sweep: "Sweep the bone",
-      check: "Touch for the check",
-    },
   },
   /** By the server's code: what to do on these pages. */
   remedies: {

@@ -3,12 +3,14 @@ import { Alert, Button } from "@mantine/core";
 import { shownNumber } from "../../../live/rounding";
 import { useWords } from "../../../words/WordsContext";
 import { Maker } from "../../parts/Maker";
+import { shownTime } from "../../parts/shown";
 import { useSlices } from "../slices/SlicesContext";
 import { CtIntake } from "./CtIntake";
 
 /** The CT that is planned on: what it is, what to know of it, and the way to another one. */
 export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
-  const words = useWords().plan.ct;
+  const all = useWords();
+  const words = all.plan.ct;
   const { ct } = useSlices();
   const [isReplacing, setReplacing] = useState(false);
   const { description } = ct;
@@ -26,7 +28,7 @@ export function CtPart({ onTaken }: { onTaken: () => void }): ReactNode {
         <dd>{ct.spacing_mm.map((one) => shownNumber(one, 2)).join(" × ")} mm</dd>
         <dt>{words.madeBy}</dt>
         <dd>
-          <Maker of={ct.heading} />, {new Date(ct.heading.made_at).toLocaleString()}
+          <Maker of={ct.heading} />, {shownTime(ct.heading.made_at, all.language)}
         </dd>
       </dl>
       {ct.warnings.map((warning) => (

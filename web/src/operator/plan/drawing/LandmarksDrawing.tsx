@@ -1,11 +1,10 @@
 import type { ReactNode } from "react";
 import type { Projection } from "../slices/projection";
 import type { Landmark } from "../state/shape";
+import { GAP_PX, labelAt } from "./label";
 
 const ON_SLICE_MM = 1.5;
 const NEAR_MM = 12;
-/** In a small picture names would cover what they name. */
-const NAMED_FROM_PX = 300;
 
 /** The landmarks: full and named on their own slice, hollow near it. */
 export function LandmarksDrawing({
@@ -22,14 +21,20 @@ export function LandmarksDrawing({
         const away = Math.abs(projection.beyondMm(point_lps_mm));
         if (away > NEAR_MM) return null;
         const [x, y] = projection.at(point_lps_mm);
-        const isRight = x > 0.55 * width;
         const isOn = away <= ON_SLICE_MM;
+        const label = labelAt(x, width, String(index + 1), isOn ? name : "");
         return (
           <g key={name} data-on={isOn || undefined}>
             <circle cx={x} cy={y} r={isOn ? 6 : 4} />
-            <text x={isRight ? x - 10 : x + 10} y={y + 5} textAnchor={isRight ? "end" : "start"}>
-              {isOn && width > NAMED_FROM_PX ? `${index + 1} ${name}` : index + 1}
-            </text>
+            {label !== null && (
+              <text
+                x={label.isLeft ? x - GAP_PX : x + GAP_PX}
+                y={y + 5}
+                textAnchor={label.isLeft ? "end" : "start"}
+              >
+                {label.text}
+              </text>
+            )}
           </g>
         );
       })}

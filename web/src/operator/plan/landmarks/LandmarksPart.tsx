@@ -2,6 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
+import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { CursorPad } from "../slices/CursorPad";
@@ -88,7 +89,7 @@ export function LandmarksPart(): ReactNode {
                 );
               }}
             >
-              ⌖
+              <Icon name="crosshair" />
             </button>
             <button
               type="button"
@@ -99,7 +100,7 @@ export function LandmarksPart(): ReactNode {
                 put(landmarks.filter((other) => other !== one));
               }}
             >
-              ✕
+              <Icon name="cross" />
             </button>
           </li>
         ))}

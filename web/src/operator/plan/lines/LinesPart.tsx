@@ -1,10 +1,11 @@
 import { Button } from "@mantine/core";
-import type { ReactNode } from "react";
+import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { RefusalNote } from "../../../rest/RefusalNote";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
+import { useIntoView } from "../../parts/useIntoView";
 import { VertebraChooser } from "../pedicle/VertebraChooser";
 import { CursorPad } from "../slices/CursorPad";
 import { useSlices } from "../slices/SlicesContext";
@@ -23,9 +24,13 @@ export function LinesPart(): ReactNode {
   const { ct, look, goTo, setPlane } = useSlices();
   const { apartMm, setApartMm } = useWork();
   const asking = useDo();
+  const [isLaidHere, setLaidHere] = useState(false);
+  const [reference = null] = vertebra?.references ?? [];
+  const laid = useIntoView<HTMLElement>(
+    isLaidHere && reference !== null ? String(plan?.heading.version ?? 0) : null,
+  );
   if (vertebra === null) return <p>{words.noVertebra}</p>;
   const { name } = vertebra;
-  const reference = vertebra.references[0] ?? null;
   const showProposal = (): void => {
     void asking.run(async () => {
       const query = { vertebra: name };
@@ -48,7 +53,7 @@ export function LinesPart(): ReactNode {
           body: { ...by, ...body },
         }),
       ),
-    );
+    ).then(setLaidHere);
   };
   return (
     <>
@@ -78,7 +83,7 @@ export function LinesPart(): ReactNode {
         {reference === null ? words.lay : words.layAnew}
       </Button>
       {reference !== null && (
-        <figure className="reference">
+        <figure className="reference" ref={laid}>
           <img
             src={`/api/plan/vertebrae/${encodeURIComponent(name)}/reference.png?version=${plan?.heading.version ?? 0}`}
             alt={words.alt}

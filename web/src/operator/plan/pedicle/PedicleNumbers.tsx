@@ -32,7 +32,8 @@ export function PedicleNumbers({ record, vertebra }: { record: PedicleRecord; ve
   const now = draft ?? corrected;
   const isCorrected = Object.keys(corrected).length > 0;
   return (
-    <section className="pedicle-numbers" aria-label={words.numbers}>
+    <section className="pedicle-numbers" aria-labelledby="pedicle-numbers">
+      <h4 id="pedicle-numbers">{words.numbers}</h4>
       {draft === null ? (
         <dl className="figures" data-testid="pedicle-numbers">
           {NUMBERS.map((name) => (

@@ -1,11 +1,12 @@
 import { Button } from "@mantine/core";
-import { useRef, type ReactNode } from "react";
+import { useRef, useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
 import { RefusalNote } from "../../../rest/RefusalNote";
 import { useDo } from "../../../rest/useDo";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useWords } from "../../../words/WordsContext";
+import { useIntoView } from "../../parts/useIntoView";
 import { CursorPad } from "../slices/CursorPad";
 import { useSlices } from "../slices/SlicesContext";
 import { vec3 } from "../slices/vectors";
@@ -23,10 +24,15 @@ export function PediclePart(): ReactNode {
   const { look, goTo } = useSlices();
   const { setPart } = useWork();
   const asking = useDo();
+  const [measuredHere, setMeasuredHere] = useState<string | null>(null);
+  const now = `${vertebra?.name ?? ""} ${side} ${String(plan?.heading.version ?? 0)}`;
+  const numbers = useIntoView<HTMLDivElement>(measuredHere === now ? now : null);
   const documentBefore = useRef<string | null>(null);
   const job = useJob((ended) => {
     const made = (ended.result as { version?: number } | null)?.version;
-    if (ended.state === "done" && made !== undefined) changedTo(made, documentBefore.current);
+    if (ended.state !== "done" || made === undefined) return;
+    setMeasuredHere(`${vertebra?.name ?? ""} ${side} ${String(made)}`);
+    changedTo(made, documentBefore.current);
   });
   if (vertebra === null) {
     return (
@@ -86,18 +92,14 @@ export function PediclePart(): ReactNode {
         </Button>
       )}
       {record !== null && (
-        <>
-          <PedicleNumbers
-            key={`${name} ${side} ${plan?.heading.version ?? 0}`}
-            record={record}
-            vertebra={name}
-          />
+        <div className="measured" ref={numbers}>
+          <PedicleNumbers key={now} record={record} vertebra={name} />
           {!vertebra.channels.some((one) => one.side === side) && (
             <Button size="xl" fullWidth disabled={busy} data-testid="lay-channel" onClick={layChannel}>
               {words.layChannel}
             </Button>
           )}
-        </>
+        </div>
       )}
     </>
   );

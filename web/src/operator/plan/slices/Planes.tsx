@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import type { PlaneName } from "./address";
 import type { Projection } from "./projection";
@@ -37,7 +38,7 @@ export function Planes({ drawing }: PlanesProps): ReactNode {
                   setPlane(one);
                 }}
               >
-                ⤢
+                <Icon name="enlarge" />
               </button>
             </div>
           ))}

@@ -1,5 +1,6 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode, type RefObject } from "react";
+import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { filled } from "../filled";
 import { ConcludeNeedles } from "./ConcludeNeedles";
@@ -97,7 +98,7 @@ export function MarkPanel({ order, names, marks, onMarks, stage, picture, held }
             onMarks(marks.slice(0, -1));
           }}
         >
-          ↶ {words.mark.undo}
+          <Icon name="undo" /> {words.mark.undo}
         </Button>
         <Button
           size="lg"

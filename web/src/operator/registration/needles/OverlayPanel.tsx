@@ -1,6 +1,7 @@
 import { Button, SegmentedControl, Slider } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
+import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import type { NeedleOrder } from "./order";
@@ -27,10 +28,10 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
   const step = STEPS[size];
   const turn = (deg: number) => (hand: Overlay) => turned(hand, deg, placeOf(hand));
   const grow = (ratio: number) => (hand: Overlay) => scaled(hand, ratio, placeOf(hand));
-  const pad: [string, string, (hand: Overlay) => Overlay][] = [
-    ["⟲", words.turnLeft, turn(-step.deg)],
+  const pad: [ReactNode, string, (hand: Overlay) => Overlay][] = [
+    [<Icon key="left" name="turnLeft" />, words.turnLeft, turn(-step.deg)],
     ["↑", words.up, (hand) => moved(hand, [0, -step.px])],
-    ["⟳", words.turnRight, turn(step.deg)],
+    [<Icon key="right" name="turnRight" />, words.turnRight, turn(step.deg)],
     ["←", words.left, (hand) => moved(hand, [-step.px, 0])],
     ["↓", words.down, (hand) => moved(hand, [0, step.px])],
     ["→", words.right, (hand) => moved(hand, [step.px, 0])],
@@ -98,7 +99,7 @@ export function OverlayPanel({ desk, state, order, held, onRelease }: OverlayPan
             desk.undo();
           }}
         >
-          ↶ {words.undo}
+          <Icon name="undo" /> {words.undo}
         </Button>
         <Button
           size="lg"

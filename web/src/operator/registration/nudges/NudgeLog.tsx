@@ -2,10 +2,12 @@ import type { ReactNode } from "react";
 import { shownFigure } from "../../../live/rounding";
 import type { components } from "../../../schema";
 import { useWords } from "../../../words/WordsContext";
+import { shownSecond } from "../../parts/shown";
 
 /** Every nudge that holds, the newest first: what, who, when. */
 export function NudgeLog({ nudges }: { nudges: components["schemas"]["KeptNudge"][] }): ReactNode {
-  const words = useWords().registration.nudges;
+  const all = useWords();
+  const words = all.registration.nudges;
   if (nudges.length === 0) return <p className="quiet">{words.logEmpty}</p>;
   return (
     <ol className="nudge-log card" reversed aria-label={words.log} data-testid="nudge-log">
@@ -18,7 +20,7 @@ export function NudgeLog({ nudges }: { nudges: components["schemas"]["KeptNudge"
               {shownFigure(Math.abs(one.amount), 1)} {shift ? "mm" : "°"} {way}
             </strong>{" "}
             <small>
-              {one.made_by} · {new Date(one.made_at).toLocaleTimeString()}
+              {one.made_by} · {shownSecond(one.made_at, all.language)}
             </small>
           </li>
         );

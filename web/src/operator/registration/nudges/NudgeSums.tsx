@@ -12,9 +12,9 @@ export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMes
     { name: words.sumDeg, value: nudges.turn_deg, most: nudges.most_deg, unit: "°" },
   ];
   return (
-    <dl className="measures" data-testid="nudge-sums">
+    <dl className="limits" data-testid="nudge-sums">
       {sums.map(({ name, value, most, unit }) => (
-        <div className="measure" key={unit}>
+        <div className="limit" key={unit}>
           <dt>
             {name}
             <Progress

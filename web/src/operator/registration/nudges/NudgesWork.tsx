@@ -3,6 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
+import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../procedure";
 import { Refused } from "../Refused";
@@ -84,7 +85,7 @@ export function NudgesWork(): ReactNode {
             );
           }}
         >
-          ↶ {words.nudges.undo}
+          <Icon name="undo" /> {words.nudges.undo}
         </Button>
       </section>
       {data !== null && <NudgeLog nudges={data.nudges} />}

@@ -1,5 +1,6 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
+import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { CaptureProgress } from "../CaptureProgress";
 import { filled } from "../filled";
@@ -64,7 +65,7 @@ export function CapturePanel({
             if (last !== null) onUndo(last);
           }}
         >
-          ↶ {words.points.undo}
+          <Icon name="undo" /> {words.points.undo}
         </Button>
       </div>
       <p className="quiet">{words.points.hold}</p>

@@ -15,7 +15,7 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
   const sides = [...new Set(targets.map((one) => one.side))];
   return (
     <section className="card" aria-live="polite">
-      <dl className="measures">
+      <dl className="limits">
         <Measure
           name={words.numbers.fre}
           hint={words.numbers.freHint}

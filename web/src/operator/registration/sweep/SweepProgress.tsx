@@ -8,8 +8,8 @@ export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMe
   const words = useWords().registration.sweep;
   const reach = sweep.reach_mm.map((mm) => shownNumber(mm, 0)).join(" × ");
   return (
-    <dl className="measures" data-testid="sweep-progress" data-points={sweep.points}>
-      <div className="measure">
+    <dl className="limits" data-testid="sweep-progress" data-points={sweep.points}>
+      <div className="limit">
         <dt>{sweep.taking ? `● ${words.taking}` : `■ ${words.lifted}`}</dt>
         <dd>
           <strong>
@@ -17,7 +17,7 @@ export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMe
           </strong>
         </dd>
       </div>
-      <div className="measure">
+      <div className="limit">
         <dt>
           {words.reach}
           <small>{words.reachHint}</small>
@@ -28,7 +28,7 @@ export function SweepProgress({ sweep }: { sweep: components["schemas"]["SweepMe
           </strong>
         </dd>
       </div>
-      <div className="measure">
+      <div className="limit">
         <dt>{words.unseen}</dt>
         <dd>
           <strong>{sweep.unseen}</strong>

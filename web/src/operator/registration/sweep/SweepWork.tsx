@@ -5,6 +5,7 @@ import { answered, Refusal, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
+import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../procedure";
 import { LiveStage } from "../LiveStage";
@@ -118,7 +119,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
               );
             }}
           >
-            ↶ {words.sweep.again}
+            <Icon name="undo" /> {words.sweep.again}
           </SureButton>
           <SureButton
             ask

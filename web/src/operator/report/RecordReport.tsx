@@ -1,0 +1,126 @@
+import { Maker } from "../parts/Maker";
+import { Table } from "@mantine/core";
+import type { ReactNode } from "react";
+import { shownFigure } from "../../live/rounding";
+import { useWords } from "../../words/WordsContext";
+import { documentTitle } from "../case/documentTitle";
+import { filled, sentence, shownTime } from "../parts/shown";
+import { useSides } from "../registration/useSides";
+import { factsOf, type Fact } from "./facts";
+import type { Entry, Heading } from "./record";
+
+interface RecordReportProps {
+  entries: readonly Entry[];
+  /** By the id of a document, what it says. */
+  contents: ReadonlyMap<string, Record<string, unknown>>;
+  /** When it was read: what holds is said of then. */
+  readAt: string;
+}
+
+/** The record: what was made, when, by whom, and what it says of itself; and what of it held when it was read. */
+export function RecordReport({ entries, contents, readAt }: RecordReportProps): ReactNode {
+  const words = useWords();
+  return (
+    <section className="stack">
+      <h4>{words.report.record}</h4>
+      <p className="soft">{words.report.recordLead}</p>
+      {entries.length === 0 ? (
+        <p className="soft">{words.report.nothing}</p>
+      ) : (
+        <Table.ScrollContainer minWidth={0} className="stacked">
+          <Table verticalSpacing="sm" data-testid="record">
+            <Table.Thead>
+              <Table.Tr>
+                <Table.Th scope="col">{words.report.madeAt}</Table.Th>
+                <Table.Th scope="col">{words.report.what}</Table.Th>
+                <Table.Th scope="col">{words.report.says}</Table.Th>
+                <Table.Th scope="col">{words.report.by}</Table.Th>
+                <Table.Th scope="col">
+                  {filled(words.report.heldAt, { time: shownTime(readAt, words.language) })}
+                </Table.Th>
+              </Table.Tr>
+            </Table.Thead>
+            <Table.Tbody>
+              {entries.map((entry) => (
+                <EntryRow key={entry.last.id} entry={entry} content={contents.get(entry.last.id) ?? {}} />
+              ))}
+            </Table.Tbody>
+          </Table>
+        </Table.ScrollContainer>
+      )}
+    </section>
+  );
+}
+
+function EntryRow({ entry, content }: { entry: Entry; content: Record<string, unknown> }): ReactNode {
+  const words = useWords();
+  const { first, last } = entry;
+  const isOne = first === last;
+  return (
+    <Table.Tr>
+      <Table.Td className="record-time">
+        {shownTime(first.made_at, words.language)}
+        {!isOne && (
+          <>
+            {" "}
+            {words.report.until} {shownTime(last.made_at, words.language)}
+          </>
+        )}
+      </Table.Td>
+      <Table.Th scope="row">
+        {documentTitle(last, words.case)}
+        <p className="soft">
+          {isOne
+            ? `${words.case.version} ${String(last.version)}`
+            : filled(words.report.versions, { first: first.version, last: last.version })}
+        </p>
+      </Table.Th>
+      <Table.Td className="figure">
+        {content["passed"] === true && <p>✓ {words.report.passed}</p>}
+        {content["passed"] === false && <p>✕ {words.report.notPassed}</p>}
+        {factsOf(last.kind, content).map((fact) => (
+          <FactLine key={fact.name} fact={fact} />
+        ))}
+      </Table.Td>
+      <Table.Td>
+        <Maker of={last} />
+      </Table.Td>
+      <Table.Td>
+        <Standing heading={last} />
+      </Table.Td>
+    </Table.Tr>
+  );
+}
+
+function FactLine({ fact }: { fact: Fact }): ReactNode {
+  const words = useWords();
+  const sideName = useSides();
+  const { name, value, unit, most } = fact;
+  const methods = words.registration.method as Partial<Record<string, string>>;
+  const shown = typeof value === "string" ? (methods[value] ?? sideName(value)) : shownFigure(value, 2);
+  return (
+    <p>
+      {words.report.facts[name]}: {shown} {unit}
+      {most !== null && (
+        <span className="soft">
+          {" "}
+          ({words.report.allowed} {shownFigure(most, 2)} {unit})
+        </span>
+      )}
+    </p>
+  );
+}
+
+function Standing({ heading }: { heading: Heading }): ReactNode {
+  const words = useWords().case;
+  const { current, withdrawn, out_of_date: why } = heading;
+  if (current) return `✓ ${words.standings.current}`;
+  return (
+    <>
+      ! {withdrawn === null ? words.standings.outOfDate : words.standings.withdrawn}
+      <p className="soft">
+        {withdrawn === null ? sentence(why ?? "") : `${sentence(withdrawn.reason)} (${withdrawn.by})`}
+      </p>
+    </>
+  );
+}

@@ -1,0 +1,62 @@
+// What a document says of itself, in numbers that people in theatre know; its content is whatever was stored.
+import type { ReportWords } from "../../words/report/en";
+
+type Content = Readonly<Record<string, unknown>>;
+export type FactName = keyof ReportWords["facts"];
+
+export interface Fact {
+  name: FactName;
+  value: number | string;
+  unit: "mm" | "px" | "";
+  /** What was allowed when it was made; null where nothing was. */
+  most: number | null;
+}
+
+/** Kinds whose documents are worth opening for the report. */
+export const TELLING: ReadonlySet<string> = new Set(["camera", "tool", "registration", "check", "plan"]);
+
+/** What is not there stays out: nothing is guessed. */
+export function factsOf(kind: string, content: Content): Fact[] {
+  if (kind === "camera") return some(mm("fit", part(content["report"])["rms_px"], null, "px"));
+  if (kind === "tool") return some(mm("tip", part(content["pivot"])["rms_3d_mm"]));
+  if (kind === "plan") return some(said("vertebra", content["vertebra"]), said("side", content["side"]));
+  if (kind === "check") return checkFacts(content);
+  if (kind === "registration") return registrationFacts(content);
+  return [];
+}
+
+function checkFacts(content: Content): Fact[] {
+  return some(
+    said("landmark", content["landmark"]),
+    mm("distance", content["distance_mm"], content["most_mm"]),
+    mm("known", content["maximum_error_mm"], content["limit_mm"]),
+    mm("tipMoved", content["rms_3d_mm"]),
+  );
+}
+
+function registrationFacts(content: Content): Fact[] {
+  const numbers = part(content["numbers"]);
+  return some(
+    said("method", content["method"]),
+    mm("atEntry", numbers["tre_at_entry_mm"], numbers["most_tre_mm"]),
+    mm("points", numbers["fre_rms_mm"], numbers["most_fre_mm"]),
+    mm("leftOut", numbers["left_out_mm"], numbers["most_left_out_mm"]),
+    mm("needle", numbers["worst_offset_mm"]),
+    mm("surface", numbers["rms_mm"], numbers["most_rms_mm"]),
+    mm("nudged", numbers["nudged_mm"]),
+  );
+}
+
+function mm(name: FactName, value: unknown, most: unknown = null, unit: Fact["unit"] = "mm"): Fact | null {
+  return number(value) === null ? null : { name, value: number(value) ?? 0, unit, most: number(most) };
+}
+
+function said(name: FactName, value: unknown): Fact | null {
+  return typeof value === "string" && value !== "" ? { name, value, unit: "", most: null } : null;
+}
+
+const some = (...facts: (Fact | null)[]): Fact[] => facts.filter((one) => one !== null);
+const number = (value: unknown): number | null =>
+  typeof value === "number" && Number.isFinite(value) ? value : null;
+const part = (value: unknown): Content =>
+  typeof value === "object" && value !== null ? (value as Content) : {};

@@ -1,0 +1,26 @@
+import type { ReactNode } from "react";
+
+/** Drawn, because many fonts have no sign for them. Lines on a field of 24 by 24. */
+const LINES = {
+  crosshair: "M12 2v6M12 16v6M2 12h6M16 12h6M18 12a6 6 0 1 1-12 0a6 6 0 0 1 12 0",
+  enlarge: "M14 4h6v6M20 4l-7 7M10 20H4v-6M4 20l7-7",
+  point: "M12 8a4 4 0 1 1 0 8a4 4 0 0 1 0-8zM12 11v2M11 12h2",
+  pen: "M4 20l1-5L16 4l4 4L9 19zM13 7l4 4",
+  arrow: "M5 19L19 5M9 5h10v10",
+  circle: "M21 12a9 9 0 1 1-18 0a9 9 0 0 1 18 0",
+  undo: "M8 4L3 9l5 5M3 9h11a6 6 0 0 1 0 12h-4",
+  turnLeft: "M4 4v6h6M4.5 10A8.5 8.5 0 1 1 4 15",
+  turnRight: "M20 4v6h-6M19.5 10A8.5 8.5 0 1 0 20 15",
+  cross: "M5 5l14 14M19 5L5 19",
+} as const;
+
+export type IconName = keyof typeof LINES;
+
+/** A sign as large as the letters beside it; what it means is said by the button that it stands in. */
+export function Icon({ name }: { name: IconName }): ReactNode {
+  return (
+    <svg className="icon" viewBox="0 0 24 24" aria-hidden="true" focusable="false">
+      <path d={LINES[name]} />
+    </svg>
+  );
+}
