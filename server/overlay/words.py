@@ -156,7 +156,9 @@ def _through_detail(clearance: DrillClearance) -> str:
 
 def _ahead_detail(at_end: Closest) -> str:
     """What the present direction would give; where that is harmless, it is the channel that is left."""
-    if at_end.grade is GertzbeinRobbins.A or not isinstance(at_end, Nearest):
+    if not isinstance(at_end, Nearest):
+        return "misses the pedicle"
+    if at_end.grade is GertzbeinRobbins.A:
         return "leaves the channel"
     return f"ahead: {at_end.wall}, class {at_end.grade}"
 

@@ -73,9 +73,10 @@ def verdict_of(judged: Judged) -> Verdict:
     if not judged.certain.enough:
         return Verdict.UNSURE
     leaves = isinstance(channel, Nearest) and channel.clearance_mm < 0.0
-    if leaves or clearance.at_end.grade is not GertzbeinRobbins.A:
-        return Verdict.OFF
-    return Verdict.ON
+    at_end = clearance.at_end
+    # A direction that comes nowhere near the pedicle breaks no wall, and is no way to it.
+    stays = isinstance(at_end, Nearest) and at_end.grade is GertzbeinRobbins.A
+    return Verdict.ON if stays and not leaves else Verdict.OFF
 
 
 def placed_tool(

@@ -29,6 +29,12 @@ def is_green(image: Image) -> bool:
     [
         pytest.param(ON_THE_AXIS, Verdict.ON, "", id="on"),
         pytest.param({}, Verdict.OFF, "ahead: inferior, class C", id="off"),
+        pytest.param(
+            {"tip_in_vertebra_mm": (117.0, 0.0, -20.0), "tilt_rad": 0.0},
+            Verdict.OFF,
+            "misses the pedicle",
+            id="beside-the-patient",
+        ),
         pytest.param({"tilt_rad": 0.3}, Verdict.THROUGH, "superior wall, 0.3 mm", id="through"),
         pytest.param(
             {"tip_in_vertebra_mm": (0.0, 0.0, 42.3), "tilt_rad": 0.0},

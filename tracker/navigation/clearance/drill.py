@@ -47,8 +47,6 @@ class Nearest:
 class NotEntered:
     """No part of the drill is past the bone's back, or within reach of the channel: it has no clearance."""
 
-    grade: GertzbeinRobbins = GertzbeinRobbins.A
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrillRings:
