@@ -7,7 +7,7 @@ import numpy as np
 from tracker.appearance.equations.kernels import EVEN
 from tracker.appearance.kernels import robust_cost, scores_spread, whole_fit
 from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, nodes_of_plane, typical_contrast
-from tracker.appearance.picture.kernels import collect
+from tracker.appearance.pixels.kernels import collect
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
