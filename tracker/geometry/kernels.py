@@ -180,3 +180,17 @@ def products_of_four(one, rows, count):
         s2 += value * b2[k]
         s3 += value * b3[k]
     return s0, s1, s2, s3
+
+
+@compiled
+def mean_ratio(a, b):
+    """Mean ratio of a symmetric matrix `b` (n, n) to a positive one `a`, over all ways; 0 where it is not."""
+    n = len(a)
+    lower, d, out = np.zeros((n, n)), np.empty(n), np.empty(n)
+    if not _factor(a, 0.0, lower, d):
+        return 0.0
+    total = 0.0
+    for k in range(n):
+        _substitute(lower, d, b[k], out)
+        total += out[k]
+    return total / n
