@@ -7,11 +7,11 @@ import numpy as np
 from tracker.appearance.equations.kernels import EVEN
 from tracker.appearance.kernels import robust_cost, scores_spread, whole_fit
 from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, nodes_of_plane, typical_contrast
-from tracker.appearance.picture.kernels import collect
+from tracker.appearance.pixels.kernels import collect
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
-from tracker.geometry.kernels import pose_rows
+from tracker.geometry.kernels import mean_ratio, pose_rows
 
 # Half of the part of the plane that is looked at, in sides: the outline's blurred outer half lies on the
 # white paper, and what lies beyond the paper must not come in.
@@ -299,7 +299,7 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
     rows, is_told = pose_rows(one.matrix, 0.0)
     if not is_told:
         return None
-    alone = rows[:, :6] * one.scale_grey**2
+    alone = np.ascontiguousarray(rows[:, :6]) * one.scale_grey**2
     together = scores_spread(
         seen.values,
         one.looked,
@@ -310,7 +310,7 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
         rows,
         BLOCKS,
     )
-    alike = max(float(np.trace(np.linalg.solve(alone, together))) / 6.0, 1.0)
+    alike = max(float(mean_ratio(alone, together)), 1.0)
     return WholeFit(
         camera_from_marker=Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm),
         covariance=alone * alike,

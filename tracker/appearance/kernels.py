@@ -99,7 +99,7 @@ def whole_fit(
     is a fit, and what the pixels saw when last looked at: `rows`, `at`, `lit` and `own`.
     """
     n, count = len(values), len(numbers)
-    rows, at, lit, own = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
+    rows, at, lit, own = np.empty((10, n)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     seen = (rows, at, lit, own)
     a, g, step = np.zeros((count, count)), np.zeros(count), np.zeros(count)
     failed = (a, 0.0, 0.0, False, seen)
@@ -107,7 +107,7 @@ def whole_fit(
     if n < 2 * EVEN or not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
         return failed
     if scale == 0.0:
-        if nodes == 0 and not even_light(rows, at, values, numbers, 2.0, cut):
+        if nodes == 0 and not even_light(rows[0], at, values, numbers, 2.0, cut):
             return failed
         light_up(at, numbers, nodes, lit)
         scale = typical_sd(rows, values, lit, numbers[RESPONSE], own)
@@ -152,7 +152,7 @@ def whole_fit(
 def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, cut):
     """The robust sum of squared residuals of a fit, in units of `scale`; infinite where it cannot be seen."""
     n = len(values)
-    rows, at, lit, own = np.zeros((n, 10)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
+    rows, at, lit, own = np.empty((10, n)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     blur = numbers[BLUR : BLUR + 3]
     if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
         return np.inf
@@ -160,7 +160,7 @@ def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers
     trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
     cost, unit = 0.0, 1.0 / (cut * scale) ** 2
     for i in range(n):
-        r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[i, 0], numbers[RESPONSE])
+        r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], numbers[RESPONSE])
         z = r * r * own[i] * unit
         cost += z / (1.0 + z)
     return cost * cut * cut

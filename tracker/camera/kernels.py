@@ -1,5 +1,7 @@
 """The compiled loops of the camera; their types are those of their calls."""
 
+import numpy as np
+
 from tracker.compiled import compiled
 
 
@@ -48,3 +50,16 @@ def project_with_derivative(p, lens, derivative):
     derivative[0, 0], derivative[0, 1], derivative[0, 2] = ux / z, uy / z, -(ux * x + uy * y) / z
     derivative[1, 0], derivative[1, 1], derivative[1, 2] = vx / z, vy / z, -(vx * x + vy * y) / z
     return u, v
+
+
+@compiled
+def square_seen(rotation, translation, lens, side_mm):
+    """Pixels (4, 2) of a square's corners: top-left, top-right, bottom-right, bottom-left."""
+    derivative, p, pixels = np.empty((2, 3)), np.empty(3), np.empty((4, 2))
+    for i in range(4):
+        x = 0.5 * side_mm if i in (1, 2) else -0.5 * side_mm
+        y = 0.5 * side_mm if i in (0, 1) else -0.5 * side_mm
+        for k in range(3):
+            p[k] = rotation[k, 0] * x + rotation[k, 1] * y + translation[k]
+        pixels[i, 0], pixels[i, 1] = project_with_derivative(p, lens, derivative)
+    return pixels

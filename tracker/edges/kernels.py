@@ -220,10 +220,12 @@ def _slope(gx, gy, x, y, nx, ny):
     """The derivative along (nx, ny) at a point (x, y) of the window, bilinear."""
     iu, iv = int(x), int(y)
     fu, fv = x - iu, y - iv
-    a, b, c, d = (1 - fu) * (1 - fv), fu * (1 - fv), (1 - fu) * fv, fu * fv
-    dx = a * gx[iv, iu] + b * gx[iv, iu + 1] + c * gx[iv + 1, iu] + d * gx[iv + 1, iu + 1]
-    dy = a * gy[iv, iu] + b * gy[iv, iu + 1] + c * gy[iv + 1, iu] + d * gy[iv + 1, iu + 1]
-    return dx * nx + dy * ny
+    # Unsigned: a signed index is asked each time whether it counts from the end.
+    c, r, one = np.uint64(iu), np.uint64(iv), np.uint64(1)
+    upper = (1.0 - fu) * (nx * gx[r, c] + ny * gy[r, c]) + fu * (nx * gx[r, c + one] + ny * gy[r, c + one])
+    r += one
+    lower = (1.0 - fu) * (nx * gx[r, c] + ny * gy[r, c]) + fu * (nx * gx[r, c + one] + ny * gy[r, c + one])
+    return (1.0 - fv) * upper + fv * lower
 
 
 @compiled
@@ -235,13 +237,16 @@ def crossing(gx, gy, u, v, nx, ny, reach):
     """
     height, width = gx.shape
     steps = min(int(np.ceil(reach)) + 1, MOST_STEPS)
+    # A little more, so that rounding cannot take the last sample over the border.
+    far_u, far_v = steps * abs(nx) + 1e-6, steps * abs(ny) + 1e-6
+    inside = far_u <= u < width - 1.0 - far_u and far_v <= v < height - 1.0 - far_v
     best, best_worth, best_k = np.float64(0.0), np.float64(0.0), -1000
     best_before, best_after = np.float64(0.0), np.float64(0.0)
     before, here = np.float64(0.0), np.float64(0.0)
     for k in range(-steps, steps + 1):
         x, y = u + k * nx, v + k * ny
         after = np.float64(0.0)
-        if 0.0 <= x < width - 1.0 and 0.0 <= y < height - 1.0:
+        if inside or (0.0 <= x < width - 1.0 and 0.0 <= y < height - 1.0):
             after = _slope(gx, gy, x, y, nx, ny)
         # The peak is at the sample before this one.
         if k > 1 - steps and here > 0.0 and here >= before and here >= after:

@@ -142,3 +142,55 @@ def pose_rows(matrix, ridge):
         for m in range(k):
             rows[m, k] = rows[k, m] = 0.5 * (rows[m, k] + rows[k, m])
     return rows, True
+
+
+@compiled
+def add_products(rows, weights, count, room, a):
+    """Add to a symmetric matrix (m, m) the weighted products of rows (m, many), of the first `count` columns.
+
+    Row by row over many columns, so that the machine works on several at once. `room` is (many,).
+    """
+    m = len(a)
+    for i in range(m):
+        own = rows[i]
+        for k in range(count):
+            room[k] = weights[k] * own[k]
+        j = 0
+        while j <= i:
+            # Four at a time: what is loaded serves them all.
+            b = rows[j], rows[min(j + 1, i)], rows[min(j + 2, i)], rows[min(j + 3, i)]
+            total = products_of_four(room, b, count)
+            for n in range(min(4, i + 1 - j)):
+                a[i, j + n] += total[n]
+            j += 4
+    for i in range(m):
+        for j in range(i):
+            a[j, i] = a[i, j]
+
+
+@compiled
+def products_of_four(one, rows, count):
+    """The products of one row (many,) with four others, of the first `count` columns."""
+    b0, b1, b2, b3 = rows
+    s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
+    for k in range(count):
+        value = one[k]
+        s0 += value * b0[k]
+        s1 += value * b1[k]
+        s2 += value * b2[k]
+        s3 += value * b3[k]
+    return s0, s1, s2, s3
+
+
+@compiled
+def mean_ratio(a, b):
+    """Mean ratio of a symmetric matrix `b` (n, n) to a positive one `a`, over all ways; 0 where it is not."""
+    n = len(a)
+    lower, d, out = np.zeros((n, n)), np.empty(n), np.empty(n)
+    if not _factor(a, 0.0, lower, d):
+        return 0.0
+    total = 0.0
+    for k in range(n):
+        _substitute(lower, d, b[k], out)
+        total += out[k]
+    return total / n

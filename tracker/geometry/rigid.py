@@ -1,6 +1,7 @@
 """`Rigid[To, From]`: where one frame of the theatre stands in another."""
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -39,7 +40,7 @@ class Rigid(Generic[To, From]):
         rotation = np.array(self.rotation, dtype=np.float64, order="C").reshape(3, 3)
         translation = np.array(self.translation_mm, dtype=np.float64, order="C").reshape(3)
         off, determinant = off_rotation(rotation)
-        if not np.isfinite(translation).all() or off > ORTHONORMAL_TOLERANCE or determinant < 0.0:
+        if not all(map(isfinite, translation.tolist())) or off > ORTHONORMAL_TOLERANCE or determinant < 0.0:
             raise InvalidInput(
                 "ROTATION_INVALID",
                 f"a pose is not a rigid motion: its rotation is off orthonormal by {off:.3g}, "

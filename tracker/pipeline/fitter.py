@@ -15,6 +15,7 @@ from tracker.pose import (
     Sighting,
     Unseen,
     UnseenReason,
+    corners_px_at,
     judged,
     occurrence_near,
     pose_from_corners,
@@ -47,7 +48,7 @@ class Fitter:
         self, pixels: Pixels, model: MarkerModel, start: Rigid[Camera, Marker], *, found_by: FoundBy
     ) -> Sighting | None:
         """What stands at about this pose; None when it would be outside the image, or nothing fits there."""
-        corners = self._camera.px_from_camera(start.move_points(model.corners_mm))
+        corners = corners_px_at(self._camera, model, start)
         window = window_around(corners, reach_px=TRACK_REACH_PX, size_wh_px=self._camera.size_wh_px)
         if window is None:
             return None

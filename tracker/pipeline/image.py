@@ -44,4 +44,4 @@ def pixels_of(grey: GreyImage, textures: Mapping[str, Textures]) -> Pixels:
     """The same with the sd of its noise, and with the pictures of the markers by name."""
     # Noise is alike everywhere: some rows tell it.
     every = max(grey.size // PIXELS_FOR_NOISE, 1)
-    return Pixels(image=grey, noise_grey=noise_grey(grey[::every]), textures=textures)
+    return Pixels(image=grey, noise_grey=noise_grey(grey, every=every), textures=textures)

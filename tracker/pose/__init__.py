@@ -1,7 +1,7 @@
 """From the marker's edges to its pose, and to the tool behind it."""
 
 from tracker.pose.judgement import Scene, judged
-from tracker.pose.occurrence import Occurrence, occurrence_near, side_px_of, with_target
+from tracker.pose.occurrence import Occurrence, corners_px_at, occurrence_near, side_px_of, with_target
 from tracker.pose.places import one_for_each_place, worth_of
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.prior import Prior
@@ -27,6 +27,7 @@ __all__ = [
     "ToolModel",
     "Unseen",
     "UnseenReason",
+    "corners_px_at",
     "judged",
     "occurrence_near",
     "one_for_each_place",

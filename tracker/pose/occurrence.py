@@ -6,6 +6,7 @@ from math import sqrt
 import numpy as np
 
 from tracker.camera import CameraModel
+from tracker.camera.kernels import square_seen
 from tracker.edges import Edgels, Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import (
@@ -48,6 +49,12 @@ class Occurrence:
     normals_px: Array
 
 
+def corners_px_at(camera: CameraModel, model: MarkerModel, pose: Rigid[Camera, Marker]) -> Array:
+    """Corners (4, 2) of the black square at a pose, through the lens."""
+    seen = square_seen(pose.rotation, pose.translation_mm, camera.lens, model.side_mm)
+    return np.asarray(seen, dtype=np.float64)
+
+
 def side_px_of(corners_px: Array) -> float:
     """Root of the area inside four corners (4, 2), in px."""
     (ax, ay), (bx, by), (cx, cy), (dx, dy) = corners_px.tolist()
@@ -64,7 +71,7 @@ def occurrence_near(
     expected: Rigid[Camera, Marker] | None = None,
 ) -> Occurrence | None:
     """The model fitted to the edges around a pose; None when too few of its edges are near."""
-    corners = camera.px_from_camera(start.move_points(model.corners_mm))
+    corners = corners_px_at(camera, model, start)
     side = side_px_of(corners)
     active = model.level_for(side)
     projected = projected_edges(camera, start, active)
@@ -85,7 +92,7 @@ def occurrence_near(
     )
     if fit is None:
         return None
-    fitted = camera.px_from_camera(fit.camera_from_marker.move_points(model.corners_mm))
+    fitted = corners_px_at(camera, model, fit.camera_from_marker)
     if float(np.abs(fitted - corners).max()) > max(MOST_DRAG_SIDE_RATIO * side, 2.0 * first_reach_px):
         return None
     projected = projected_edges(camera, fit.camera_from_marker, active)

@@ -5,6 +5,7 @@ import numpy as np
 
 from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
+from tracker.pose.foreshortening.kernels import foreshortened
 from tracker.pose.kernels import fit_square, mirror
 
 # The closed form is within a few pixels; each round squares what is left.
@@ -44,32 +45,11 @@ def pose_from_corners(
 
 
 def _foreshortened(homography: Array) -> Rigid[Camera, Marker] | None:
-    """A pose whose image is, to first order, that of a homography (3, 3) from the plane in mm, if any.
-
-    In a frame whose z is the line of sight, the image's derivative is the upper left of the rotation by the
-    distance; what is missing of its columns is their part along the line of sight.
-    """
-    x, y = homography[:2, 2] / homography[2, 2]
-    derivative = (homography[:2, :2] - np.outer([x, y], homography[2, :2])) / homography[2, 2]
-    away = float(np.sqrt(1.0 + x * x + y * y))
-    # Columns: right, down, along the line of sight. At a distance of 1 the image moves by `base` with them.
-    sight = np.array([x, y, 1.0]) / away
-    right = np.cross([0.0, 1.0, 0.0], sight)
-    right /= np.linalg.norm(right)
-    frame = np.column_stack([right, np.cross(sight, right), sight])
-    base = (frame[:2, :2] - np.outer([x, y], frame[2, :2])) * away
-    seen = np.linalg.solve(base, derivative)
-    scale = float(np.linalg.svd(seen, compute_uv=False)[0])
-    if not scale > 1e-12:
+    """A pose whose image is, to first order, that of a homography (3, 3) from the plane in mm, if any."""
+    rotation, translation = np.empty((3, 3)), np.empty(3)
+    if not foreshortened(homography, rotation, translation):
         return None
-    flat = seen / scale
-    left = np.eye(2) - flat.T @ flat
-    first = float(np.sqrt(max(left[0, 0], 0.0)))
-    second = float(np.sqrt(max(left[1, 1], 0.0))) * (1.0 if left[0, 1] >= 0.0 else -1.0)
-    columns = np.vstack([flat, [first, second]])
-    turned = nearest_rotation(np.column_stack([columns, np.cross(columns[:, 0], columns[:, 1])]))
-    # A unit of length at a distance d along the line of sight is seen as 1 / d.
-    return Rigid(rotation=frame @ turned, translation_mm=sight / scale)
+    return Rigid(rotation=nearest_rotation(rotation), translation_mm=translation)
 
 
 def other_solution(pose: Rigid[Camera, Marker]) -> Rigid[Camera, Marker]:

@@ -10,7 +10,7 @@ from tracker.camera import CameraModel
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import MarkerModel
-from tracker.pose.occurrence import side_px_of
+from tracker.pose.occurrence import corners_px_at, side_px_of
 from tracker.pose.planar import other_solution
 from tracker.pose.rivals import doubt_between, lead_between, surprise
 from tracker.pose.sighting import Seen
@@ -70,7 +70,7 @@ def with_whole_shape(
         side_px=side_px,
         noise_grey=pixels.noise_grey,
     )
-    here = camera.px_from_camera(starts[0].move_points(model.corners_mm))
+    here = corners_px_at(camera, model, starts[0])
     reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)
     near = [one for one in fits if _is_near(camera, model, one, here, reach)]
     if not near:
@@ -102,5 +102,5 @@ def _is_exact(one: WholeFit, noise_grey: float) -> bool:
 
 
 def _is_near(camera: CameraModel, model: MarkerModel, one: WholeFit, here: Array, reach: float) -> bool:
-    there = camera.px_from_camera(one.camera_from_marker.move_points(model.corners_mm))
+    there = corners_px_at(camera, model, one.camera_from_marker)
     return float(np.abs(there - here).max()) < reach

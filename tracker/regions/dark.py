@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from tracker.edges import GreyImage, straight_pieces
 from tracker.regions.borders.kernels import trace_borders
-from tracker.regions.kernels import find_runs, region_quads, regions_of
+from tracker.regions.kernels import find_runs, median_apart, region_quads, regions_of
 
 Int32 = npt.NDArray[np.int32]
 
@@ -43,20 +43,9 @@ class Regions:
     parent: Int32
 
 
-def noise_grey(image: GreyImage) -> float:
-    """The sd of the image's noise in grey levels, from neighbours on a sparse grid."""
-    some = image[::SAMPLE_STRIDE, :-1:SAMPLE_STRIDE].astype(np.int16)
-    next_to = image[::SAMPLE_STRIDE, 1::SAMPLE_STRIDE].astype(np.int16)
-    apart = np.abs(some - next_to[:, : some.shape[1]])
-    if apart.size == 0:
-        return 0.0
-    # The median of whole numbers, to a fraction: it stands within its own level by the share below it.
-    counts = np.bincount(apart.ravel(), minlength=2)
-    below = np.cumsum(counts)
-    level = int(np.searchsorted(below, below[-1] / 2.0))
-    before = float(below[level - 1]) if level else 0.0
-    inside = (below[-1] / 2.0 - before) / counts[level]
-    return float(NOISE_PER_DIFFERENCE * max(level - 0.5 + inside, 0.0))
+def noise_grey(image: GreyImage, *, every: int = 1) -> float:
+    """The sd of the image's noise in grey levels, from neighbours on a sparse grid of every so many rows."""
+    return float(NOISE_PER_DIFFERENCE * median_apart(image, every * SAMPLE_STRIDE, SAMPLE_STRIDE))
 
 
 def dark_mask(image: GreyImage, *, window_px: int, darker_grey: float) -> npt.NDArray[np.uint8]:

@@ -15,6 +15,26 @@ LEAST_FILLED = 0.62
 
 
 @compiled
+def median_apart(image, rows_apart, columns_apart):
+    """Median difference of pixels on a grid to their right-hand neighbours, in grey levels; 0 for none."""
+    height, width = image.shape
+    counts = np.zeros(256, np.int64)
+    for v in range(0, height, rows_apart):
+        line = image[v]
+        for u in range(0, width - 1, columns_apart):
+            counts[abs(np.int64(line[u]) - np.int64(line[u + 1]))] += 1
+    half = 0.5 * counts.sum()
+    if half == 0.0:
+        return 0.0
+    # The median of whole numbers, to a fraction: it stands within its own level by the share below it.
+    level, below = 0, 0
+    while below + counts[level] < half:
+        below += counts[level]
+        level += 1
+    return max(level - 0.5 + (half - below) / counts[level], 0.0)
+
+
+@compiled
 def _root(parent, i):
     while parent[i] != i:
         parent[i] = parent[parent[i]]

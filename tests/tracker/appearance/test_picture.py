@@ -30,7 +30,7 @@ def test_pixels_see_the_picture_at_their_blur(blur_px: float) -> None:
         place / side_px * MODEL.side_mm / pose.translation_mm[2]
         + pose.translation_mm[:2] / pose.translation_mm[2]
     )
-    rows, at = np.zeros((len(rays), 10)), np.empty((len(rays), 2))
+    rows, at = np.zeros((10, len(rays))), np.empty((len(rays), 2))
     blur = np.array([blur_px**2, blur_px**2, 0.0])
     assert predict(
         rays, CAMERA.lens, pose.rotation, pose.translation_mm, MODEL.side_mm, blur,
@@ -38,5 +38,5 @@ def test_pixels_see_the_picture_at_their_blur(blur_px: float) -> None:
     )  # fmt: skip
     x, y = (place.T * FINE + (direct.shape[0] - 1) / 2.0).astype(np.float32)
     expected = cv2.remap(direct, x, y, cv2.INTER_LINEAR).ravel()
-    off = rows[:, 0] - expected
+    off = rows[0] - expected
     assert np.abs(off).max() < 0.006

@@ -14,8 +14,9 @@ from tracker.appearance.light.kernels import (
     shaped_by,
     typical_contrast,
 )
-from tracker.appearance.picture.kernels import paper_seen
+from tracker.appearance.picture.kernels import MANY, paper_seen
 from tracker.compiled import compiled
+from tracker.geometry.kernels import add_products, products_of_four
 
 EVEN = LIGHT + PLANE
 # A camera's response is bent by so much; gamma 2.2 is half.
@@ -41,7 +42,7 @@ def trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own):
 @compiled
 def weighed_pixel(rows, i, value, lit, response, own, unit, row):
     """One pixel's derivatives into `row` (10,); returns the picture, residual, weight and robust cost."""
-    s, contrast = rows[i, 0], lit[i, 1]
+    s, contrast = rows[0, i], lit[i, 1]
     shaped = shaped_by(s, response)
     r = value - lit[i, 0] - contrast * shaped
     z = r * r * own[i] * unit
@@ -50,30 +51,58 @@ def weighed_pixel(rows, i, value, lit, response, own, unit, row):
     cost = z * w
     slope = contrast * (1.0 + response * (1.0 - 2.0 * s))
     for k in range(9):
-        row[k] = slope * rows[i, 1 + k]
+        row[k] = slope * rows[1 + k, i]
     row[RESPONSE] = contrast * s * (1.0 - s)
     return shaped, r, w * w * own[i], cost
 
 
 @compiled
+def _weighed_pixels(rows, at, values, lit, response, own, unit, begin, count, slopes, left, weights):
+    """The same of many pixels in even light: derivatives (16, many), residuals and weights; their cost."""
+    end, cost = begin + count, 0.0
+    picture = rows[0, begin:end]
+    by_response, shaped_row, shaped_u, shaped_v = slopes[RESPONSE], slopes[13], slopes[14], slopes[15]
+    ones, us, vs = slopes[10], slopes[11], slopes[12]
+    steep = np.empty(count)
+    for k in range(count):
+        i = begin + k
+        s, contrast = picture[k], lit[i, 1]
+        shaped = shaped_by(s, response)
+        r = values[i] - lit[i, 0] - contrast * shaped
+        z = r * r * own[i] * unit
+        w = 1.0 / (1.0 + z)
+        cost += z * w
+        left[k], weights[k] = r, w * w * own[i]
+        steep[k] = contrast * (1.0 + response * (1.0 - 2.0 * s))
+        by_response[k] = contrast * s * (1.0 - s)
+        u, v = at[i, 0], at[i, 1]
+        ones[k], us[k], vs[k] = 1.0, u, v
+        shaped_row[k], shaped_u[k], shaped_v[k] = shaped, shaped * u, shaped * v
+    for m in range(9):
+        out, slope = slopes[m], rows[1 + m, begin:end]
+        for k in range(count):
+            out[k] = steep[k] * slope[k]
+    return cost
+
+
+@compiled
 def _even_equations(rows, at, values, lit, numbers, own, unit, a, g):
     """Gauss-Newton's matrix (16, 16) and right side (16,) in even light; returns robust cost and weight."""
-    row = np.empty(EVEN)
+    slopes, left, weights, room = np.empty((EVEN, MANY)), np.empty(MANY), np.empty(MANY), np.empty(MANY)
     cost, total = 0.0, 0.0
-    for i in range(len(values)):
-        shaped, r, w, one = weighed_pixel(rows, i, values[i], lit, numbers[RESPONSE], own, unit, row)
-        cost += one
-        total += w
-        u, v = at[i, 0], at[i, 1]
-        row[LIGHT], row[LIGHT + 1], row[LIGHT + 2] = 1.0, u, v
-        row[LIGHT + 3], row[LIGHT + 4], row[LIGHT + 5] = shaped, shaped * u, shaped * v
-        wr = w * r
-        for m in range(EVEN):
-            wm = w * row[m]
-            g[m] += wr * row[m]
-            # The whole square, although it is symmetric: rows of fixed length are added four at a time.
-            for k in range(EVEN):
-                a[m, k] += wm * row[k]
+    for begin in range(0, len(values), MANY):
+        count = min(MANY, len(values) - begin)
+        cost += _weighed_pixels(
+            rows, at, values, lit, numbers[RESPONSE], own, unit, begin, count, slopes, left, weights
+        )
+        add_products(slopes, weights, count, room, a)
+        for k in range(count):
+            total += weights[k]
+            left[k] *= weights[k]
+        for m in range(0, EVEN, 4):
+            four = products_of_four(left, (slopes[m], slopes[m + 1], slopes[m + 2], slopes[m + 3]), count)
+            for k in range(4):
+                g[m + k] += four[k]
     return cost / unit, total
 
 
@@ -141,6 +170,6 @@ def typical_sd(rows, values, lit, response, own):
     sizes = np.empty((len(values) + every - 1) // every)
     for k in range(len(sizes)):
         i = k * every
-        r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[i, 0], response)
+        r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], response)
         sizes[k] = abs(r) * np.sqrt(own[i])
     return max(1.4826 * np.median(sizes), LEAST_SCALE_GREY)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.geometry.kernels import solve_positive
+from tracker.geometry.kernels import add_products, solve_positive
 
 # Numbers of a fit: translation 3, turn 3, blur 3 (variances along u, v and between), response 1, then light.
 BLUR, RESPONSE, LIGHT = 6, 9, 10
@@ -125,35 +125,39 @@ def hold_light(a, g, numbers, scale, nodes):
 
 
 @compiled
-def even_light(rows, at, values, numbers, scale, cut):
-    """Fit an even light alone, robustly, into numbers[10:16]; False where there is none."""
-    a, g, out = np.zeros((PLANE, PLANE)), np.zeros(PLANE), np.zeros(PLANE)
-    n = len(values)
-    row, lit, sizes = np.empty(PLANE), np.zeros((n, 2)), np.empty(n)
+def even_light(picture, at, values, numbers, scale, cut):
+    """Fit an even light alone, robustly, into numbers[10:16]; False where there is none.
+
+    `picture` (n,): what each pixel sees of it, 0..1.
+    """
+    a, g, out = np.empty((PLANE, PLANE)), np.empty(PLANE), np.zeros(PLANE)
+    n, response = len(values), numbers[RESPONSE]
+    rows, left, weights, room = np.empty((PLANE, n)), np.empty(n), np.ones(n), np.empty(n)
+    for i in range(n):
+        u, v = at[i, 0], at[i, 1]
+        shaped = shaped_by(picture[i], response)
+        rows[0, i], rows[1, i], rows[2, i] = 1.0, u, v
+        rows[3, i], rows[4, i], rows[5, i] = shaped, shaped * u, shaped * v
     for turn in range(3):
         a[:, :] = 0.0
-        g[:] = 0.0
-        for i in range(n):
-            shaped = shaped_by(rows[i, 0], numbers[RESPONSE])
-            w = 1.0
-            if turn > 0:
-                r = values[i] - lit[i, 0] - lit[i, 1] * shaped
-                w = 1.0 / (1.0 + (r / (cut * scale)) ** 2) ** 2
-            row[0], row[1], row[2] = 1.0, at[i, 0], at[i, 1]
-            row[3], row[4], row[5] = shaped, shaped * at[i, 0], shaped * at[i, 1]
-            for m in range(PLANE):
-                g[m] += w * row[m] * values[i]
-                for k in range(PLANE):
-                    a[m, k] += w * row[m] * row[k]
+        add_products(rows, weights, n, room, a)
+        for m in range(PLANE):
+            total = 0.0
+            for i in range(n):
+                total += weights[i] * rows[m, i] * values[i]
+            g[m] = total
         # Slopes of the light are small unless the image says otherwise.
         for m in (1, 2, 4, 5):
             a[m, m] += 0.02 * a[0, 0]
         if not solve_positive(a, g, out):
             return False
-        numbers[LIGHT : LIGHT + PLANE] = out
-        light_up(at, numbers, 0, lit)
-        if turn == 0:
+        left[:] = values
+        for m in range(PLANE):
             for i in range(n):
-                sizes[i] = abs(values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[i, 0], numbers[RESPONSE]))
-            scale = max(1.4826 * np.median(sizes), scale)
+                left[i] -= out[m] * rows[m, i]
+        if turn == 0:
+            scale = max(1.4826 * np.median(np.abs(left)), scale)
+        for i in range(n):
+            weights[i] = 1.0 / (1.0 + (left[i] / (cut * scale)) ** 2) ** 2
+    numbers[LIGHT : LIGHT + PLANE] = out
     return True

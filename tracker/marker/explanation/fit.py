@@ -1,6 +1,7 @@
 """A model laid over a square: where it is, how it is blurred and lit, and what that leaves."""
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import numpy.typing as npt
@@ -136,6 +137,7 @@ class Fit:
         return Left(seen=self.seen, picture=self.picture, rest=self.rest, gain=self.gain)
 
 
+@cache
 def inside_square() -> Mask:
     """Which fields lie inside the outline."""
     u, v = grid()

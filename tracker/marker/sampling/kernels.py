@@ -27,23 +27,44 @@ def through(h, a, b):
 
 
 @compiled
+def _row_through(h, first, apart, b, most_u, most_v, us, vs):
+    """Where a homography takes a row of points (first + k apart, b), kept within the image."""
+    for k in range(len(us)):
+        a = first + k * apart
+        w = 1.0 / (h[6] * a + h[7] * b + 1.0)
+        us[k] = min(max((h[0] * a + h[1] * b + h[2]) * w, 0.0), most_u)
+        vs[k] = min(max((h[3] * a + h[4] * b + h[5]) * w, 0.0), most_v)
+
+
+@compiled
+def _between(image, u, v):
+    """The image between four pixels, inside of it."""
+    iu, iv = int(u), int(v)
+    fu, fv = np.float32(u - iu), np.float32(v - iv)
+    # Unsigned: a signed index is asked each time whether it counts from the end.
+    c, r, one = np.uint64(iu), np.uint64(iv), np.uint64(1)
+    a, b = np.float32(image[r, c]), np.float32(image[r, c + one])
+    r += one
+    d, e = np.float32(image[r, c]), np.float32(image[r, c + one])
+    upper, lower = a + fu * (b - a), d + fu * (e - d)
+    return upper + fv * (lower - upper)
+
+
+@compiled
 def sample_quads(image, quads, cells, ring):
     """Grey (q, n * n) at n = cells + 2 ring points a side of each outline, `ring` of them beyond."""
     height, width = image.shape
     count, n = len(quads), cells + 2 * ring
     out = np.empty((count, n * n), np.float32)
-    h = np.empty(8, np.float64)
+    h, us, vs = np.empty(8), np.empty(n), np.empty(n)
     for q in range(count):
         square_to_quad(quads[q], h)
         for r in range(n):
+            b = (r - ring + 0.5) / cells
+            _row_through(h, (0.5 - ring) / cells, 1.0 / cells, b, width - 1.001, height - 1.001, us, vs)
+            line = out[q, r * n : r * n + n]
             for c in range(n):
-                u, v = through(h, (c - ring + 0.5) / cells, (r - ring + 0.5) / cells)
-                u, v = min(max(u, 0.0), width - 1.001), min(max(v, 0.0), height - 1.001)
-                iu, iv = int(u), int(v)
-                fu, fv = np.float32(u - iu), np.float32(v - iv)
-                upper = image[iv, iu] + fu * (np.float32(image[iv, iu + 1]) - image[iv, iu])
-                lower = image[iv + 1, iu] + fu * (np.float32(image[iv + 1, iu + 1]) - image[iv + 1, iu])
-                out[q, r * n + c] = upper + fv * (lower - upper)
+                line[c] = _between(image, us[c], vs[c])
     return out
 
 
@@ -51,19 +72,17 @@ def sample_quads(image, quads, cells, ring):
 def sample_square(image, corners, fields, samples):
     """Mean grey of fields x fields cells of a square at these corners, samples x samples in each."""
     height, width = image.shape
-    h = np.empty(8, np.float64)
+    out, n = np.zeros((fields, fields)), fields * samples
+    h, us, vs = np.empty(8), np.empty(n), np.empty(n)
     square_to_quad(corners, h)
-    out = np.zeros((fields, fields))
-    n = fields * samples
     for r in range(n):
-        for c in range(n):
-            u, v = through(h, (c + 0.5) / n, (r + 0.5) / n)
-            u, v = min(max(u, 0.0), width - 1.001), min(max(v, 0.0), height - 1.001)
-            iu, iv = int(u), int(v)
-            fu, fv = u - iu, v - iv
-            upper = (1 - fu) * image[iv, iu] + fu * image[iv, iu + 1]
-            lower = (1 - fu) * image[iv + 1, iu] + fu * image[iv + 1, iu + 1]
-            out[r // samples, c // samples] += (1 - fv) * upper + fv * lower
+        _row_through(h, 0.5 / n, 1.0 / n, (r + 0.5) / n, width - 1.001, height - 1.001, us, vs)
+        line = out[r // samples]
+        for c in range(fields):
+            total = 0.0
+            for k in range(c * samples, c * samples + samples):
+                total += _between(image, us[k], vs[k])
+            line[c] += total
     return out / (samples * samples)
 
 

@@ -1,0 +1,4 @@
+"""Which pixels of an image tell of a marker at about a pose.
+
+Only compiled loops: `collect` takes them.
+"""

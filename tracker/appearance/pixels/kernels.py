@@ -1,0 +1,186 @@
+"""The compiled loops that choose pixels; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.appearance.picture.kernels import footprint, in_sides
+from tracker.camera.blur.kernels import level_of
+from tracker.camera.kernels import project_with_derivative
+from tracker.compiled import compiled
+
+BRIGHTEST = 254
+# Rays are made so far apart, and those between them by three.
+APART_PX = 8
+# A lens bends the sides of what is looked at by less than this.
+ROOM_PX = 3.0
+
+
+@compiled
+def _extent(rotation, translation, lens, reach_mm, step, width, height, outline):
+    """First and last column and row, in steps, of what lies within reach; empty where it cannot be.
+
+    Fills `outline` (4, 2), its corners in steps.
+    """
+    derivative = np.empty((2, 3))
+    p = np.empty(3)
+    left, top, right, bottom = 1e9, 1e9, -1e9, -1e9
+    for k in range(4):
+        x = reach_mm if k in (1, 2) else -reach_mm
+        y = reach_mm if k in (0, 1) else -reach_mm
+        for m in range(3):
+            p[m] = rotation[m, 0] * x + rotation[m, 1] * y + translation[m]
+        if p[2] < 1.0:
+            return 0, -1, 0, -1
+        u, v = project_with_derivative(p, lens, derivative)
+        outline[k, 0], outline[k, 1] = u / step, v / step
+        left, right, top, bottom = min(left, u), max(right, u), min(top, v), max(bottom, v)
+    if not (right - left < 1e5 and bottom - top < 1e5):
+        return 0, -1, 0, -1
+    c0, c1 = max(int(left) // step, 0), min(int(right) // step + 1, width // step - 1)
+    r0, r1 = max(int(top) // step, 0), min(int(bottom) // step + 1, height // step - 1)
+    return c0, c1, r0, r1
+
+
+@compiled
+def _steep(texels, first, size, texel, least2, x, y):
+    """Whether the picture is steep at the texel next to (x, y) in sides."""
+    c = min(max(int(x / texel + 0.5 * size), 0), size - 1)
+    r = min(max(int(0.5 * size - y / texel), 0), size - 1)
+    i = first + 3 * (r * size + c)
+    return texels[i + 1] ** 2 + texels[i + 2] ** 2 > least2
+
+
+@compiled
+def _value(image, step, r, c):
+    """The mean of a block of step x step pixels, -1 where it is brighter than the camera can tell."""
+    total = 0
+    for i in range(step):
+        for j in range(step):
+            one = image[r * step + i, c * step + j]
+            if one >= BRIGHTEST:
+                return -1.0
+            total += one
+    return total / (step * step)
+
+
+@compiled
+def _look_along(u, v, lens, ray, rounds, room):
+    """The ray (2,) through a pixel, from one near it, by so many rounds of Newton's method.
+
+    `room`: (2, 3) and (3,), made once for many pixels.
+    """
+    derivative, p = room
+    for _ in range(rounds):
+        p[0], p[1], p[2] = ray[0], ray[1], 1.0
+        pu, pv = project_with_derivative(p, lens, derivative)
+        a, b, d, e = derivative[0, 0], derivative[0, 1], derivative[1, 0], derivative[1, 1]
+        det = a * e - b * d
+        du, dv = u - pu, v - pv
+        ray[0] += (e * du - b * dv) / det
+        ray[1] += (a * dv - d * du) / det
+
+
+@compiled
+def _row_extent(outline, row, least, most):
+    """First and last column at which a row of pixels can meet a convex outline (4, 2) in px, within these."""
+    left, right = 1e9, -1e9
+    for k in range(4):
+        ax, ay = outline[k, 0], outline[k, 1]
+        bx, by = outline[(k + 1) % 4, 0], outline[(k + 1) % 4, 1]
+        low, high = min(ay, by) - ROOM_PX, max(ay, by) + ROOM_PX
+        if not low <= row <= high:
+            continue
+        # What of this side is within the room of the row.
+        for beside in (row - ROOM_PX, row + ROOM_PX):
+            t = min(max((beside - ay) / (by - ay), 0.0), 1.0) if by != ay else 0.0
+            x = ax + t * (bx - ax)
+            left, right = min(left, x), max(right, x)
+        if by == ay:
+            left, right = min(left, bx), max(right, bx)
+    return max(int(left - ROOM_PX), least), min(int(right + ROOM_PX) + 1, most)
+
+
+@compiled
+def _row_on_plane(r, c0, count, step, lens, here, rotation, translation, side_mm, rays, at):
+    """Rays (n, 2) of a row of pixels and where they meet the marker's plane (2, n), in sides.
+
+    `here` (2,): a ray near the first of them.
+    """
+    half = 0.5 * (step - 1)
+    v = step * r + half
+    middle, ahead, room = here.copy(), here.copy(), (np.empty((2, 3)), np.empty(3))
+    _look_along(step * c0 + half, v, lens, ahead, 4, room)
+    xs, ys = rays[0], rays[1]
+    for first in range(0, count, 2 * APART_PX):
+        here[:], middle[:] = ahead, ahead
+        _look_along(step * (c0 + first + APART_PX) + half, v, lens, middle, 2, room)
+        ahead[:] = middle
+        _look_along(step * (c0 + first + 2 * APART_PX) + half, v, lens, ahead, 2, room)
+        # Over so few pixels a lens bends as a parabola does.
+        dx, dy = 0.5 * (ahead[0] - here[0]), 0.5 * (ahead[1] - here[1])
+        ddx, ddy = 0.5 * (ahead[0] + here[0]) - middle[0], 0.5 * (ahead[1] + here[1]) - middle[1]
+        for k in range(min(2 * APART_PX, count - first)):
+            t = k / APART_PX - 1.0
+            xs[first + k], ys[first + k] = middle[0] + t * (dx + t * ddx), middle[1] + t * (dy + t * ddy)
+    r00, r10, r20 = rotation[0, 0] / side_mm, rotation[1, 0] / side_mm, rotation[2, 0] / side_mm
+    r01, r11, r21 = rotation[0, 1] / side_mm, rotation[1, 1] / side_mm, rotation[2, 1] / side_mm
+    nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
+    t0, t1, t2 = translation[0], translation[1], translation[2]
+    # The plane that the marker lies in: normal . point = distance.
+    distance = nx * t0 + ny * t1 + nz * t2
+    us, vs = at[0], at[1]
+    for k in range(count):
+        x, y = xs[k], ys[k]
+        along = distance / (nx * x + ny * y + nz)
+        qx, qy, qz = along * x - t0, along * y - t1, along - t2
+        us[k], vs[k] = r00 * qx + r10 * qy + r20 * qz, r01 * qx + r11 * qy + r21 * qz
+
+
+@compiled
+def collect(
+    image, step, lens, rotation, translation, side_mm, reach_ratio, tex, blur, slope_ratio, stride, rays,
+    values
+):  # fmt: skip
+    """Pixels (or means of step x step of them) within `reach_ratio` sides of the marker's centre lines.
+
+    Those where its picture at this blur (3,) is at least `slope_ratio` as steep as anywhere, and every so
+    many of the others. Fills `rays` (n, 2), their directions with the lens taken out, and `values` (n,);
+    returns how many.
+    """
+    texels, starts, sizes, blurs, widths, steepest = tex
+    height, width = image.shape
+    outline = np.empty((4, 2))
+    c0, c1, r0, r1 = _extent(rotation, translation, lens, reach_ratio * side_mm, step, width, height, outline)
+    ahead = np.empty((2, 2))
+    if c1 - c0 < 2 or r1 - r0 < 2 or not footprint(rotation, translation, lens, side_mm, ahead):
+        return 0
+    m00, _, m11 = in_sides(ahead, blur)
+    level = level_of(max(m00, m11), blurs)
+    first, size, texel = starts[level], sizes[level], widths[level]
+    least2 = (slope_ratio * steepest[level]) ** 2
+    n, flat = 0, 0
+    here = np.empty(2)
+    here[0], here[1] = translation[0] / translation[2], translation[1] / translation[2]
+    row_rays, row_at = np.empty((2, c1 - c0 + 1)), np.empty((2, c1 - c0 + 1))
+    for r in range(r0, r1 + 1):
+        begin, end = _row_extent(outline, r, c0, c1)
+        count = end - begin + 1
+        if count < 1:
+            continue
+        _row_on_plane(r, begin, count, step, lens, here, rotation, translation, side_mm, row_rays, row_at)
+        for k in range(count):
+            px, py = row_at[0, k], row_at[1, k]
+            if abs(px) > reach_ratio or abs(py) > reach_ratio:
+                continue
+            if not _steep(texels, first, size, texel, least2, px, py):
+                flat += 1
+                if flat % stride != 0:
+                    continue
+            value = _value(image, step, r, begin + k)
+            if value < 0.0:
+                # It says nothing of where an edge is.
+                continue
+            if n == len(values):
+                return n
+            rays[n, 0], rays[n, 1], values[n] = row_rays[0, k], row_rays[1, k], value
+            n += 1
+    return n
