@@ -90,8 +90,7 @@ test-web: $(STAMPS)/page-packages
 .PHONY: test-python
 test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests/server -k words" narrows them)
 	@COAXIAL_CHROMIUM="$$(sh .make/find-chromium)" || exit 1; export COAXIAL_CHROMIUM; \
-	$(PYTHON_IN_VENV) -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder --junitxml=.venv/log/pytest.xml $(TESTS) && \
-	$(PYTHON_IN_VENV) .make/some-test-passed .venv/log/pytest.xml
+	sh .make/run-tests $(PYTHON_IN_VENV) $(WORKERS) $(TESTS)
 
 .PHONY: benchmark
 benchmark: ready $(STAMPS)/dev ## how true and how fast the tracker is, beside its peers, and what got worse

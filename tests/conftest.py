@@ -39,6 +39,13 @@ def pytest_configure() -> None:
     os.environ["COAXIAL_HOME"] = os.devnull
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Browser tests last: Playwright keeps an event loop running in the thread where others start theirs."""
-    items.sort(key=lambda item: "browser" in getattr(item, "fixturenames", ()))
+    """What needs the browser is marked so, and comes last.
+
+    Playwright keeps an event loop running in the thread where other tests start theirs.
+    """
+    for item in items:
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.browser)
+    items.sort(key=lambda item: item.get_closest_marker("browser") is not None)

@@ -1,7 +1,6 @@
-"""The operator's tablet, by touch, against the real program: registered, checked, navigating with numbers."""
+"""Registration by the translucent slice, by touch, against the real program."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,8 +8,9 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from server.config import Config
+from tests.browser.by_touch.tablet import Tablet, tablet_at
 from tests.browser.prepared import prepared
-from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Watched
+from tests.browser.theatre import PATIENCE_MS
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
 pytestmark = pytest.mark.browser
@@ -26,23 +26,8 @@ SETTINGS = {
         "scene": "landmarks",
         "skill": "good",
     },
-    # A busy machine brings images seldom; how still a tip must be held, others ask.
-    "registration": {
-        "capture_images": 3,
-        "capture_s": 0.8,
-        "most_capture_gap_s": 2.0,
-        "most_capture_sd_mm": 1.0,
-    },
     "reference": {"marker": "reference"},
 }
-LANDSCAPE, UPRIGHT = (1280, 800), (800, 1280)
-LEAST_TARGET_PX = 48.0
-# The rehearsed hand goes from one to the next, in the plan's order.
-TOUCHED_IN_TURN = 7
-TARGETS = """least => [...document.querySelectorAll("#step :is(button, a, input[type=text])")]
-    .map(one => [one.textContent || one.getAttribute("aria-label"), one.getBoundingClientRect()])
-    .filter(([, box]) => box.width > 0 && (box.height < least - 0.5 || box.width < least - 0.5))
-    .map(([name, box]) => `${name} ${box.width}x${box.height}`)"""
 # A slow page sees the last of a gesture late: so many images of the screen without a move are its end.
 AT_REST = """() => new Promise(resolve => {
     const state = () => document.querySelector("[data-testid=overlay-state]").dataset;
@@ -55,33 +40,6 @@ AT_REST = """() => new Promise(resolve => {
     };
     look();
 })"""
-
-
-@dataclass(frozen=True, slots=True)
-class Tablet:
-    """A page under a finger."""
-
-    page: Page
-    server: RealServer
-
-    def go(self, path: str) -> None:
-        """Load a step's page."""
-        self.page.goto(f"http://127.0.0.1:{self.server.port}/operator/{path}")
-
-    def tap(self, name: str) -> None:
-        """Touch what has this name for tests, as soon as it can be touched."""
-        there = self.page.get_by_test_id(name)
-        expect(there).to_be_enabled(timeout=PATIENCE_MS)
-        there.tap()
-
-    def picture(self, name: str) -> None:
-        """Both ways of holding the tablet, looked at later; every target is large enough for a glove."""
-        SCREENSHOTS.mkdir(exist_ok=True)
-        for way, (width, height) in (("upright", UPRIGHT), ("landscape", LANDSCAPE)):
-            self.page.set_viewport_size({"width": width, "height": height})
-            self.page.screenshot(path=SCREENSHOTS / f"operator-{name}-{way}.png", full_page=True)
-            assert self.page.evaluate(TARGETS, LEAST_TARGET_PX) == []
-            assert self.page.evaluate("document.documentElement.scrollWidth") <= width
 
 
 @pytest.fixture(scope="module")
@@ -97,96 +55,8 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RealServer]:
 
 @pytest.fixture
 def tablet(server: RealServer, browser: Browser) -> Iterator[Tablet]:
-    """A tablet in landscape that only its fingers move."""
-    width, height = LANDSCAPE
-    context = browser.new_context(viewport={"width": width, "height": height}, has_touch=True, locale="en-GB")
-    context.set_default_timeout(PATIENCE_MS)
-    watched = Watched(context.new_page(), server.port)
-    yield Tablet(watched.page, server)
-    context.close()
-    assert watched.strangers == []
-    assert watched.complaints == []
-
-
-@pytest.mark.skip(reason="not yet seen to pass from end to end: its captures want a machine that is free")
-def test_points_are_touched_checked_and_navigated_by(server: RealServer, tablet: Tablet) -> None:
-    page = tablet.page
-    tablet.go("register")
-    expect(page.get_by_test_id("registration-none")).to_be_visible()
-    tablet.picture("register")
-    tablet.tap("method-points")
-    tablet.tap("points-begin")
-    expect(page.get_by_test_id("points-conclude")).to_be_disabled()
-    while page.locator("[data-touched=true]").count() < 4:
-        touch_where_the_tip_rests(page)
-    # A slip of the glove: the last one is thrown away, and taken again.
-    tablet.tap("undo-last")
-    expect(page.locator("[data-touched=true]")).to_have_count(3)
-    while page.locator("[data-touched=true]").count() < 4:
-        touch_where_the_tip_rests(page)
-    expect(page.get_by_test_id("points-pass")).to_be_visible()
-    tablet.picture("points")
-    tablet.tap("points-conclude")
-    expect(page.get_by_test_id("registration-now")).to_contain_text("Error at the entry point")
-    tablet.picture("registered")
-
-    tablet.tap("to-check")
-    tablet.tap("scene-check")
-    resting = page.locator("[data-testid=tip-rests]:not([data-landmark=''])")
-    landmark = resting.get_attribute("data-landmark")
-    tablet.tap(f"check-{landmark}")
-    begin_until_taken(tablet)
-    expect(page.get_by_test_id("check-outcome")).to_have_attribute("data-passed", "true")
-    tablet.picture("check")
-    tablet.tap("check-conclude")
-
-    expect(page.get_by_test_id("navigate")).to_have_attribute("data-may", "true")
-    tablet.tap("scene-operation")
-    page.wait_for_function(
-        """() => /^.?\\d+\\.\\d$/.test(document.querySelector('[data-testid="reading-angle"]').textContent)"""
-    )
-    tablet.picture("navigate")
-    # The other side of the same vertebra: registration and check still hold.
-    tablet.tap("switch-channel")
-    tablet.tap("channel-L3-right")
-    tablet.tap("channel-L3-right-sure")
-    expect(page.get_by_test_id("active-channel")).to_have_text("L3 right")
-    assert server.ask("GET", "/api/procedure", 200)["may_navigate"]
-
-
-def touch_where_the_tip_rests(page: Page) -> None:
-    """The landmark that comes next is asked for while the tip is on its way to it, and taken when it rests.
-
-    A slow page would hear of the rest when it is nearly over.
-    """
-    rests = page.get_by_test_id("tip-rests")
-    now = page.locator("[data-testid=tip-rests]:not([data-landmark=''])").get_attribute("data-landmark")
-    names: list[str] = page.locator("[data-testid^='landmark-']").evaluate_all(
-        "lines => lines.map(one => one.dataset.testid.slice('landmark-'.length))"
-    )
-    name = names[(names.index(str(now)) + 1) % TOUCHED_IN_TURN]
-    line = page.get_by_test_id(f"landmark-{name}")
-    expect(rests).to_have_attribute("data-landmark", "")
-    if line.get_attribute("data-touched") == "true":
-        expect(rests).to_have_attribute("data-landmark", name)
-        return
-    line.locator(".landmark-name").tap()
-    page.get_by_test_id("capture").tap()
-    page.locator("[data-testid=capturing]").filter(has_text=name).wait_for()
-    page.locator("[data-testid=captured], [data-testid=capture-refused]").filter(has_text=name).wait_for()
-
-
-def begin_until_taken(tablet: Tablet) -> None:
-    """A hand that had just left the landmark holds the tip on it again."""
-    tablet.tap("check-begin")
-    page = tablet.page
-    over = page.locator("[data-testid=check-outcome], [data-testid=capture-refused]")
-    over.wait_for()
-    while page.get_by_test_id("capture-refused").count() > 0:
-        page.locator("[data-testid=tip-rests]:not([data-landmark=''])").wait_for()
-        tablet.tap("check-again")
-        page.locator("[data-testid=capturing], [data-testid=check-outcome]").wait_for()
-        over.wait_for()
+    with tablet_at(browser, server.port, patience_ms=PATIENCE_MS) as held:
+        yield held
 
 
 def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
@@ -230,7 +100,7 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
     tablet.tap("overlay-undo")
     expect(state).to_have_attribute("data-settled", "true")
     assert overlay_of(page) == pinched
-    tablet.picture("needles")
+    tablet.looked_at("needles")
     same_as_the_server(server, page)
     tablet.tap("needles-conclude")
     if server.ask("GET", "/api/procedure", 200)["may_navigate"]:
@@ -238,7 +108,7 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
     expect(page.get_by_test_id("needles-said")).to_contain_text("Depth along the view is known to ±")
     made = server.ask("GET", "/api/registration", 200)["made_from"]
     assert made["overlay"]["scale_px_per_mm"] > first["scale_px_per_mm"]
-    tablet.picture("needles-registered")
+    tablet.looked_at("needles-registered")
 
 
 def at(middle: tuple[float, float], by: tuple[float, float]) -> tuple[float, float]:

@@ -9,5 +9,5 @@ const TEXTS = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.*", "
 
 test("how the procedure stands is asked for in one place, but for the report, which is of one moment", () => {
   const asking = Object.entries(TEXTS).filter(([, text]) => text.includes('"/api/procedure"'));
-  expect(asking.map(([file]) => file)).toEqual(["../operator/report/ReportPage.tsx", "./procedure.tsx"]);
+  expect(asking.map(([file]) => file)).toEqual(["./procedure.tsx", "../operator/report/ReportPage.tsx"]);
 });

@@ -1,0 +1,51 @@
+"""Who comes in: the operator by the printed link, others by invitation, each in a browser of their own."""
+
+import re
+
+from playwright.sync_api import Browser, Page, ViewportSize
+
+from tests.browser.by_touch.tablet import Tablet
+from tests.browser.theatre import Watched
+from tests.procedure.real_server import RealServer
+
+
+def printed_link(server: RealServer) -> str:
+    """The operator's link, which the server prints after its address."""
+    for line in server.process.stdout or ():
+        found = re.search(r"http\S+/enter#\S+", line)
+        if found is not None:
+            return found[0]
+    raise AssertionError("the server printed no link")
+
+
+def invite(tablet: Tablet, name: str, role: str) -> str:
+    """A link for somebody, made on the tablet."""
+    page = tablet.page
+    tablet.tap("step-people")
+    page.get_by_label("Name", exact=True).fill(name)
+    page.get_by_role("group", name="Role").get_by_text(role, exact=True).tap()
+    tablet.tap("invite")
+    link = page.get_by_test_id("invitation-link").inner_text()
+    page.get_by_role("button", name="Done").tap()
+    return link
+
+
+def let_in(browser: Browser, port: int, link: str, size: ViewportSize, *, patience_ms: float) -> Watched:
+    """A browser that came in by this link."""
+    context = browser.new_context(viewport=size, locale="en-GB")
+    context.set_default_timeout(patience_ms)
+    watched = Watched(context.new_page(), port)
+    watched.page.goto(link)
+    return watched
+
+
+def left(watched: Watched) -> None:
+    """Its browser is closed; it had nothing to complain of."""
+    watched.page.context.close()
+    assert not watched.strangers, watched.strangers
+    assert not watched.complaints, watched.complaints
+
+
+def reading(page: Page, name: str) -> str:
+    """A figure as this page shows it now."""
+    return page.get_by_test_id(f"reading-{name}").inner_text()

@@ -1,0 +1,143 @@
+"""The plan by touch on the rehearsal's CT: pedicles, channels, screws, lines and landmarks."""
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.by_touch.tablet import LEAST_TARGET_PX, Tablet
+
+PX_PER_MM = """() => {
+    const ruler = document.querySelector(".planes-large .slice-ruler");
+    return ruler.querySelector("span").getBoundingClientRect().width / parseFloat(ruler.textContent);
+}"""
+
+
+def plan_both_pedicles(tablet: Tablet, truth: dict[str, Any]) -> None:
+    """From the CT to a channel and a screw in each pedicle, one of them chosen to be drilled."""
+    tablet.tap("rehearsal-ct")
+    tablet.sees("slice-axial")
+    tablet.tap("add-vertebra")
+    tablet.tap("level-L3")
+    for side, channel in zip(("left", "right"), truth["channels"], strict=True):
+        _measured_where_it_is(tablet, side, channel)
+    tablet.looked_at("plan")
+    tablet.tap("activate")
+    tablet.sees("is-active")
+    assert _plan(tablet)["active_channel"]["side"] == "right"
+
+
+def moved_and_undone(tablet: Tablet) -> None:
+    """A slip of the hand: the channel is moved and kept, then taken back, and chosen anew."""
+
+    def entry() -> Any:  # noqa: ANN401  JSON
+        (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
+        right = next(one for one in vertebra["channels"] if one["side"] == "right")
+        return right["channel"]["entry_in_vertebra_mm"]
+
+    before = entry()
+    tablet.tap("move-channel")
+    knob = tablet.page.get_by_test_id("handle-entry").locator(".draw-handle-touch").bounding_box()
+    assert knob is not None
+    assert min(knob["width"], knob["height"]) >= LEAST_TARGET_PX
+    tablet.tap("channel-right")
+    tablet.tap("channel-right")
+    tablet.tap("keep-channel")
+    tablet.sees("move-channel")
+    assert np.array(entry()) - before == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
+    assert _plan(tablet)["active_channel"] is None
+    with tablet.page.expect_response(lambda answer: answer.request.method != "GET"):
+        tablet.tap("undo")
+    assert entry() == pytest.approx(before, abs=1e-9)
+    tablet.tap("activate")
+    tablet.sees("is-active")
+
+
+def with_lines(tablet: Tablet) -> None:
+    """The proposed slice, with the needles' lines 20.5 mm to each side."""
+    tablet.tap("part-lines")
+    tablet.tap("propose-slice")
+    tablet.tap("apart-more")
+    tablet.tap("lay-lines")
+    tablet.sees("reference")
+    (reference,) = _plan(tablet)["plan"]["vertebrae"][0]["references"]
+    assert reference["apart_mm"] == 20.5
+    assert [line["name"] for line in reference["lines"]] == ["middle", "left", "right"]
+
+
+def with_landmarks(tablet: Tablet, truth: dict[str, Any]) -> None:
+    """One is set at the cross by its usual name; then those that the rehearsal's drill will touch."""
+    tablet.tap("part-landmarks")
+    cross = _cross(tablet)
+    tablet.tap("set-landmark")
+    tablet.page.get_by_role("button", name="spinous process, upper end").tap()
+    tablet.reads("landmark-count", "1 set · needed at least 3")
+    (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
+    assert vertebra["landmarks"][0]["point_lps_mm"] == pytest.approx(cross, abs=0.06)
+    tablet.tap("rehearsed-landmarks")
+    tablet.reads("landmark-count", f"{len(truth['landmarks']) + 1} set")
+    tablet.looked_at("plan-landmarks")
+
+
+def _measured_where_it_is(tablet: Tablet, side: str, channel: dict[str, Any]) -> None:
+    """Tap into a pedicle, measure it, lay its channel and take the proposed screw."""
+    tablet.tap("part-pedicle")
+    tablet.page.get_by_test_id("side").get_by_text(side.capitalize(), exact=True).tap()
+    entry, target = np.array(channel["entry_lps_mm"]), np.array(channel["target_lps_mm"])
+    _put_cross(tablet, entry + 0.35 * (target - entry))
+    tablet.tap("measure")
+    tablet.sees("pedicle-numbers")
+    expect(tablet.page.get_by_test_id("pedicle-numbers")).to_be_in_viewport()
+    tablet.tap("lay-channel")
+    tablet.tap("propose-screw")
+    tablet.reads("screw-numbers", "Gertzbein-Robbins A")
+    (vertebra,) = _plan(tablet)["plan"]["vertebrae"]
+    laid = next(one for one in vertebra["channels"] if one["side"] == side)["channel"]
+    assert np.linalg.norm(
+        np.cross(entry - laid["entry_in_vertebra_mm"], target - entry)
+    ) < 1.5 * np.linalg.norm(target - entry)
+
+
+def _put_cross(tablet: Tablet, wanted: Any) -> None:  # noqa: ANN401  an array
+    """Scroll to the slice, tap on the place, and bring the cross there with the arrows."""
+    page = tablet.page
+    for _ in range(100):
+        below = wanted[2] - _cross(tablet)[2]
+        if abs(below) <= 0.5:
+            break
+        tablet.tap("slice-on" if below > 0 else "slice-back")
+    # A tap goes to what is seen: while an earlier slice still stands there, to that one.
+    _slice_stands(tablet)
+    place = page.locator(".planes-large [data-testid=cross] circle").bounding_box()
+    assert place is not None
+    away_px = (wanted - _cross(tablet)) * page.evaluate(PX_PER_MM)
+    page.touchscreen.tap(
+        place["x"] + place["width"] / 2 + away_px[0], place["y"] + place["height"] / 2 + away_px[1]
+    )
+    _slice_stands(tablet)
+    for axis, (less, more) in enumerate((("cross-left", "cross-right"), ("cross-up", "cross-down"))):
+        for _ in range(6):
+            off = wanted[axis] - _cross(tablet)[axis]
+            if abs(off) <= 0.3:
+                break
+            tablet.tap(more if off > 0 else less)
+    assert np.abs(_cross(tablet) - wanted).max() < 0.7
+
+
+def _slice_stands(tablet: Tablet) -> None:
+    expect(tablet.page.get_by_test_id("slice-axial")).not_to_have_attribute(
+        "data-late", "true", timeout=tablet.patience_ms
+    )
+
+
+def _cross(tablet: Tablet) -> Any:  # noqa: ANN401  an array
+    """Where the page says that the cross is."""
+    said = tablet.page.get_by_test_id("cursor").inner_text()
+    return np.array([float(one) for one in re.findall(r"[xyz] (-?[\d.]+)", said)])
+
+
+def _plan(tablet: Tablet) -> Any:  # noqa: ANN401  JSON
+    """As the server has it."""
+    return tablet.asks("/api/plan")

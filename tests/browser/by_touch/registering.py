@@ -1,0 +1,72 @@
+"""Registration by points, the check, and navigation by touch."""
+
+from playwright.sync_api import expect
+
+from tests.browser.by_touch.tablet import Tablet
+
+ENOUGH = 4
+
+
+def register_by_points(tablet: Tablet) -> None:
+    """Four landmarks, the last one twice; then the fit is kept."""
+    page = tablet.page
+    tablet.tap("method-points")
+    tablet.tap("points-begin")
+    expect(page.get_by_test_id("points-conclude")).to_be_disabled()
+    _touch_until_enough(tablet)
+    # A slip of the glove: the last one is thrown away, and taken again.
+    touched = page.locator("[data-touched=true]").count()
+    tablet.tap("undo-last")
+    expect(page.locator("[data-touched=true]")).to_have_count(touched - 1)
+    _touch_until_enough(tablet)
+    tablet.sees("points-pass")
+    tablet.looked_at("points")
+    tablet.tap("points-conclude")
+    tablet.reads("registration-now", "Error at the entry point")
+    tablet.looked_at("registered")
+
+
+def check_on_a_landmark(tablet: Tablet) -> None:
+    """On the one that was not touched for the registration."""
+    page = tablet.page
+    landmark = tablet.asks("/api/rehearsal?truth=1")["truth"]["check_landmark"]["name"]
+    tablet.tap("scene-check")
+    tablet.finds("tip-rests", "data-landmark", landmark)
+    tablet.tap(f"check-{landmark}")
+    tablet.tap("check-begin")
+    over = page.locator("[data-testid=check-outcome], [data-testid=capture-refused]")
+    over.wait_for()
+    # A hand that had just left the landmark holds the tip on it again.
+    while page.get_by_test_id("capture-refused").count() > 0:
+        tablet.finds("tip-rests", "data-landmark", landmark)
+        with page.expect_response(lambda answer: answer.request.method == "POST"):
+            tablet.tap("check-again")
+        page.locator("[data-testid=capturing], [data-testid=check-outcome]").wait_for()
+        over.wait_for()
+    tablet.finds("check-outcome", "data-passed", "true")
+    tablet.looked_at("check")
+    tablet.tap("check-conclude")
+    tablet.sees("navigate")
+
+
+def _touch_until_enough(tablet: Tablet) -> None:
+    while tablet.page.locator("[data-touched=true]").count() < ENOUGH:
+        _touch_where_the_tip_rests(tablet)
+
+
+def _touch_where_the_tip_rests(tablet: Tablet) -> None:
+    """As soon as the tip rests on a landmark that is not taken yet, it is taken."""
+    page = tablet.page
+    rests = page.get_by_test_id("tip-rests")
+    expect(rests).to_have_attribute("data-landmark", "", timeout=tablet.patience_ms)
+    name = page.locator("[data-testid=tip-rests]:not([data-landmark=''])").get_attribute("data-landmark")
+    line = page.get_by_test_id(f"landmark-{name}")
+    if line.get_attribute("data-touched") == "true":
+        return
+    line.locator(".landmark-name").tap()
+    with page.expect_response(lambda answer: answer.url.endswith("/points/captures")):
+        tablet.tap("capture")
+    over = page.locator("[data-testid=captured], [data-testid=capture-refused]").filter(has_text=str(name))
+    over.wait_for()
+    if over.get_attribute("data-testid") == "captured":
+        expect(line).to_have_attribute("data-touched", "true", timeout=tablet.patience_ms)

@@ -1,0 +1,73 @@
+"""Case, camera and tool by touch, on the rehearsal's board, pivot and spin."""
+
+from playwright.sync_api import expect
+
+from tests.browser.by_touch.tablet import Tablet
+
+
+def open_case(tablet: Tablet, name: str) -> None:
+    """From no case to an open one."""
+    page = tablet.page
+    tablet.tap("step-case")
+    expect(page.get_by_role("heading", name="Begin with a case")).to_be_visible()
+    tablet.looked_at("case-first")
+    page.get_by_label("Name of the case").fill(name)
+    page.get_by_role("button", name="Make and open").tap()
+    tablet.reads("opened-case", name)
+    tablet.looked_at("case-open")
+
+
+def play(tablet: Tablet, scene: str) -> None:
+    """Have a scene of the rehearsal played, as a person does on the page of cases."""
+    tablet.tap("step-case")
+    tablet.tap(f"scene-{scene}")
+    tablet.finds(f"scene-{scene}", "aria-pressed", "true")
+    expect(tablet.page.locator("[data-begun]")).to_have_attribute(
+        "data-begun", "true", timeout=tablet.patience_ms
+    )
+
+
+def calibrate_camera(tablet: Tablet) -> None:
+    """Views of the board are taken by themselves until they are enough."""
+    page = tablet.page
+    play(tablet, "board")
+    tablet.tap("step-camera")
+    tablet.sees("marker-drill")
+    tablet.looked_at("camera-board")
+    tablet.tap("collect")
+    tablet.reads("views", "5")
+    tablet.looked_at("camera-collecting")
+    tablet.finds("missing", "data-enough", "true")
+    tablet.tap("calibrate")
+    tablet.finds("calibration-rms", "data-within", "true")
+    expect(page.get_by_test_id("collection")).to_have_count(0)
+    expect(page.get_by_test_id("calibration-rms")).to_be_in_viewport()
+    for one in page.get_by_test_id("calibration").locator("summary").all():
+        one.tap()
+    expect(page.get_by_role("img", name="Residuals")).to_be_visible()
+    tablet.looked_at("camera-calibrated")
+
+
+def calibrate_tool(tablet: Tablet) -> None:
+    """Its tip by pivoting, its direction by turning."""
+    page = tablet.page
+    play(tablet, "pivot")
+    tablet.tap("step-tool")
+    tablet.looked_at("tool-none")
+    tablet.tap("begin-new")
+    page.get_by_label("Diameter (mm)").fill("4")
+    page.get_by_label("Length (mm)").fill("118")
+    _keep_when_enough(tablet, named="tool-pivot")
+    tablet.reads("tool-drill", "Nobody knows yet which way it points")
+    play(tablet, "spin")
+    tablet.tap("step-tool")
+    tablet.tap("begin-spin")
+    _keep_when_enough(tablet, named="tool-spin")
+    tablet.looked_at("tool-calibrated")
+
+
+def _keep_when_enough(tablet: Tablet, *, named: str) -> None:
+    tablet.finds("missing", "data-enough", "true")
+    tablet.looked_at(named)
+    tablet.tap("keep")
+    expect(tablet.page.get_by_test_id("gathering")).to_have_count(0)
