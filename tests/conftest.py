@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Browser, sync_playwright
 
 CHECKOUT = Path(__file__).resolve().parents[1]
+IN_BROWSER = CHECKOUT / "tests" / "browser"
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
     "--no-sandbox",
@@ -47,5 +48,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """
     for item in items:
         if "browser" in getattr(item, "fixturenames", ()):
+            # `make test` looks for them there alone.
+            is_found = IN_BROWSER in item.path.parents or item.path.stem.endswith("_in_browser")
+            assert is_found, f"{item.path} needs a browser: name it test_..._in_browser.py"
             item.add_marker(pytest.mark.browser)
     items.sort(key=lambda item: item.get_closest_marker("browser") is not None)

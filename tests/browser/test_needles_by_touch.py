@@ -1,11 +1,13 @@
 """Registration by the translucent slice, by touch, against the real program."""
 
+import contextlib
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pytest
 from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import TimeoutError as PlaywrightTimeout
 
 from server.config import Config
 from tests.browser.by_touch.tablet import Tablet, tablet_at
@@ -28,6 +30,7 @@ SETTINGS = {
     },
     "reference": {"marker": "reference"},
 }
+OVERLAY = "JSON.parse(document.querySelector('[data-testid=overlay-state]').dataset.overlay)"
 # A slow page sees the last of a gesture late: so many images of the screen without a move are its end.
 AT_REST = """() => new Promise(resolve => {
     const state = () => document.querySelector("[data-testid=overlay-state]").dataset;
@@ -86,10 +89,15 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
 
     # A page that is short of time takes two fingers that come late for one; a person does it again.
     for _ in range(3):
+        before = overlay_of(page)
         fingers(((-40, 0), (-80, 0)), ((40, 0), (80, 0)))
-        pinched = overlay_of(page)
-        if pinched["scale_px_per_mm"] != dragged["scale_px_per_mm"]:
+        with contextlib.suppress(PlaywrightTimeout):
+            page.wait_for_function(
+                f"scale => ({OVERLAY}).scale_px_per_mm !== scale", arg=before["scale_px_per_mm"]
+            )
+            page.evaluate(AT_REST)
             break
+    pinched = overlay_of(page)
     assert pinched["scale_px_per_mm"] / dragged["scale_px_per_mm"] == pytest.approx(2.0, rel=0.3)
 
     fingers(((-60, 0), (-60, -30)), ((60, 0), (60, 30)))
@@ -138,9 +146,7 @@ def gesture(page: Page, paths: list[list[tuple[float, float]]], *, steps: int = 
 
 def overlay_of(page: Page) -> dict[str, Any]:
     """Where the hand has the slice."""
-    told: dict[str, Any] = page.evaluate(
-        "JSON.parse(document.querySelector('[data-testid=overlay-state]').dataset.overlay)"
-    )
+    told: dict[str, Any] = page.evaluate(OVERLAY)
     return told
 
 

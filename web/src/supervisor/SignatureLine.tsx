@@ -12,11 +12,9 @@ export function SignatureLine({ of: one }: { of: components["schemas"]["Signatur
       <span aria-hidden="true">{one.second_person ? "✓" : "○"}</span> {words.signedBy} <b>{one.by}</b>,{" "}
       {shownTime(one.at, all.language)}
       {!one.second_person && ` · ${words.notSecond}`}
-      {one.invited_by_maker ? (
-        <span className="warn"> · ▲ {filled(words.invitedByMaker, { name: one.invited_by })}</span>
-      ) : (
-        one.invited_by !== "" && ` · ${words.invitedBy} ${one.invited_by}`
-      )}
+      {one.invited_by_maker
+        ? ` · ${filled(words.invitedByMaker, { name: one.invited_by })}`
+        : one.invited_by !== "" && ` · ${words.invitedBy} ${one.invited_by}`}
     </>
   );
 }
