@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { useWords } from "../words/WordsContext";
 import { PAGES, type OperatorPage } from "./pages";
-import { useProcedure } from "./procedure";
+import { useProcedure } from "../app/procedure";
 
 /** The way to what is to be done now, where that is another page than this one. */
 export function NextStep({ page }: { page: OperatorPage }): ReactNode {

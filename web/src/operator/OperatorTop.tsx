@@ -3,7 +3,7 @@ import { ViewSwitch } from "../app/ViewSwitch";
 import { Brand } from "../panes/Brand";
 import { LiveStatus } from "../panes/LiveStatus";
 import { useWords } from "../words/WordsContext";
-import { useProcedure } from "./procedure";
+import { useProcedure } from "../app/procedure";
 
 /** Whose case is open, whether tracking, camera and server are there, and the way to the other views. */
 export function OperatorTop(): ReactNode {

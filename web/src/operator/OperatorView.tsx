@@ -6,7 +6,7 @@ import { AlertBand } from "../panes/AlertBand";
 import { useWords } from "../words/WordsContext";
 import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
-import { useProcedure } from "./procedure";
+import { useProcedure } from "../app/procedure";
 import { StepHead } from "./StepHead";
 import { StepRail } from "./StepRail";
 import { useBandHeight } from "./useBandHeight";

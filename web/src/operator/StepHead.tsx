@@ -6,7 +6,7 @@ import { NextStep } from "./NextStep";
 import type { OperatorPage } from "./pages";
 import { useGates } from "./parts/useGates";
 import { bringIntoView } from "./parts/useIntoView";
-import { useProcedure } from "./procedure";
+import { useProcedure } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
 import { stateWord, stepNote } from "./stepWords";
 

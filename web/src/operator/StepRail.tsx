@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { useWords } from "../words/WordsContext";
 import { PAGES, type OperatorPage } from "./pages";
-import { useProcedure, type Step } from "./procedure";
+import { useProcedure, type Step } from "../app/procedure";
 import { MARK_OF_STATE } from "./stepMarks";
 import { stateWord } from "./stepWords";
 

@@ -6,7 +6,7 @@ import { CheckPage } from "./check/CheckPage";
 import { NavigatePage } from "./navigate/NavigatePage";
 import { PeoplePage } from "./people/PeoplePage";
 import { PlanPage } from "./plan/PlanPage";
-import type { Step } from "./procedure";
+import type { Step } from "../app/procedure";
 import { RegistrationPage } from "./registration/RegistrationPage";
 import { ReportPage } from "./report/ReportPage";
 import { ToolPage } from "./tool/ToolPage";

@@ -1,7 +1,7 @@
 // How a step stands, in words that are true of it: navigation that may begin has not been done.
 import type { OperatorWords } from "../words/operator/en";
-import { filled } from "./parts/shown";
-import type { Step } from "./procedure";
+import { filled } from "../words/filled";
+import type { Step } from "../app/procedure";
 
 export function stateWord({ step, state }: Pick<Step, "step" | "state">, words: OperatorWords): string {
   return step === "navigate" && state === "done" ? words.ready : words.state[state];

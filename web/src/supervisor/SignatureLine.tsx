@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
-import { filled, shownTime } from "../operator/parts/shown";
+import { shownTime } from "../operator/parts/shown";
+import { filled } from "../words/filled";
 import type { components } from "../schema";
 import { useWords } from "../words/WordsContext";
 

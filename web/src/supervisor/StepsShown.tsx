@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { useProcedure, type Step } from "../operator/procedure";
+import { useProcedure, type Step } from "../app/procedure";
 import { stateWord } from "../operator/stepWords";
 import { RefusalNote } from "../rest/RefusalNote";
 import { useWords } from "../words/WordsContext";

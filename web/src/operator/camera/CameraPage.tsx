@@ -6,7 +6,7 @@ import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { useGates } from "../parts/useGates";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { Accuracy } from "./Accuracy";
 import { startingBoard, type Board } from "./board";
 import { BoardCard } from "./BoardCard";

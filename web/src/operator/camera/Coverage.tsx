@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { filled } from "../parts/shown";
+import { filled } from "../../words/filled";
 
 type Collected = components["schemas"]["CollectionMessage"];
 

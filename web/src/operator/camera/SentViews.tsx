@@ -3,7 +3,7 @@ import { RefusalNote } from "../../rest/RefusalNote";
 import { Refusal } from "../../rest/client";
 import { useWords } from "../../words/WordsContext";
 import { FileButton } from "../parts/FileButton";
-import { filled } from "../parts/shown";
+import { filled } from "../../words/filled";
 import { sent } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";

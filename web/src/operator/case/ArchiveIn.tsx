@@ -2,7 +2,7 @@ import { useState, type ReactNode } from "react";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
 import { FileButton } from "../parts/FileButton";
-import { filled } from "../parts/shown";
+import { filled } from "../../words/filled";
 import { sent } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";

@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { ArchiveIn } from "./ArchiveIn";
 import { CaseList } from "./CaseList";
 import { Documents } from "./Documents";

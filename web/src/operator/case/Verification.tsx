@@ -7,7 +7,8 @@ import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
-import { filled, sentence, shownBytes } from "../parts/shown";
+import { sentence, shownBytes } from "../parts/shown";
+import { filled } from "../../words/filled";
 
 /** The files of a case, read from end to end when somebody wants to know. */
 export function Verification({ caseId }: { caseId: string }): ReactNode {

@@ -1,7 +1,7 @@
 // What a document is called by people: the server's own names are for programs.
 import type { components } from "../../schema";
 import type { CaseWords } from "../../words/case/en";
-import { filled } from "../parts/shown";
+import { filled } from "../../words/filled";
 
 type Heading = Pick<components["schemas"]["HeadingMessage"], "kind" | "name">;
 type Title = keyof CaseWords["titles"];

@@ -5,7 +5,7 @@ import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { LiveStage } from "../registration/LiveStage";
-import { filled } from "../registration/filled";
+import { filled } from "../../words/filled";
 import { plannedVertebrae } from "../registration/planRead";
 import { WhereToTouch } from "../registration/points/WhereToTouch";
 import { Refused } from "../registration/Refused";

@@ -2,9 +2,9 @@ import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { useIntoView } from "../parts/useIntoView";
-import { filled } from "../registration/filled";
+import { filled } from "../../words/filled";
 import { minutesLeft } from "./due";
 
 interface CheckDueProps {

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { filled } from "../registration/filled";
+import { filled } from "../../words/filled";
 
 /** How far the tip is from where the plan has the landmark, against what is allowed, and which way. */
 export function CheckOutcome({ outcome }: { outcome: components["schemas"]["KeptCheck"] }): ReactNode {

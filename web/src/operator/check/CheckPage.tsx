@@ -3,7 +3,7 @@ import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { usedLandmarks } from "../registration/planRead";
 import { Refused } from "../registration/Refused";
 import { RehearsalStrip } from "../registration/RehearsalStrip";

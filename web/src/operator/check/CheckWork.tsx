@@ -6,7 +6,7 @@ import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { Icon } from "../../panes/Icon";
 import { useWords } from "../../words/WordsContext";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { CaptureProgress } from "../registration/CaptureProgress";
 import { LiveStage } from "../registration/LiveStage";
 import { Refused } from "../registration/Refused";

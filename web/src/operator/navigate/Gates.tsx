@@ -2,9 +2,9 @@ import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { shownNumber } from "../../live/rounding";
 import { useWords } from "../../words/WordsContext";
-import { filled } from "../parts/shown";
+import { filled } from "../../words/filled";
 import { stateWord } from "../stepWords";
-import { useProcedure, type Step } from "../procedure";
+import { useProcedure, type Step } from "../../app/procedure";
 
 /** Every step that does not hold or is due again, why, and the way to it; or that all hold. */
 export function Gates(): ReactNode {

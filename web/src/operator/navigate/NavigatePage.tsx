@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { NumbersPane } from "../../panes/NumbersPane";
 import { VideoPane } from "../../panes/VideoPane";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { ChannelSwitch } from "./ChannelSwitch";
 import { Gates } from "./Gates";

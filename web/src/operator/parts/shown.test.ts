@@ -1,10 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { filled, sentence, shownBytes, shownClock, shownSecond, shownTime } from "./shown";
-
-test("values come where the sentence names them, and a name without one stays to be seen", () => {
-  expect(filled("{there} of {wanted} views", { there: 3, wanted: 12 })).toBe("3 of 12 views");
-  expect(filled("{there} of {wanted}", { there: 0 })).toBe("0 of {wanted}");
-});
+import { sentence, shownBytes, shownClock, shownSecond, shownTime } from "./shown";
 
 describe("sizes", () => {
   test.each([

@@ -1,11 +1,6 @@
 // How times, sizes and sentences are shown on the pages of the set-up.
 import { shownNumber } from "../../live/rounding";
 
-/** `"{n} views"` with `{n: 3}` is "3 views". */
-export function filled(text: string, values: Record<string, string | number>): string {
-  return text.replace(/\{(\w+)\}/g, (whole, name: string) => String(values[name] ?? whole));
-}
-
 /** The day and time where this page is, to the minute. */
 export function shownTime(iso: string, language: string, zone?: string): string {
   return shownAs(iso, { dateStyle: "medium", timeStyle: "short" }, language, zone);

@@ -1,7 +1,7 @@
 import { answered, server } from "../../rest/client";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 
 type Heading = components["schemas"]["HeadingMessage"];
 

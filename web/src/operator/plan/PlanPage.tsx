@@ -4,7 +4,7 @@ import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { CtIntake } from "./ct/CtIntake";
 import { SlicesProvider } from "./slices/SlicesContext";
 import { hasDocument } from "./state/documents";

@@ -4,7 +4,7 @@ import { shownNumber } from "../../live/rounding";
 import { Refusal } from "../../rest/client";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { filled } from "./filled";
+import { filled } from "../../words/filled";
 import { Refused } from "./Refused";
 
 interface CaptureProgressProps {

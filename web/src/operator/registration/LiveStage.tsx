@@ -8,7 +8,7 @@ import { clearPicture, drawPicture } from "../../panes/drawPicture";
 import { setData, setText } from "../../panes/setText";
 import { useWords } from "../../words/WordsContext";
 import { shownClock } from "../parts/shown";
-import { filled } from "./filled";
+import { filled } from "../../words/filled";
 import { useImageSize } from "./useImageSize";
 
 interface LiveStageProps {

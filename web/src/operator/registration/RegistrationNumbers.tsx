@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
-import { filled } from "./filled";
+import { filled } from "../../words/filled";
 import { Measure } from "./Measure";
 
 type Registration = components["schemas"]["RegistrationMessage"];

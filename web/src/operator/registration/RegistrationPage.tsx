@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { Link, useLocation } from "wouter";
 import { useWords } from "../../words/WordsContext";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { MethodChoice } from "./MethodChoice";
 import { NeedlesPage } from "./needles/NeedlesPage";
 import { NudgesPage } from "./nudges/NudgesPage";

@@ -8,7 +8,7 @@ import { useWords } from "../../words/WordsContext";
 import { ArchiveOut } from "../case/ArchiveOut";
 import { newestOf } from "../case/newest";
 import { shownTime } from "../parts/shown";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { Alarms } from "./Alarms";
 import { TELLING } from "./facts";
 import { PlanReport } from "./PlanReport";

@@ -3,7 +3,8 @@ import type { ReactNode } from "react";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { stateWord } from "../stepWords";
-import { filled, sentence, shownTime } from "../parts/shown";
+import { sentence, shownTime } from "../parts/shown";
+import { filled } from "../../words/filled";
 
 interface StepsReportProps {
   procedure: components["schemas"]["ProcedureMessage"];

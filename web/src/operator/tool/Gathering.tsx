@@ -7,7 +7,7 @@ import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
-import { filled } from "../parts/shown";
+import { filled } from "../../words/filled";
 import { TwiceButton } from "../parts/TwiceButton";
 import { useMaker } from "../parts/useMaker";
 import { GatheringMeasures } from "./GatheringMeasures";

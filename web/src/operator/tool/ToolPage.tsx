@@ -8,7 +8,7 @@ import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { useDocuments } from "../parts/useDocuments";
 import { useGates } from "../parts/useGates";
-import { useProcedure } from "../procedure";
+import { useProcedure } from "../../app/procedure";
 import { Gathering } from "./Gathering";
 import type { Purpose } from "./kept";
 import { NewTool } from "./NewTool";

@@ -4,7 +4,7 @@ import { useLocation } from "wouter";
 import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
-import { useProcedure } from "../../procedure";
+import { useProcedure } from "../../../app/procedure";
 import { Refused } from "../Refused";
 import { SureButton } from "../SureButton";
 import { useMadeBy } from "../useMadeBy";

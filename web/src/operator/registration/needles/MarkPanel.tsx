@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode, type RefObject } from "react";
 import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
-import { filled } from "../filled";
+import { filled } from "../../../words/filled";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import { Magnifier } from "./Magnifier";
 import { nextEnd, withEnd, type End, type Mark } from "./marks";

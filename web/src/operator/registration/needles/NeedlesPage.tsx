@@ -2,7 +2,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
 import { useWords } from "../../../words/WordsContext";
-import { useProcedure } from "../../procedure";
+import { useProcedure } from "../../../app/procedure";
 import { plannedVertebrae } from "../planRead";
 import { Refused } from "../Refused";
 import { NeedlesWork } from "./NeedlesWork";

@@ -2,7 +2,7 @@ import { Button, SegmentedControl } from "@mantine/core";
 import { useEffect, useRef, useState, useSyncExternalStore, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useWords } from "../../../words/WordsContext";
-import { filled } from "../filled";
+import { filled } from "../../../words/filled";
 import type { PlannedVertebra } from "../planRead";
 import { Refused } from "../Refused";
 import { LiveStage } from "../LiveStage";

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useWords } from "../../../words/WordsContext";
-import { filled } from "../filled";
+import { filled } from "../../../words/filled";
 import type { PlannedVertebra } from "../planRead";
 
 const NEEDLES = 3;

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { shownFigure, shownNumber, shownPercent } from "../../../live/rounding";
 import { useWords } from "../../../words/WordsContext";
-import { filled } from "../filled";
+import { filled } from "../../../words/filled";
 import type { Proposal } from "./ProposalPanel";
 import { useNeedleNames } from "./useNeedleNames";
 

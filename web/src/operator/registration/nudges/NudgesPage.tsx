@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { useWords } from "../../../words/WordsContext";
-import { useProcedure } from "../../procedure";
+import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { NudgesWork } from "./NudgesWork";
 

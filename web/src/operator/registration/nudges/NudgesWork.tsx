@@ -5,7 +5,7 @@ import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
-import { useProcedure } from "../../procedure";
+import { useProcedure } from "../../../app/procedure";
 import { Refused } from "../Refused";
 import { useMadeBy } from "../useMadeBy";
 import { NudgeLog } from "./NudgeLog";

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { CaptureProgress } from "../CaptureProgress";
-import { filled } from "../filled";
+import { filled } from "../../../words/filled";
 import { ToolSeen } from "../ToolSeen";
 import type { Points } from "./PointsWork";
 

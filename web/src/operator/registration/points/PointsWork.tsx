@@ -5,7 +5,7 @@ import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
 import { useWords } from "../../../words/WordsContext";
-import { useProcedure } from "../../procedure";
+import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Refused } from "../Refused";
 import { SureButton } from "../SureButton";

@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
-import { useProcedure } from "../../procedure";
+import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Refused } from "../Refused";
 import { ToolChoice } from "../ToolChoice";

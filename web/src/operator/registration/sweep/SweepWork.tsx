@@ -7,7 +7,7 @@ import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
 import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
-import { useProcedure } from "../../procedure";
+import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
 import { Refused } from "../Refused";
 import { SureButton } from "../SureButton";
