@@ -4,17 +4,14 @@ import math
 
 import numpy as np
 
+from tracker.appearance.taps.kernels import MOST_TAPS, in_sides, taps_of
 from tracker.appearance.texels.kernels import add_picture
-from tracker.camera.blur.kernels import axes_of, level_of
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.marker.model import PAPER_RATIO
 
-MOST_TAPS = 13
 # What lies beyond the paper, so many sd of the blur away, is not mixed in.
 FAR_SDS = 4.0
-# Up to so much more of a blur's variance along one direction, by that of the picture, three taps are enough.
-LITTLE_MORE = 0.5
 # So many pixels side by side, so that the machine works on several at once and all stay at hand.
 MANY = 256
 
@@ -59,61 +56,6 @@ def paper_seen(at, lens, rotation, translation, side_mm, blur, share):
 
 
 @compiled
-def in_sides(ahead, blur):
-    """A blur (3,) in px^2 as variances in the marker's plane, in sides^2: along x, between, along y."""
-    m00 = ahead[0, 0] ** 2 * blur[0] + 2 * ahead[0, 0] * ahead[0, 1] * blur[2] + ahead[0, 1] ** 2 * blur[1]
-    m11 = ahead[1, 0] ** 2 * blur[0] + 2 * ahead[1, 0] * ahead[1, 1] * blur[2] + ahead[1, 1] ** 2 * blur[1]
-    m01 = (
-        ahead[0, 0] * ahead[1, 0] * blur[0]
-        + (ahead[0, 0] * ahead[1, 1] + ahead[0, 1] * ahead[1, 0]) * blur[2]
-        + ahead[0, 1] * ahead[1, 1] * blur[1]
-    )
-    return m00, m01, m11
-
-
-@compiled
-def _spread(ahead, blur, blurs, offsets, weights):
-    """How a blur (3,) in px^2 is made of one picture and taps along a line.
-
-    Returns the picture's number, how many taps, the line's direction, and the variance along and across it
-    that is left to first order, in sides^2.
-    """
-    m00, m01, m11 = in_sides(ahead, blur)
-    larger, smaller, ex, ey = axes_of(m00, m11, m01)
-    smaller = max(smaller, 1e-8)
-    level = level_of(smaller, blurs)
-    has = blurs[level] ** 2
-    across = smaller - has
-    more = larger - smaller
-    count = 1
-    offsets[0], weights[0] = 0.0, 1.0
-    along = larger - has
-    if 0.1 * has < more <= LITTLE_MORE * has:
-        # Gauss and Hermite's three places: their first five moments are the Gaussian's.
-        count, along = 3, across
-        for k in range(3):
-            offsets[k], weights[k] = (k - 1) * np.sqrt(3.0 * more), 2.0 / 3.0 if k == 1 else 1.0 / 6.0
-    elif more > LITTLE_MORE * has:
-        sd = np.sqrt(more)
-        reach = int(np.ceil(2.3 * sd / (1.25 * blurs[level])))
-        reach = min(max(reach, 1), MOST_TAPS // 2)
-        gap = 2.3 * sd / reach
-        count = 2 * reach + 1
-        total, variance = 0.0, 0.0
-        for k in range(count):
-            offsets[k] = (k - reach) * gap
-            weights[k] = np.exp(-0.5 * (offsets[k] / sd) ** 2)
-            total += weights[k]
-            variance += weights[k] * offsets[k] ** 2
-        scale = np.sqrt(more / (variance / total))
-        for k in range(count):
-            offsets[k] *= scale
-            weights[k] /= total
-        along = across
-    return level, count, ex, ey, along, across
-
-
-@compiled
 def _onto_plane(rays, begin, count, rotation, translation, side_mm, at):
     """Into `at` (n, 2): where the rays from `begin` on meet the marker's plane, in half sides."""
     r00, r10, r20 = rotation[0, 0], rotation[1, 0], rotation[2, 0]
@@ -130,8 +72,8 @@ def _onto_plane(rays, begin, count, rotation, translation, side_mm, at):
 
 
 @compiled
-def _changes(rays, begin, count, rotation, translation, side_mm, seen, ahead, spread, rows, free):
-    """Into `rows` (10, n), from `begin` on: the picture, and how it changes by pose and blur."""
+def _changes(rays, begin, count, rotation, translation, side_mm, seen, spread, rows):
+    """Into `rows` (10, n), from `begin` on: the picture, and how it changes by pose."""
     ex, ey, along, across = spread
     r00, r10, r20 = rotation[0, 0], rotation[1, 0], rotation[2, 0]
     r01, r11, r21 = rotation[0, 1], rotation[1, 1], rotation[2, 1]
@@ -158,15 +100,60 @@ def _changes(rays, begin, count, rotation, translation, side_mm, seen, ahead, sp
         qx, qy, qz = nx * slide - gx, ny * slide - gy, nz * slide - gz
         m0[k], m1[k], m2[k] = qx, qy, qz
         w0[k], w1[k], w2[k] = ay * qz - az * qy, az * qx - ax * qz, ax * qy - ay * qx
-    if not free:
-        return
+
+
+@compiled
+def _changes_by_blur(begin, count, seen, drawn, ahead, smear, rows):
+    """Into `rows` (10, n), from `begin` on: how the picture changes by the blur's variances.
+
+    `drawn` (2, many): the slopes of the taps by their moves along the smear. Where the picture is drawn along
+    a line, a longer or turned line moves the taps; a wider bell bends the picture.
+    """
+    variance, sx, sy = smear
+    end = begin + count
     b0, b1, b2 = rows[7, begin:end], rows[8, begin:end], rows[9, begin:end]
     a, c, b, d = ahead[0, 0], ahead[1, 0], ahead[0, 1], ahead[1, 1]
+    xxs, yys, xys = seen[3], seen[4], seen[5]
     for k in range(count):
         xx, yy, xy = xxs[k], yys[k], xys[k]
         b0[k] = 0.5 * (a * a * xx + 2.0 * a * c * xy + c * c * yy)
         b1[k] = 0.5 * (b * b * xx + 2.0 * b * d * xy + d * d * yy)
         b2[k] = a * b * xx + (a * d + c * b) * xy + c * d * yy
+    if variance == 0.0:
+        return
+    # A pixel's step along the smear, and beside it, on the plane.
+    px, py, qx, qy = a * sx + b * sy, c * sx + d * sy, b * sx - a * sy, d * sx - c * sy
+    rights, ups = drawn[0], drawn[1]
+    for k in range(count):
+        along = (rights[k] * px + ups[k] * py) / variance
+        between = (rights[k] * qx + ups[k] * qy) / variance
+        across = 2.0 * (b0[k] + b1[k]) - along
+        b0[k] = 0.5 * (sx * sx * along - 2.0 * sx * sy * between + sy * sy * across)
+        b1[k] = 0.5 * (sy * sy * along + 2.0 * sx * sy * between + sx * sx * across)
+        b2[k] = sx * sy * (along - across) + (sx * sx - sy * sy) * between
+
+
+@compiled
+def _add_taps(tex, level, at, begin, count, taps, many, room, smeared, one, seen, drawn):
+    """Into `seen` (6, many): what taps see together; into `drawn` (2, many): their slopes by their moves."""
+    texels, starts, sizes, _, widths, _ = tex
+    start, size, texel = starts[level], sizes[level], widths[level]
+    seen[:, :] = 0.0
+    if not smeared:
+        for k in range(many):
+            right, up, weight = taps[0, k], taps[1, k], taps[2, k]
+            add_picture(texels, start, size, texel, at, begin, count, right, up, weight, room, seen)
+        return
+    drawn[:, :] = 0.0
+    for k in range(many):
+        right, up, weight = taps[0, k], taps[1, k], taps[2, k]
+        one[:, :] = 0.0
+        add_picture(texels, start, size, texel, at, begin, count, right, up, weight, room, one)
+        seen += one
+        for m in range(2):
+            out, slope, moved = drawn[m], one[1 + m], taps[3, k]
+            for i in range(count):
+                out[i] += moved * slope[i]
 
 
 @compiled
@@ -176,32 +163,17 @@ def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, fre
     Of rows: the picture 0..1, its derivatives by translation (3) and turn (3), by blur (3).
     False where the marker cannot be seen like that.
     """
-    texels, starts, sizes, blurs, widths, _ = tex
-    ahead, offsets, weights = np.empty((2, 2)), np.empty(MOST_TAPS), np.empty(MOST_TAPS)
+    ahead, taps = np.empty((2, 2)), np.empty((4, MOST_TAPS))
     if translation[2] < 1.0 or not footprint(rotation, translation, lens, side_mm, ahead):
         return False
-    level, taps, ex, ey, along, across = _spread(ahead, blur, blurs, offsets, weights)
-    start, size, texel = starts[level], sizes[level], widths[level]
+    level, many, spread, smear = taps_of(ahead, blur, tex[3], taps)
     room = (np.empty((12, MANY), np.float32), np.empty(MANY, np.int64), np.empty((2, MANY)))
-    seen = np.empty((6, MANY))
+    seen, one, drawn = np.empty((6, MANY)), np.empty((6, MANY)), np.empty((2, MANY))
     for begin in range(0, len(rays), MANY):
         count = min(MANY, len(rays) - begin)
         _onto_plane(rays, begin, count, rotation, translation, side_mm, at)
-        seen[:, :] = 0.0
-        for k in range(taps):
-            right, up = offsets[k] * ex, offsets[k] * ey
-            add_picture(texels, start, size, texel, at, begin, count, right, up, weights[k], room, seen)
-        _changes(
-            rays,
-            begin,
-            count,
-            rotation,
-            translation,
-            side_mm,
-            seen,
-            ahead,
-            (ex, ey, along, across),
-            rows,
-            free,
-        )
+        _add_taps(tex, level, at, begin, count, taps, many, room, smear[0] > 0.0, one, seen, drawn)
+        _changes(rays, begin, count, rotation, translation, side_mm, seen, spread, rows)
+        if free:
+            _changes_by_blur(begin, count, seen, drawn, ahead, smear, rows)
     return True

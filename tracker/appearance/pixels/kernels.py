@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from tracker.appearance.picture.kernels import footprint, in_sides
+from tracker.appearance.picture.kernels import footprint
+from tracker.appearance.taps.kernels import in_sides
 from tracker.camera.blur.kernels import level_of
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
