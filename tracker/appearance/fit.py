@@ -18,6 +18,8 @@ from tracker.geometry.kernels import mean_ratio, pose_rows
 REACH_RATIO = 0.6
 # Wider markers are averaged first: their edges are sharper than the sharpest picture, and pixels abound.
 WIDEST_PX = 110.0
+# A blur over so many times that of a camera in focus spreads what tells of the pose: pixels are chosen anew.
+WIDE_BLUR_RATIO = 4.0
 # sd 0.6 px, and the pixel's own square: a camera in focus.
 FOCUS_PX2, PIXEL_PX2, LEAST_BLUR_PX2 = 0.36, 1.0 / 12.0, 0.07
 ROUNDS = 14
@@ -123,11 +125,13 @@ def whole_fits(
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
     seen = _samples(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=focus)
-    few = _some(seen, FEW_PIXELS)
-    near = [one for one in (_near(few, start, focus) for start in starts) if one is not None]
+    near = _near_all(seen, starts, focus)
+    if near and (blur := _widest(near)) is not None:
+        seen = _samples(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=blur)
+        near = [one for one in (_on(_some(seen, FEW_PIXELS), one) for one in near) if one is not None]
     # Where even light leaves much, it has not been asked yet which of them is better.
     if near and not _leaves_much(near, noise_grey):
-        near = _in_question(few, near)
+        near = _in_question(_some(seen, FEW_PIXELS), near)
     done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
     if not done:
         return []
@@ -197,6 +201,20 @@ def _in_question(few: Samples, near: list[Fitted]) -> list[Fitted]:
     scale = min(one.scale_grey for one in near)
     costs = [_cost(few, one, scale) for one in near]
     return [one for one, cost in zip(near, costs, strict=True) if cost < min(costs) + OUT_OF_QUESTION_SD2]
+
+
+def _near_all(seen: Samples, starts: list[Rigid[Camera, Marker]], blur_px2: Array) -> list[Fitted]:
+    """The poses near some starts."""
+    few = _some(seen, FEW_PIXELS)
+    return [one for one in (_near(few, start, blur_px2) for start in starts) if one is not None]
+
+
+def _widest(near: list[Fitted]) -> Array | None:
+    """The blur (3,) of the best of some fits where it is wide; None where it is about a camera's in focus."""
+    best = min(near, key=lambda one: one.scale_grey)
+    blur = best.numbers[BLUR : BLUR + 3]
+    is_wide = float(blur[0] + blur[1]) > WIDE_BLUR_RATIO * 2.0 * FOCUS_PX2
+    return blur if is_wide else None
 
 
 def _near(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> Fitted | None:

@@ -1,5 +1,5 @@
 """How a blur is made of one sharp picture that is seen at several places at once.
 
-Out of focus a point is a bell, the same to all sides of the image; while the shutter is open it is drawn along
-a line, evenly. On a tilted marker the bell is longer one way, and the line another.
+Out of focus a point is a bell, the same to all sides of the image; while the shutter is open it is drawn
+along a line, evenly. On a tilted marker the bell is longer one way, and the line another.
 """

@@ -30,7 +30,7 @@ def in_sides(ahead, blur):
 
 @compiled
 def smear_of(blur):
-    """The variance in px^2 that motion added to a blur (3,), 0 where it is a bell, and its direction (x, y)."""
+    """The variance that motion added to a blur (3,) in px^2, 0 where it is a bell; its direction (x, y)."""
     larger, smaller, x, y = axes_of(blur[0], blur[1], blur[2])
     more = larger - smaller
     return (more if more > LEAST_SMEAR_RATIO * smaller else 0.0), x, y
