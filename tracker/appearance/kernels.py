@@ -3,17 +3,16 @@
 import numpy as np
 
 from tracker.appearance.equations.kernels import EVEN, equations, trust, typical_sd, weighed_pixel
-from tracker.appearance.light.kernels import (
+from tracker.appearance.light.fields.kernels import (
     AROUND,
-    BLUR,
-    LIGHT,
+    MOST_SHARES,
     NODES_REACH,
-    RESPONSE,
-    cell_of,
-    even_light,
+    PLAIN,
+    fields_first,
     light_up,
-    shaped_by,
+    shares_of,
 )
+from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, even_light, shaped_by
 from tracker.appearance.picture.kernels import predict
 from tracker.camera.blur.kernels import keep_within
 from tracker.compiled import compiled
@@ -65,19 +64,24 @@ def _advance(rotation, translation, numbers, step, share, least_blur):
 
 
 @compiled
-def _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px):
+def _solved(a, g, damping, order, step, rotation, translation, lens, side_mm, most_px):
     """The damped step, what it promises in squared grey levels, and the share of it that may be gone.
 
-    A share of 0 means that there is no step.
+    It is solved for in this order of the numbers. A share of 0 means that there is no step.
     """
-    damped = a.copy()
-    for m in range(len(g)):
+    n = len(g)
+    damped, sides, solved = np.empty((n, n)), np.empty(n), np.empty(n)
+    for m in range(n):
+        sides[m] = g[order[m]]
+        for k in range(n):
+            damped[m, k] = a[order[m], order[k]]
         damped[m, m] *= 1.0 + damping
-    if not solve_positive(damped, g, step):
+    if not solve_positive(damped, sides, solved):
         return 0.0, 0.0
     gain = 0.0
-    for m in range(len(g)):
-        gain += g[m] * step[m]
+    for m in range(n):
+        step[order[m]] = solved[m]
+        gain += sides[m] * solved[m]
     moved = corner_motion_px(rotation, translation, lens, side_mm, step)
     turned = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
     if not np.isfinite(moved):
@@ -87,12 +91,12 @@ def _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px):
 
 @compiled
 def whole_fit(
-    rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, least_blur, rounds, cut,
+    rays, values, lens, rotation, translation, side_mm, tex, numbers, light, scale, least_blur, rounds, cut,
     most_px, settled
 ):  # fmt: skip
     """Fit pose, blur, response and light to the pixels, in place, by damped Gauss-Newton.
 
-    `numbers`: of blur, response and light, in and out; (16,) with 0 nodes, else (10 + 2 nodes^2,). `scale` of
+    `numbers`: of blur, response and light, in and out; as many as the light has. `scale` of
     the residuals in grey levels, as far as it is known; where it is 0, even light is found first too. A step
     that promises to lower the cost by less than `settled`, in units of the residuals' variance, is the last.
     Returns the matrix at the end with what is known beforehand in it, the scale, the mean weight, whether it
@@ -107,18 +111,17 @@ def whole_fit(
     if n < 2 * EVEN or not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
         return failed
     if scale == 0.0:
-        if nodes == 0 and not even_light(rows[0], at, values, numbers, 2.0, cut):
+        if light[0] == PLAIN and not even_light(rows[0], at, values, numbers, 2.0, cut):
             return failed
-        light_up(at, numbers, nodes, lit)
+        light_up(at, numbers, light, lit)
         scale = typical_sd(rows, values, lit, numbers[RESPONSE], own)
-    trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
-    cost, total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
+    trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own)
+    cost, total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
     old_rotation, old_translation, old = rotation.copy(), translation.copy(), numbers.copy()
-    old_a, old_g = a.copy(), g.copy()
-    damping = 1e-6
+    old_a, old_g, damping, order = a.copy(), g.copy(), 1e-6, fields_first(light)
     for _ in range(rounds):
         old_a[:, :], old_g[:] = a, g
-        gain, share = _solved(a, g, damping, step, rotation, translation, lens, side_mm, most_px)
+        gain, share = _solved(a, g, damping, order, step, rotation, translation, lens, side_mm, most_px)
         if share == 0.0:
             return failed
         old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
@@ -127,7 +130,7 @@ def whole_fit(
             break
         new_cost, new_total = np.inf, 0.0
         if facing and predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
-            new_cost, new_total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
+            new_cost, new_total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
         fallen = (cost - new_cost) / (scale * scale)
         if not fallen >= 0.0:
             rotation[:, :], translation[:], numbers[:] = old_rotation, old_translation, old
@@ -143,21 +146,21 @@ def whole_fit(
         typical = typical_sd(rows, values, lit, numbers[RESPONSE], own)
         if abs(typical - scale) > 0.1 * scale:
             scale = typical
-            trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
-            cost, total = equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g)
+            trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own)
+            cost, total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
     return a, scale, total / own.sum(), True, seen
 
 
 @compiled
-def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, nodes, scale, cut):
+def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, light, scale, cut):
     """The robust sum of squared residuals of a fit, in units of `scale`; infinite where it cannot be seen."""
     n = len(values)
     rows, at, lit, own = np.empty((10, n)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     blur = numbers[BLUR : BLUR + 3]
     if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
         return np.inf
-    light_up(at, numbers, nodes, lit)
-    trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own)
+    light_up(at, numbers, light, lit)
+    trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own)
     cost, unit = 0.0, 1.0 / (cut * scale) ** 2
     for i in range(n):
         r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], numbers[RESPONSE])
@@ -167,7 +170,7 @@ def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers
 
 
 @compiled
-def scores_spread(values, seen, response, nodes, scale, cut, inverse, blocks):
+def scores_spread(values, seen, numbers, light, scale, cut, inverse, blocks):
     """The covariance (6, 6) of the pose that the residuals themselves show, neighbours taken together.
 
     `seen`: of `whole_fit`. `inverse`: (6, numbers), the pose's rows of the inverse of the fit's matrix.
@@ -177,34 +180,27 @@ def scores_spread(values, seen, response, nodes, scale, cut, inverse, blocks):
     n = len(values)
     moved, there = np.zeros((blocks * blocks, 6)), np.zeros(blocks * blocks)
     spread = np.zeros((6, 6))
-    row, index, weight = np.empty(LIGHT), np.empty(AROUND, np.int64), np.empty(AROUND)
-    unit, both = 1.0 / (cut * scale) ** 2, nodes * nodes
+    row, room = np.empty(LIGHT), (np.empty(AROUND, np.int64), np.empty(AROUND))
+    where, share = np.empty(MOST_SHARES, np.int64), np.empty(MOST_SHARES)
+    unit = 1.0 / (cut * scale) ** 2
     weights, stiffness = 0.0, 0.0
     for i in range(n):
-        shaped, r, w, _ = weighed_pixel(rows, i, values[i], lit, response, own, unit, row)
+        x, y = at[i, 0], at[i, 1]
+        shaped, r, w, _ = weighed_pixel(rows, i, values[i], lit, numbers[RESPONSE], own, unit, row)
         z = r * r * own[i] * unit
         weights += w
         stiffness += own[i] * (1.0 - 3.0 * z) / (1.0 + z) ** 3
-        c = min(max(int((at[i, 0] + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
-        b = min(max(int((at[i, 1] + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
+        c = min(max(int((x + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
+        b = min(max(int((y + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
         block = b * blocks + c
         there[block] = 1.0
-        if nodes > 0:
-            cell_of(at[i, 0], at[i, 1], nodes, index, weight)
+        shares = shares_of(x, y, shaped, lit[i, 1], numbers, light, room, where, share)
         for m in range(6):
             one = 0.0
             for k in range(LIGHT):
                 one += inverse[m, k] * row[k]
-            if nodes == 0:
-                u, v = at[i, 0], at[i, 1]
-                one += inverse[m, LIGHT] + inverse[m, LIGHT + 1] * u + inverse[m, LIGHT + 2] * v
-                one += shaped * (
-                    inverse[m, LIGHT + 3] + inverse[m, LIGHT + 4] * u + inverse[m, LIGHT + 5] * v
-                )
-            else:
-                for k in range(AROUND):
-                    at_node = LIGHT + index[k]
-                    one += weight[k] * (inverse[m, at_node] + shaped * inverse[m, both + at_node])
+            for k in range(shares):
+                one += inverse[m, where[k]] * share[k]
             moved[block, m] += one * w * r
     count = there.sum()
     for block in range(blocks * blocks):

@@ -45,17 +45,20 @@ def _factor(a, ridge, lower, d):
     """Cholesky factor of a symmetric positive definite matrix (n, n), scaled to a unit diagonal by `d` (n,).
 
     False where it is not positive. `ridge` is added to that diagonal. Scaled, because mm and radians differ
-    by orders of magnitude.
+    by orders of magnitude. What is 0 before the first number of a row stays so, and costs nothing.
     """
     n = len(d)
+    first = np.zeros(n, np.int64)
     for i in range(n):
         if not a[i, i] > 0.0:
             return False
         d[i] = np.sqrt(a[i, i])
+        while a[i, first[i]] == 0.0:
+            first[i] += 1
     for i in range(n):
-        for j in range(i + 1):
+        for j in range(first[i], i + 1):
             rest = a[i, j] / (d[i] * d[j]) + (ridge if i == j else 0.0)
-            for k in range(j):
+            for k in range(max(first[i], first[j]), j):
                 rest -= lower[i, k] * lower[j, k]
             if i == j:
                 if not rest > 1e-13:

@@ -14,6 +14,8 @@ UNDECIDED_COST = 2.0
 # Nearer than this, two solutions are one.
 LEAST_TURN_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
 EXPECTED_TURN_SD_DEG = 4.0
+# From a marker to the end of the tool that it is on: what a doubt about its tilt is about.
+TOOL_REACH_MM, SMALL_DOUBT = 120.0, 0.05
 # A hand turns a drill by less than this between two images; farther is the other solution.
 FAR_TURN_DEG, NEAR_TURN_DEG = 20.0, 10.0
 
@@ -80,7 +82,10 @@ def doubt_between(
     doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
     spread = np.outer(apart, apart)
     # A turn goes along an arc, a covariance along its tangent: by so much is the other solution beside it.
-    spread[3:, 3:] += (1.0 - np.cos(np.linalg.norm(apart[3:]))) ** 2 * np.eye(3)
+    # By so much nearer is the end of a tool, which no turn tells to first order; a small doubt need not.
+    beside = float(1.0 - np.cos(np.linalg.norm(apart[3:])))
+    spread[3:, 3:] += beside**2 * np.eye(3)
+    spread[:3, :3] += (TOOL_REACH_MM * beside) ** 2 * doubt / (doubt + SMALL_DOUBT) * np.eye(3)
     return np.asarray(doubt * spread)
 
 

@@ -107,6 +107,19 @@ def test_an_even_race_leaves_even_doubt_and_a_covariance_that_reaches_the_other(
     assert not doubt_between(TRUTH, other_solution(TRUTH), gap=19.0, expected=None).any()
 
 
+@pytest.mark.parametrize("tip_mm", [(0.0, 120.0, 0.0), (120.0, 0.0, 0.0), (60.0, -100.0, 0.0)])
+def test_what_is_stated_reaches_the_tip_of_the_other_solution(tip_mm: tuple[float, float, float]) -> None:
+    """A tip goes along an arc from one solution to the other; its covariance is of straight lines."""
+    other = other_solution(TRUTH)
+    spread = doubt_between(TRUTH, other, gap=0.0, expected=None) + np.eye(6) * 1e-6
+    arm = TRUTH.rotation @ np.array(tip_mm)
+    cross = np.array([[0.0, -arm[2], arm[1]], [arm[2], 0.0, -arm[0]], [-arm[1], arm[0], 0.0]])
+    by_pose = np.hstack([np.eye(3), -cross])
+    apart = other.move_points(np.array([tip_mm]))[0] - TRUTH.move_points(np.array([tip_mm]))[0]
+    # Its 95 % ellipsoid.
+    assert float(apart @ np.linalg.solve(by_pose @ spread @ by_pose.T, apart)) < 7.815
+
+
 @pytest.mark.parametrize("angle_deg", [0.0, 1e-4, 30.0, 179.0, 180.0])
 def test_the_turn_between_rotations_is_exact_from_nothing_to_half_a_turn(angle_deg: float) -> None:
     axis = np.array([0.36, -0.48, 0.8])

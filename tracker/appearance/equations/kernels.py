@@ -2,18 +2,17 @@
 
 import numpy as np
 
-from tracker.appearance.light.kernels import (
+from tracker.appearance.light.fields.kernels import (
     AROUND,
-    BLUR,
-    LIGHT,
-    PLANE,
-    RESPONSE,
-    cell_of,
+    MOST_SHARES,
+    PLAIN,
+    by_cells,
     hold_light,
     light_up,
-    shaped_by,
+    shares_of,
     typical_contrast,
 )
+from tracker.appearance.light.kernels import BLUR, LIGHT, PLANE, RESPONSE, shaped_by
 from tracker.appearance.picture.kernels import MANY, paper_seen
 from tracker.compiled import compiled
 from tracker.geometry.kernels import add_products, products_of_four
@@ -27,13 +26,13 @@ BEYOND_CONTRAST = 1.0
 
 
 @compiled
-def trust(at, lens, rotation, translation, side_mm, numbers, nodes, scale, own):
+def trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own):
     """Into `own` (n,): what the noise is of a pixel's variance, 0..1; the rest is what lies beyond the paper.
 
     Blur brings the background in; near the paper's edge a pixel says little of the marker.
     """
     blur = numbers[BLUR : BLUR + 3]
-    unknown = BEYOND_CONTRAST * typical_contrast(numbers, nodes) / scale
+    unknown = BEYOND_CONTRAST * typical_contrast(numbers, light) / scale
     paper_seen(at, lens, rotation, translation, side_mm, blur, own)
     for i in range(len(own)):
         own[i] = 1.0 / (1.0 + (unknown * (1.0 - own[i])) ** 2)
@@ -107,60 +106,78 @@ def _even_equations(rows, at, values, lit, numbers, own, unit, a, g):
 
 
 @compiled
-def _uneven_equations(rows, at, values, lit, numbers, nodes, own, unit, a, g):
-    """The same in uneven light, of which each pixel sees nine nodes."""
-    row, index, weight = np.empty(LIGHT), np.empty(AROUND, np.int64), np.empty(AROUND)
-    where, share = np.empty(2 * AROUND, np.int64), np.empty(2 * AROUND)
-    cost, total, both = 0.0, 0.0, nodes * nodes
-    for i in range(len(values)):
-        shaped, r, w, one = weighed_pixel(rows, i, values[i], lit, numbers[RESPONSE], own, unit, row)
-        cost += one
-        total += w
-        cell_of(at[i, 0], at[i, 1], nodes, index, weight)
-        for k in range(AROUND):
-            where[k], share[k] = LIGHT + index[k], weight[k]
-            where[AROUND + k], share[AROUND + k] = LIGHT + both + index[k], weight[k] * shaped
-        wr = w * r
-        for m in range(LIGHT):
-            wm = w * row[m]
-            g[m] += wr * row[m]
-            for k in range(LIGHT):
-                a[m, k] += wm * row[k]
-            for k in range(2 * AROUND):
-                a[m, where[k]] += wm * share[k]
-        for m in range(2 * AROUND):
-            g[where[m]] += wr * share[m]
-            for k in range(2 * AROUND):
-                a[where[m], where[k]] += w * share[m] * share[k]
-    for m in range(LIGHT):
-        for k in range(LIGHT, len(g)):
-            a[k, m] = a[m, k]
+def _uneven_equations(rows, at, values, lit, numbers, light, own, unit, a, g):
+    """The same in uneven light: the pixels of one cell of its net see the same few numbers."""
+    nodes, response, n = light[1], numbers[RESPONSE], len(values)
+    order, begins = np.empty(n, np.int64), np.empty((nodes - 2) ** 2 + 1, np.int64)
+    by_cells(at, nodes, order, begins)
+    row, near = np.empty(LIGHT), (np.empty(AROUND, np.int64), np.empty(AROUND))
+    where, share = np.empty(MOST_SHARES, np.int64), np.empty(MOST_SHARES)
+    all_slopes, left, weights = np.empty((LIGHT + MOST_SHARES, MANY)), np.empty(MANY), np.empty(MANY)
+    room, all_there = np.empty(MANY), np.empty(LIGHT + MOST_SHARES, np.int64)
+    cost, total = 0.0, 0.0
+    for cell in range(len(begins) - 1):
+        begin, end = begins[cell], begins[cell + 1]
+        while begin < end:
+            count = min(MANY, end - begin)
+            shares = 0
+            for k in range(count):
+                i = order[begin + k]
+                shaped, left[k], weights[k], one = weighed_pixel(
+                    rows, i, values[i], lit, response, own, unit, row
+                )
+                cost += one
+                total += weights[k]
+                shares = shares_of(at[i, 0], at[i, 1], shaped, lit[i, 1], numbers, light, near, where, share)
+                all_slopes[:LIGHT, k] = row
+                all_slopes[LIGHT : LIGHT + shares, k] = share[:shares]
+            many = LIGHT + shares
+            slopes, there = all_slopes[:many], all_there[:many]
+            for m in range(many):
+                there[m] = m if m < LIGHT else where[m - LIGHT]
+            _add_cell(slopes, there, left, weights, count, room, a, g)
+            begin += count
     return cost / unit, total
 
 
 @compiled
-def _hold(a, g, numbers, scale, nodes):
+def _add_cell(slopes, there, left, weights, count, room, a, g):
+    """Add pixels' derivatives (m, many) to the normal equations of the numbers that they are by, `there`."""
+    many = len(there)
+    own = np.zeros((many, many))
+    add_products(slopes, weights, count, room, own)
+    for m in range(many):
+        total = 0.0
+        for k in range(count):
+            total += weights[k] * left[k] * slopes[m, k]
+        g[there[m]] += total
+        for k in range(many):
+            a[there[m], there[k]] += own[m, k]
+
+
+@compiled
+def _hold(a, g, numbers, scale, light):
     """Add to the normal equations what is known beforehand; returns what it costs."""
     for m in range(3):
         a[BLUR + m, BLUR + m] += (scale / (1.0 + numbers[BLUR] + numbers[BLUR + 1])) ** 2
     straight = (scale / RESPONSE_SD) ** 2
     a[RESPONSE, RESPONSE] += straight
     g[RESPONSE] -= straight * numbers[RESPONSE]
-    return straight * numbers[RESPONSE] ** 2 + hold_light(a, g, numbers, scale, nodes)
+    return straight * numbers[RESPONSE] ** 2 + hold_light(a, g, numbers, scale, light)
 
 
 @compiled
-def equations(rows, at, values, lit, numbers, nodes, own, scale, cut, a, g):
+def equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g):
     """The normal equations with what is known beforehand in them; returns their cost and weight."""
     a[:, :] = 0.0
     g[:] = 0.0
-    light_up(at, numbers, nodes, lit)
+    light_up(at, numbers, light, lit)
     unit = 1.0 / (cut * scale) ** 2
-    if nodes == 0:
+    if light[0] == PLAIN:
         cost, total = _even_equations(rows, at, values, lit, numbers, own, unit, a, g)
     else:
-        cost, total = _uneven_equations(rows, at, values, lit, numbers, nodes, own, unit, a, g)
-    return cost + _hold(a, g, numbers, scale, nodes), total
+        cost, total = _uneven_equations(rows, at, values, lit, numbers, light, own, unit, a, g)
+    return cost + _hold(a, g, numbers, scale, light), total
 
 
 @compiled

@@ -1,0 +1,285 @@
+"""The compiled loops of uneven light; their types are those of their calls.
+
+`light` is what kind it is, and how many nodes a side its fields have.
+"""
+
+import numpy as np
+
+from tracker.appearance.light.kernels import LIGHT, PLANE
+from tracker.compiled import compiled
+
+# Kinds of light, and what their numbers are from LIGHT on: of an even one dark and contrast, each with its
+# slopes; of a shaded one the field of the contrast, what dark is of it, and what is dark without light; of a
+# glaring one the field of the dark, and contrast with its slopes; of a free one a field of each.
+PLAIN, SHADED, GLARING, FREE = 0, 1, 2, 3
+# The fields reach over the square and a quarter of half a side beyond.
+NODES_REACH = 1.25
+# A point is lit by three nodes each way.
+AROUND = 9
+# Light changes from node to node by so much of the contrast, unless the image says otherwise.
+NODE_STEP_RATIO, SLOPE_RATIO = 0.6, 0.5
+# ... and bends by so much, mostly.
+BEND_RATIO = 0.07
+# What a camera makes of no light at all, by the contrast.
+NO_LIGHT_RATIO = 0.05
+MOST_SHARES = 2 * AROUND
+
+
+@compiled
+def numbers_of(light):
+    """How many numbers a fit in such a light has."""
+    kind, nodes = light
+    if kind == PLAIN:
+        return LIGHT + PLANE
+    if kind == SHADED:
+        return LIGHT + nodes * nodes + 2
+    if kind == GLARING:
+        return LIGHT + nodes * nodes + 3
+    return LIGHT + 2 * nodes * nodes
+
+
+@compiled
+def fields_first(light):
+    """The numbers of a fit (n,), so that neighbours in the light come one after the other.
+
+    Each field's numbers meet only those near to them; all else, which meets everything, comes last.
+    """
+    kind, nodes = light
+    fields = 2 if kind == FREE else (0 if kind == PLAIN else 1)
+    both, n, order = nodes * nodes, 0, np.empty(numbers_of(light), np.int64)
+    for k in range(both):
+        for m in range(fields):
+            order[n] = LIGHT + m * both + k
+            n += 1
+    for k in range(LIGHT + fields * both, len(order)):
+        order[n] = k
+        n += 1
+    for k in range(LIGHT):
+        order[n] = k
+        n += 1
+    return order
+
+
+@compiled
+def _in_cells(x, y, nodes):
+    """A point in half sides, in cells of the net to the right and upwards."""
+    cells = nodes - 2
+    fx = min(max((x / NODES_REACH + 1.0) * 0.5 * cells, 0.0), cells - 1e-6)
+    fy = min(max((y / NODES_REACH + 1.0) * 0.5 * cells, 0.0), cells - 1e-6)
+    return fx, fy
+
+
+@compiled
+def by_cells(at, nodes, order, begins):
+    """Into `order` (n,): the pixels, cell by cell of the net; where those of each begin into `begins`."""
+    cells = nodes - 2
+    which = np.empty(len(at), np.int64)
+    begins[:] = 0
+    for i in range(len(at)):
+        fx, fy = _in_cells(at[i, 0], at[i, 1], nodes)
+        which[i] = int(fy) * cells + int(fx)
+        begins[which[i] + 1] += 1
+    for k in range(len(begins) - 1):
+        begins[k + 1] += begins[k]
+    put = begins.copy()
+    for i in range(len(at)):
+        order[put[which[i]]] = i
+        put[which[i]] += 1
+
+
+@compiled
+def _cell_of(x, y, nodes, index, weight):
+    """The nine nodes around a point in half sides, into `index` (9,), and their weights (9,).
+
+    A quadratic B-spline: glare is round on the scale of its net, and straight lines between nodes were off
+    by several grey levels.
+    """
+    fx, fy = _in_cells(x, y, nodes)
+    c, r = int(fx), int(fy)
+    fx -= c
+    fy -= r
+    wx = (0.5 * (1 - fx) ** 2, 0.5 + fx - fx * fx, 0.5 * fx * fx)
+    wy = (0.5 * (1 - fy) ** 2, 0.5 + fy - fy * fy, 0.5 * fy * fy)
+    for j in range(3):
+        for i in range(3):
+            index[3 * j + i] = (r + j) * nodes + c + i
+            weight[3 * j + i] = wy[j] * wx[i]
+
+
+@compiled
+def light_up(at, numbers, light, lit):
+    """Into `lit` (n, 2): dark and contrast at each pixel, in grey levels."""
+    kind, nodes = light
+    if kind == PLAIN:
+        d, dx, dy, c, cx, cy = numbers[LIGHT : LIGHT + PLANE]
+        for i in range(len(at)):
+            lit[i, 0] = d + dx * at[i, 0] + dy * at[i, 1]
+            lit[i, 1] = c + cx * at[i, 0] + cy * at[i, 1]
+        return
+    index, weight = np.empty(AROUND, np.int64), np.empty(AROUND)
+    both = nodes * nodes
+    rest = numbers[LIGHT + both :]
+    for i in range(len(at)):
+        x, y = at[i, 0], at[i, 1]
+        _cell_of(x, y, nodes, index, weight)
+        field, second = 0.0, 0.0
+        for k in range(AROUND):
+            field += weight[k] * numbers[LIGHT + index[k]]
+            if kind == FREE:
+                second += weight[k] * rest[index[k]]
+        if kind == SHADED:
+            lit[i, 0], lit[i, 1] = rest[1] + rest[0] * field, field
+        elif kind == GLARING:
+            lit[i, 0], lit[i, 1] = field, rest[0] + rest[1] * x + rest[2] * y
+        else:
+            lit[i, 0], lit[i, 1] = field, second
+
+
+@compiled
+def shares_of(x, y, shaped, contrast, numbers, light, room, where, share):
+    """By how much each number of the light lights a pixel: which ones into `where`, and `share`; how many.
+
+    `shaped`: what the pixel sees of the picture, 0..1. `room`: indices (9,) and weights (9,).
+    """
+    kind, nodes = light
+    if kind == PLAIN:
+        for k in range(PLANE):
+            where[k] = LIGHT + k
+        share[0], share[1], share[2] = 1.0, x, y
+        share[3], share[4], share[5] = shaped, shaped * x, shaped * y
+        return PLANE
+    index, weight = room
+    _cell_of(x, y, nodes, index, weight)
+    rest = LIGHT + nodes * nodes
+    by_field = numbers[rest] + shaped if kind == SHADED else 1.0
+    for k in range(AROUND):
+        where[k], share[k] = LIGHT + index[k], weight[k] * by_field
+    if kind == SHADED:
+        where[AROUND], share[AROUND] = rest, contrast
+        where[AROUND + 1], share[AROUND + 1] = rest + 1, 1.0
+        return AROUND + 2
+    if kind == GLARING:
+        for k in range(3):
+            where[AROUND + k] = rest + k
+        share[AROUND], share[AROUND + 1], share[AROUND + 2] = shaped, shaped * x, shaped * y
+        return AROUND + 3
+    for k in range(AROUND):
+        where[AROUND + k], share[AROUND + k] = rest + index[k], weight[k] * shaped
+    return 2 * AROUND
+
+
+@compiled
+def _fill(plane, nodes, field):
+    """A plane (3,) over the marker as a field (nodes^2,)."""
+    for r in range(nodes):
+        for c in range(nodes):
+            x = NODES_REACH * (2.0 * (c - 0.5) / (nodes - 2) - 1.0)
+            y = NODES_REACH * (2.0 * (r - 0.5) / (nodes - 2) - 1.0)
+            field[r * nodes + c] = plane[0] + plane[1] * x + plane[2] * y
+
+
+@compiled
+def from_plain(numbers, light, out):
+    """The numbers of a fit in even light as those of one in this light."""
+    kind, nodes = light
+    out[:LIGHT] = numbers[:LIGHT]
+    dark, contrast = numbers[LIGHT : LIGHT + 3], numbers[LIGHT + 3 : LIGHT + 6]
+    both = nodes * nodes
+    field, rest = out[LIGHT : LIGHT + both], out[LIGHT + both :]
+    if kind == SHADED:
+        _fill(contrast, nodes, field)
+        rest[0], rest[1] = dark[0] / max(contrast[0], 1.0), 0.0
+    elif kind == GLARING:
+        _fill(dark, nodes, field)
+        rest[:] = contrast
+    else:
+        _fill(dark, nodes, field)
+        _fill(contrast, nodes, rest)
+
+
+@compiled
+def typical_contrast(numbers, light):
+    """Contrast in the middle of the marker, in grey levels, at least 1."""
+    kind, nodes = light
+    if kind == PLAIN:
+        return max(abs(numbers[LIGHT + 3]), 1.0)
+    both = nodes * nodes
+    if kind == GLARING:
+        return max(abs(numbers[LIGHT + both]), 1.0)
+    first = LIGHT + (both if kind == FREE else 0)
+    return max(abs(numbers[first : first + both].mean()), 1.0)
+
+
+@compiled
+def _hold_number(a, g, numbers, k, sd, scale):
+    """Add to the normal equations that a number is 0 but for this sd; returns its cost."""
+    stiff = (scale / sd) ** 2
+    a[k, k] += stiff
+    g[k] -= stiff * numbers[k]
+    return stiff * numbers[k] ** 2
+
+
+@compiled
+def _hold_three(a, g, numbers, three, sd, scale):
+    """Add to the normal equations that the middle of three lies between the others, or far off; its cost.
+
+    As Cauchy has it: where light bends much, as at the edge of a shadow, it may bend more.
+    """
+    i, j, k = three
+    bend = numbers[i] - 2.0 * numbers[j] + numbers[k]
+    far = 1.0 + (bend / sd) ** 2
+    stiff = (scale / sd) ** 2 / far
+    for m, by in ((i, 1.0), (j, -2.0), (k, 1.0)):
+        g[m] -= stiff * by * bend
+        a[m, i] += stiff * by
+        a[m, j] -= 2.0 * stiff * by
+        a[m, k] += stiff * by
+    return scale * scale * np.log(far)
+
+
+@compiled
+def _hold_field(a, g, numbers, first, nodes, contrast, scale):
+    """Add to the normal equations that a field is smooth; returns its cost."""
+    cost, sd = 0.0, BEND_RATIO * contrast
+    stiff = (scale / (NODE_STEP_RATIO * contrast)) ** 2
+    for r in range(nodes):
+        for c in range(nodes):
+            i = first + r * nodes + c
+            for way in range(2):
+                step = 1 if way == 0 else nodes
+                left = nodes - 1 - (c if way == 0 else r)
+                if left > 1:
+                    cost += _hold_three(a, g, numbers, (i, i + step, i + 2 * step), sd, scale)
+                if left > 0:
+                    j = i + step
+                    apart = numbers[i] - numbers[j]
+                    a[i, i] += stiff
+                    a[j, j] += stiff
+                    a[i, j] -= stiff
+                    a[j, i] -= stiff
+                    g[i] -= stiff * apart
+                    g[j] += stiff * apart
+                    cost += stiff * apart * apart
+    return cost
+
+
+@compiled
+def hold_light(a, g, numbers, scale, light):
+    """Add to the normal equations that light changes little over the marker; returns its cost."""
+    kind, nodes = light
+    contrast = typical_contrast(numbers, light)
+    cost, slope = 0.0, SLOPE_RATIO * contrast
+    if kind == PLAIN:
+        for k in (1, 2, 4, 5):
+            cost += _hold_number(a, g, numbers, LIGHT + k, slope, scale)
+        return cost
+    rest = LIGHT + nodes * nodes
+    cost += _hold_field(a, g, numbers, LIGHT, nodes, contrast, scale)
+    if kind == SHADED:
+        cost += _hold_number(a, g, numbers, rest + 1, NO_LIGHT_RATIO * contrast, scale)
+    elif kind == GLARING:
+        cost += _hold_number(a, g, numbers, rest + 1, slope, scale)
+        cost += _hold_number(a, g, numbers, rest + 2, slope, scale)
+    else:
+        cost += _hold_field(a, g, numbers, rest, nodes, contrast, scale)
+    return cost

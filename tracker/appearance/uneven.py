@@ -1,0 +1,71 @@
+"""Light that varies over the marker: which kind of it explains the pixels."""
+
+import numpy as np
+
+from tracker.appearance.fit import STRAIGHT_SD2, Fitted, again, cost_of, fitted
+from tracker.appearance.light.fields.kernels import (
+    FREE,
+    GLARING,
+    SHADED,
+    from_plain,
+    numbers_of,
+    typical_contrast,
+)
+from tracker.appearance.samples import Samples, some_of
+
+# Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide, a highlight
+# less.
+NODES = 10
+# What even light leaves unexplained, in units of the noise and of the contrast, before light may vary.
+EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
+# Light varies where that explains this much more; a compressed picture's blocks it does not explain.
+UNEVEN_LEAVES_RATIO = 0.75
+# Two fields explain what one does too, and by chance a little more.
+FREE_PRICE_SD2 = 50.0
+# So many pixels tell which light it is.
+TELLING_PIXELS = 2000
+
+
+def leaves_much(fits: list[Fitted], noise_grey: float) -> bool:
+    """Whether the best of some fits in even light leaves more than noise."""
+    best = min(fits, key=lambda one: one.scale_grey)
+    contrast = float(typical_contrast(best.numbers, best.light))
+    return best.scale_grey > max(EVEN_LEAVES_NOISES * noise_grey, EVEN_LEAVES_CONTRAST_RATIO * contrast)
+
+
+def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float) -> list[Fitted]:
+    """The same poses in the simplest light that explains the pixels; as they were where none does."""
+    some = some_of(seen, TELLING_PIXELS)
+    light = _light_of(some, even[0], noise_grey)
+    if light is None:
+        return even
+    fits = [one for one in (_in_light(some, one, light) for one in even) if one is not None]
+    # Smooth light does not explain a compressed picture's blocks.
+    if not fits or fits[0].scale_grey > UNEVEN_LEAVES_RATIO * even[0].scale_grey:
+        return even
+    return fits if some is seen else [one for one in (again(seen, one) for one in fits) if one is not None]
+
+
+def _light_of(seen: Samples, even: Fitted, noise_grey: float) -> tuple[int, int] | None:
+    """The light that explains the pixels at about this pose; None where nothing can be fitted."""
+    single = [_in_light(seen, even, (kind, NODES)) for kind in (SHADED, GLARING)]
+    fits = [one for one in single if one is not None]
+    # What leaves no more than noise leaves nothing to explain.
+    if not fits or min(one.scale_grey for one in fits) > noise_grey:
+        free = _in_light(seen, even, (FREE, NODES))
+        fits += [] if free is None else [free]
+    if not fits:
+        return None
+    scale = min(one.scale_grey for one in fits)
+
+    def price(one: Fitted) -> float:
+        return cost_of(seen, one, scale) + (FREE_PRICE_SD2 if one.light[0] == FREE else 0.0)
+
+    return min(fits, key=price).light
+
+
+def _in_light(seen: Samples, even: Fitted, light: tuple[int, int]) -> Fitted | None:
+    """The same pose in such a light."""
+    numbers = np.zeros(numbers_of(light))
+    from_plain(even.numbers, light, numbers)
+    return fitted(seen, even.rotation, even.translation_mm, numbers, light=light, settled=STRAIGHT_SD2)

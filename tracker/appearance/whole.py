@@ -1,0 +1,163 @@
+"""The pose that explains every pixel of a marker: pose, blur, camera response and light fitted together."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracker.appearance.equations.kernels import EVEN
+from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, again, cost_of, fitted
+from tracker.appearance.kernels import scores_spread
+from tracker.appearance.light.fields.kernels import PLAIN, typical_contrast
+from tracker.appearance.light.kernels import BLUR, RESPONSE
+from tracker.appearance.samples import Samples, samples_of, some_of
+from tracker.appearance.texture import Textures
+from tracker.appearance.uneven import in_light_that_explains, leaves_much
+from tracker.edges import GreyImage
+from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
+from tracker.geometry.kernels import mean_ratio, pose_rows
+
+# Wider markers are averaged first: their edges are sharper than the sharpest picture, and pixels abound.
+WIDEST_PX = 110.0
+# sd 0.6 px: a camera in focus.
+FOCUS_PX2 = 0.36
+# A blur over so many times that of a camera in focus spreads what tells of the pose: pixels are chosen anew.
+WIDE_BLUR_RATIO = 4.0
+# So many pixels bring a pose near, some more nearer; all of them then make it exact.
+FEW_PIXELS, SOME_PIXELS = 200, 800
+# The other planar solution is let go when those few pixels speak against it by so much.
+OUT_OF_QUESTION_SD2 = 30.0
+# Errors within one of so many parts a side are taken to be alike.
+BLOCKS = 7
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WholeFit:
+    """One pose that explains the pixels.
+
+    Attributes:
+        camera_from_marker: the pose.
+        covariance: (6, 6) [mm, rad] by what is left unexplained: translation, then turn, left-multiplied.
+        alike_ratio: by how much the variance is larger than if each pixel erred alone.
+        scale_grey: sd of what is not explained, in grey levels.
+        contrast_grey: bright less dark, at the marker's centre.
+        explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
+        response: bend of the camera's response, 0 where grey levels are proportional to light.
+        cost_sd2: robust sum of squared residuals in units of the smaller scale of both; 0 of one alone.
+    """
+
+    camera_from_marker: Rigid[Camera, Marker]
+    covariance: Array
+    alike_ratio: float
+    scale_grey: float
+    contrast_grey: float
+    explained_ratio: float
+    response: float
+    cost_sd2: float
+
+
+def whole_fits(
+    image: GreyImage,
+    lens: Array,
+    textures: Textures,
+    starts: list[Rigid[Camera, Marker]],
+    *,
+    side_mm: float,
+    side_px: float,
+    noise_grey: float,
+) -> list[WholeFit]:
+    """The whole shape fitted from each start within half a pixel or so; those that fail are left out.
+
+    All are fitted to the same pixels, so that their costs can be compared.
+
+    Args:
+        image: the whole grey image (h, w).
+        lens: `CameraModel.lens`.
+        textures: of the marker.
+        starts: poses, the likeliest first; the pixels are taken by it.
+        side_mm: side of the marker.
+        side_px: about how wide it is in the image.
+        noise_grey: sd of the image's noise.
+    """
+    step = max(1, int(np.ceil(side_px / WIDEST_PX)))
+    focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
+    seen = samples_of(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=focus)
+    near = _near_all(seen, starts, focus)
+    if near and (blur := _widest(near, focus)) is not None:
+        seen = samples_of(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=blur)
+        near = [one for one in (again(some_of(seen, FEW_PIXELS), one) for one in near) if one is not None]
+    # Where even light leaves much, it has not been asked yet which of them is better.
+    if near and not leaves_much(near, noise_grey):
+        near = _in_question(some_of(seen, FEW_PIXELS), near)
+    done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
+    if not done:
+        return []
+    if leaves_much(done[:1], noise_grey):
+        done = in_light_that_explains(seen, done, noise_grey)
+    scale = min(one.scale_grey for one in done)
+    costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
+    records = [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
+    return [one for one in records if one is not None]
+
+
+def _in_question(few: Samples, near: list[Fitted]) -> list[Fitted]:
+    """Those fits to the same few pixels that may be the best of all."""
+    scale = min(one.scale_grey for one in near)
+    costs = [cost_of(few, one, scale) for one in near]
+    return [one for one, cost in zip(near, costs, strict=True) if cost < min(costs) + OUT_OF_QUESTION_SD2]
+
+
+def _near_all(seen: Samples, starts: list[Rigid[Camera, Marker]], blur_px2: Array) -> list[Fitted]:
+    """The poses near some starts."""
+    few = some_of(seen, FEW_PIXELS)
+    return [one for one in (_near(few, start, blur_px2) for start in starts) if one is not None]
+
+
+def _widest(near: list[Fitted], focus_px2: Array) -> Array | None:
+    """The blur (3,) of the best of some fits where it is wide; None where it is about a camera's in focus."""
+    best = min(near, key=lambda one: one.scale_grey)
+    blur = best.numbers[BLUR : BLUR + 3]
+    return blur if float(blur[:2].sum()) > WIDE_BLUR_RATIO * float(focus_px2[:2].sum()) else None
+
+
+def _near(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> Fitted | None:
+    """The pose near a start in even light, by a few pixels."""
+    numbers = np.zeros(EVEN)
+    numbers[BLUR : BLUR + 3] = blur_px2
+    return fitted(few, start.rotation, start.translation_mm, numbers, light=(PLAIN, 0))
+
+
+def _at_all(seen: Samples, near: Fitted) -> Fitted | None:
+    """The same by all pixels."""
+    some = some_of(seen, SOME_PIXELS)
+    nearer = near if some is seen else again(some, near)
+    return None if nearer is None else again(seen, nearer)
+
+
+def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
+    """What the fit says of the pose; None where it says nothing."""
+    # What is known beforehand is in the matrix: it needs no ridge.
+    rows, is_told = pose_rows(one.matrix, 0.0)
+    if not is_told:
+        return None
+    alone = np.ascontiguousarray(rows[:, :6]) * one.scale_grey**2
+    together = scores_spread(
+        seen.values,
+        one.looked,
+        one.numbers,
+        one.light,
+        one.scale_grey,
+        CUT,
+        rows,
+        BLOCKS,
+    )
+    alike = max(float(mean_ratio(alone, together)), 1.0)
+    return WholeFit(
+        camera_from_marker=Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm),
+        covariance=alone * alike,
+        alike_ratio=alike,
+        scale_grey=one.scale_grey,
+        contrast_grey=float(typical_contrast(one.numbers, one.light)),
+        explained_ratio=one.explained_ratio,
+        response=float(one.numbers[RESPONSE]),
+        cost_sd2=cost_sd2,
+    )
