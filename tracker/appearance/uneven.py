@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracker.appearance.fit import STRAIGHT_SD2, Fitted, again, cost_of, fitted
+from tracker.appearance.fit import CUT, STRAIGHT_SD2, Fitted, again, cost_of, fitted
 from tracker.appearance.light.fields.kernels import (
     FREE,
     GLARING,
@@ -11,6 +11,8 @@ from tracker.appearance.light.fields.kernels import (
     numbers_of,
     typical_contrast,
 )
+from tracker.appearance.light.kernels import RESPONSE
+from tracker.appearance.light.pattern.kernels import pattern_of_light
 from tracker.appearance.samples import Samples, some_of
 
 # Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide, a highlight
@@ -18,8 +20,9 @@ from tracker.appearance.samples import Samples, some_of
 NODES = 10
 # What even light leaves unexplained, in units of the noise and of the contrast, before light may vary.
 EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
-# Light varies where that explains this much more; a compressed picture's blocks it does not explain.
-UNEVEN_LEAVES_RATIO = 0.75
+# Noise, blocks of a compressed picture and things behind the marker have under 30 of the pattern of light; a
+# shadow that takes half of it, or a highlight of half its height, over 150.
+LEAST_PATTERN_SD2 = 45.0
 # Two fields explain what one does too, and by chance a little more.
 FREE_PRICE_SD2 = 50.0
 # So many pixels tell which light it is.
@@ -33,6 +36,13 @@ def leaves_much(fits: list[Fitted], noise_grey: float) -> bool:
     return best.scale_grey > max(EVEN_LEAVES_NOISES * noise_grey, EVEN_LEAVES_CONTRAST_RATIO * contrast)
 
 
+def is_uneven(seen: Samples, even: list[Fitted]) -> bool:
+    """Whether what the best of some fits in even light leaves looks like light."""
+    best = min(even, key=lambda one: one.scale_grey)
+    pattern = pattern_of_light(seen.values, best.looked, float(best.numbers[RESPONSE]), best.scale_grey, CUT)
+    return float(pattern) > LEAST_PATTERN_SD2
+
+
 def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float) -> list[Fitted]:
     """The same poses in the simplest light that explains the pixels; as they were where none does."""
     some = some_of(seen, TELLING_PIXELS)
@@ -40,8 +50,7 @@ def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float)
     if light is None:
         return even
     fits = [one for one in (_in_light(some, one, light) for one in even) if one is not None]
-    # Smooth light does not explain a compressed picture's blocks.
-    if not fits or fits[0].scale_grey > UNEVEN_LEAVES_RATIO * even[0].scale_grey:
+    if not fits:
         return even
     return fits if some is seen else [one for one in (again(seen, one) for one in fits) if one is not None]
 

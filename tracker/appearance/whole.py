@@ -11,7 +11,7 @@ from tracker.appearance.light.fields.kernels import PLAIN, typical_contrast
 from tracker.appearance.light.kernels import BLUR, RESPONSE
 from tracker.appearance.samples import Samples, samples_of, some_of
 from tracker.appearance.texture import Textures
-from tracker.appearance.uneven import in_light_that_explains, leaves_much
+from tracker.appearance.uneven import in_light_that_explains, is_uneven, leaves_much
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
 from tracker.geometry.kernels import mean_ratio, pose_rows
@@ -91,7 +91,7 @@ def whole_fits(
     done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
     if not done:
         return []
-    if leaves_much(done[:1], noise_grey):
+    if is_uneven(seen, done):
         done = in_light_that_explains(seen, done, noise_grey)
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]

@@ -84,6 +84,15 @@ def _typical_turn_deg(pose: Rigid[Camera, Marker], image: Array, *, seed: int) -
     return float(np.median(turns))
 
 
+def test_a_faint_shadow_is_seen_by_its_pattern_not_by_how_much_it_leaves() -> None:
+    """In even light alone the marker would be turned by three times as much."""
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 30.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    columns = np.arange(_image(pose).shape[1])
+    faint = _image(pose) * (1.0 - 0.3 / (1.0 + np.exp(-(columns - 332.0) / 3.0)))
+    turned = [_typical_turn_deg(pose, image, seed=5) for image in (faint, _image(pose).astype(np.float64))]
+    assert turned[0] < 1.6 * turned[1]
+
+
 @pytest.mark.parametrize("kind", ["shadow", "highlight", "both"])
 def test_light_that_varies_costs_little_of_what_the_pixels_say(kind: str) -> None:
     """Two free fields for any light would make a shadow cost 1.7 times as much, and both 1.5 times."""
