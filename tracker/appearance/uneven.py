@@ -22,7 +22,7 @@ NODES = 10
 EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
 # Noise, blocks of a compressed picture and things behind the marker have under 30 of the pattern of light; a
 # shadow that takes half of it, or a highlight of half its height, over 150.
-LEAST_PATTERN_SD2 = 45.0
+LEAST_PATTERN_SD2 = 80.0
 # Two fields explain what one does too, and by chance a little more.
 FREE_PRICE_SD2 = 50.0
 # So many pixels tell which light it is.
