@@ -91,7 +91,7 @@ def test_errors_that_neighbours_share_widen_what_is_stated() -> None:
     """One picture knows little of how its neighbours err, so that it is asked of many."""
     pose = facing_at_px(CAMERA, (330.0, 220.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
     image = _image(pose).astype(np.float64)
-    white, blocks = [], []
+    white, blocks = list[float](), list[float]()
     for seed in range(24):
         rng = np.random.default_rng(seed)
         alone = rng.normal(0.0, 6.0, image.shape)
