@@ -166,3 +166,42 @@ def test_cleaning_takes_no_case_away_and_says_so(tmp_path: Path) -> None:
     assert not (tmp_path / ".venv").exists()
     assert (tmp_path / ".coaxial" / "cases" / "1").exists()
     assert "Kept: .coaxial" in said
+
+
+STEPS_THAT_PASS = ("place", "packages", "project", "page-packages", "page", "dev")
+
+
+def stands_ready(folder: Path, fails: str) -> None:
+    """A checkout in which all is installed and nothing compiled; what is called is written down, or fails."""
+    shutil.copy(ROOT / "Makefile", folder)
+    for made in ("tracker", "web/src", ".make", ".venv/bin", ".venv/stamps"):
+        (folder / made).mkdir(parents=True)
+    for file in ("requirements.lock", "requirements-build.lock", "requirements-dev.lock", "pyproject.toml"):
+        (folder / file).touch()
+    for file in ("requirements-node.lock", "web/package-lock.json"):
+        (folder / file).touch()
+    called = f'echo "${{0##*/}} $*" >>{folder}/called; case "${{0##*/}} $*" in *"{fails}"*) exit 1;; esac'
+    for program in ("python", "lint-imports"):
+        put(folder / ".venv" / "bin", program, called)
+    put(folder / ".make", "step", 'shift 3; exec "$@"')
+    for program in ("with-node", "find-chromium", "run-tests"):
+        put(folder / ".make", program, called)
+    for name in STEPS_THAT_PASS:
+        (folder / ".venv" / "stamps" / name).write_text(f"{folder.resolve()}\n")
+
+
+@pytest.mark.parametrize(
+    "fails",
+    ["tracker.warm_up", "ruff check", "lint-imports", "mypy", "--silent test", "run-tests", "nothing"],
+)
+def test_the_gate_fails_with_any_of_its_parts_and_tests_only_what_was_compiled_and_checked(
+    tmp_path: Path, fails: str
+) -> None:
+    stands_ready(tmp_path, fails)
+    said = subprocess.run(["make", "test"], cwd=tmp_path, check=False, capture_output=True, text=True)
+    called = (tmp_path / "called").read_text()
+    assert (said.returncode == 0) is (fails == "nothing"), said.stderr
+    assert "tracker.warm_up" in called
+    assert ("run-tests" in called) is (fails in {"run-tests", "nothing"})
+    if "run-tests" in called:
+        assert called.index("run-tests") > max(called.index("tracker.warm_up"), called.index("--silent test"))

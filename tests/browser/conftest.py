@@ -8,14 +8,21 @@ from playwright.sync_api import Browser
 from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Theatre, Watched
 
 
-@pytest.fixture
-def theatre() -> Iterator[Theatre]:
-    """A server of its own."""
+@pytest.fixture(scope="session")
+def playhouse() -> Iterator[Theatre]:
+    """A process that serves one theatre after the other."""
     assert (CHECKOUT / "web" / "dist" / "index.html").is_file(), (
         "the page is not built: npm run build in web/"
     )
     with Theatre() as started:
         yield started
+
+
+@pytest.fixture
+def theatre(playhouse: Theatre) -> Theatre:
+    """A server that nobody has used. A test that kills its process starts one of its own."""
+    playhouse.anew()
+    return playhouse
 
 
 @pytest.fixture

@@ -6,8 +6,9 @@
     bare      images of a camera that is not calibrated
     deep      the drill's tip is past the planned end, which is an alarm
     stop      nothing is published any more, the server stays up
+    anew      the server ends; one that remembers nothing begins on another port, with instants as in live
 
-Standard output gets one line, the port. The process ends with its standard input.
+Standard output gets the port, in a line of its own for each server. The process ends with its standard input.
 """
 
 import argparse
@@ -43,6 +44,8 @@ from tracker.registration import Registration
 SIZE_WH_PX = (1280, 720)
 RATE_HZ = 15.0
 SIDE_MM = 25.0
+# So long a page that still watches may keep a server that ends.
+FAREWELL_S = 2
 CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM
 CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
 UNPLUGGED = Trouble(
@@ -152,16 +155,22 @@ class Feeder(threading.Thread):
         super().__init__(name="feeder", daemon=True)
         self._hub = hub
         self._alarms = alarms
+        self._ended = threading.Event()
         self.mode = "live"
 
     def run(self) -> None:
         """One instant after the other at the rate."""
         ground = backdrop()
-        for sequence in range(1_000_000):
-            while self.mode == "stop":
-                time.sleep(0.01)
-            self._hub.publish(instant_at(sequence, self.mode, ground, self._alarms))
-            time.sleep(1.0 / RATE_HZ)
+        sequence = 0
+        while not self._ended.wait(1.0 / RATE_HZ):
+            if self.mode != "stop":
+                self._hub.publish(instant_at(sequence, self.mode, ground, self._alarms))
+                sequence += 1
+
+    def end(self) -> None:
+        """Publish nothing any more."""
+        self._ended.set()
+        self.join()
 
 
 def main() -> None:
@@ -169,19 +178,38 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--port", type=int, default=0)
     port = parser.parse_args().port
+    with ExitStack() as ending:
+        feeder = begun(ending, port)
+        for line in sys.stdin:
+            if line.strip() == "anew":
+                ending.close()
+                feeder = begun(ending, 0)
+            else:
+                feeder.mode = line.strip()
+
+
+def begun(ending: ExitStack, port: int) -> Feeder:
+    """A server with nothing behind it, which says its port, and who feeds it; both go at the end."""
     hub = LiveHub()
     alarms = AlarmDesk(Config())
     feeder = Feeder(hub, alarms)
-    door = socket.create_server(("127.0.0.1", port), reuse_port=False)
-    with ExitStack() as ending:
-        app = create_app(kept_parts(ending, AppParts(hub=hub, config=Config(), setup=setup(), alarms=alarms)))
-        server = uvicorn.Server(uvicorn.Config(app, log_level="error", lifespan="on"))
-        threading.Thread(target=server.run, args=([door],), name="web server", daemon=True).start()
-        feeder.start()
-        sys.stdout.write(f"{door.getsockname()[1]}\n")
-        sys.stdout.flush()
-        for line in sys.stdin:
-            feeder.mode = line.strip()
+    door = ending.enter_context(socket.create_server(("127.0.0.1", port), reuse_port=False))
+    app = create_app(kept_parts(ending, AppParts(hub=hub, config=Config(), setup=setup(), alarms=alarms)))
+    said = uvicorn.Config(app, log_level="error", lifespan="on", timeout_graceful_shutdown=FAREWELL_S)
+    server = uvicorn.Server(said)
+    serving = threading.Thread(target=server.run, args=([door],), name="web server", daemon=True)
+
+    def end() -> None:
+        feeder.end()
+        server.should_exit = True
+        serving.join()
+
+    serving.start()
+    feeder.start()
+    ending.callback(end)
+    sys.stdout.write(f"{door.getsockname()[1]}\n")
+    sys.stdout.flush()
+    return feeder
 
 
 def kept_parts(ending: ExitStack, parts: AppParts) -> AppParts:

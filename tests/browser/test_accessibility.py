@@ -25,10 +25,10 @@ RUN = """options => axe
 
 
 @pytest.fixture(scope="module")
-def shared_theatre() -> Iterator[Theatre]:
+def shared_theatre(playhouse: Theatre) -> Theatre:
     """One server for all pages: none of these tests hurts it."""
-    with Theatre() as started:
-        yield started
+    playhouse.anew()
+    return playhouse
 
 
 def patient(port: int) -> dict[str, Any]:

@@ -44,8 +44,9 @@ class Supervised:
         self.port = int(self.process.stdout.readline())
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def supervised() -> Iterator[Supervised]:
+    """One server: the pages that are only looked at come before the plan is signed."""
     server = Supervised()
     yield server
     server.process.communicate(timeout=30)
@@ -154,17 +155,6 @@ def hold_is_heard(theatre: Page, sato: Page) -> None:
     expect(sato.get_by_test_id("hold")).to_have_attribute("data-asked", "false")
 
 
-def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
-    supervised: Supervised, watch: Callable[..., Watched]
-) -> None:
-    theatre = opened(watch, supervised, "v1", "theatre", (1600, 900))
-    sato = opened(watch, supervised, "s1", "supervisor", (1280, 800))
-    expect(sato.get_by_test_id("watching")).to_contain_text("Guest")
-    marks_reach(theatre, sato)
-    signature_opens_navigation(supervised, theatre, sato)
-    hold_is_heard(theatre, sato)
-
-
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (390, 844)])
 def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
     supervised: Supervised, watch: Callable[..., Watched], width: int, height: int
@@ -180,3 +170,14 @@ def test_nothing_of_the_supervisors_page_lies_outside_its_screen(
         assert min(box["width"], box["height"]) >= 48, button.inner_text()
     SCREENSHOTS.mkdir(exist_ok=True)
     page.screenshot(path=SCREENSHOTS / f"supervisor-{width}.png", full_page=True)
+
+
+def test_what_a_supervisor_marks_signs_and_asks_reaches_the_theatre(
+    supervised: Supervised, watch: Callable[..., Watched]
+) -> None:
+    theatre = opened(watch, supervised, "v1", "theatre", (1600, 900))
+    sato = opened(watch, supervised, "s1", "supervisor", (1280, 800))
+    expect(sato.get_by_test_id("watching")).to_contain_text("Guest")
+    marks_reach(theatre, sato)
+    signature_opens_navigation(supervised, theatre, sato)
+    hold_is_heard(theatre, sato)

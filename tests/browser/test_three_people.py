@@ -32,7 +32,7 @@ SETTINGS = {
         "rate_hz": 10,
         "skill": "good",
         # On a busy machine a page hears late that the tip rests, and touches late.
-        "rest_s": 12.0,
+        "rest_s": 5.0,
     },
     # A busy machine brings images seldom; how still a tip must be held, others ask.
     "registration": {

@@ -1,5 +1,6 @@
 """A tool is calibrated through the door, from what a tracker sees of a rehearsed pivot and spin."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,14 @@ from tests.procedure.test_camera_step import open_a_case
 from tracker.rehearsal import Scene, Theatre, TheatreSettings
 
 SHAPE = {"radius_mm": 2.0, "length_mm": 118.0}
+# All of a theatre follows from its settings.
+theatre_of = cache(Theatre)
 
 
 def calibrated(server: Server) -> str:
     """An open case that has the rehearsal's true camera."""
     case_id = open_a_case(server)
-    camera = Theatre(TheatreSettings()).camera
+    camera = theatre_of(TheatreSettings()).camera
     values = {
         "matrix": camera.matrix.tolist(),
         "distortion": camera.distortion.tolist(),
@@ -32,7 +35,7 @@ def gather(
     server: Server, scene: Scene, purpose: str, *, images: int = 400, seed: int = 1, marker: str = "drill"
 ) -> dict[str, Any]:
     """Show a rehearsed motion until nothing is missing; the state of the gathering."""
-    theatre = Theatre(TheatreSettings(seed=seed, scene=scene))
+    theatre = theatre_of(TheatreSettings(seed=seed, scene=scene))
     random = np.random.default_rng(5)
     server.ask(
         "POST", "/api/tools/collection", 201, json={"tool": "drill", "purpose": purpose, "marker": marker}
@@ -56,7 +59,7 @@ def gather(
 
 def test_tip_and_axis_from_the_live_images_are_the_true_ones(server: Server) -> None:
     case_id = calibrated(server)
-    truth = Theatre(TheatreSettings()).tool.marker_from_tool
+    truth = theatre_of(TheatreSettings()).tool.marker_from_tool
     told = gather(server, Scene.PIVOT, "pivot")
     assert (told["purpose"], told["missing"]) == ("pivot", [])
     assert told["tilt_range_deg"] > 30.0

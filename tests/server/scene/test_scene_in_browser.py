@@ -67,6 +67,11 @@ def picture(page: Page) -> npt.NDArray[np.uint8]:
     return np.asarray(image, dtype=np.uint8)
 
 
+def uncovered(page: Page) -> None:
+    """Wait until the scene takes itself for live: it looks ten times a second, and is dim until it has."""
+    page.frames[1].wait_for_selector("html[data-coaxial=live]", timeout=60_000)
+
+
 def orange_px(image: npt.NDArray[np.uint8]) -> int:
     blue, green, red = (image[..., channel].astype(int) for channel in range(3))
     return int(((red > 150) & (green > 70) & (green < red - 40) & (blue < green - 40)).sum())
@@ -77,10 +82,12 @@ def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Thea
         page = opened(browser, server.address)
         with fed(server, theatre, first_image=99_990):
             told(page, "m.image_number >= 100010")
+            uncovered(page)
             shown = picture(page)
             hides_itself = page.frames[1].evaluate(BONE_HIDES_ITSELF)
         with fed(server, theatre, first_image=200_000, seen=False):
             told(page, "m.image_number >= 200010")
+            uncovered(page)
             hidden = picture(page)
         messages = page.evaluate("told")
         page.close()

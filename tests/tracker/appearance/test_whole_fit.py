@@ -146,16 +146,19 @@ def test_far_from_the_axis_of_a_strong_lens_a_pose_is_as_exact() -> None:
 
 
 def test_errors_that_neighbours_share_widen_what_is_stated() -> None:
+    """One picture knows little of how its neighbours err, so that it is asked of many."""
     pose = facing_at_px(CAMERA, (330.0, 220.0), 60.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
-    image, rng = _image(pose).astype(np.float64), np.random.default_rng(3)
-    alone = rng.normal(0.0, 6.0, image.shape)
-    shared = np.kron(rng.normal(0.0, 6.0, (image.shape[0] // 4, image.shape[1] // 4)), np.ones((4, 4)))
-    white, blocks = (
-        _fit(np.clip(np.round(image + noise), 0, 255).astype(np.uint8), _beside(pose), 60.0)
-        for noise in (alone, shared)
-    )
-    assert white.alike_ratio < 1.5
-    assert blocks.alike_ratio > 4.0
+    image = _image(pose).astype(np.float64)
+    white, blocks = list[float](), list[float]()
+    for seed in range(24):
+        rng = np.random.default_rng(seed)
+        alone = rng.normal(0.0, 6.0, image.shape)
+        shared = np.kron(rng.normal(0.0, 6.0, (image.shape[0] // 4, image.shape[1] // 4)), np.ones((4, 4)))
+        for noise, told in ((alone, white), (shared, blocks)):
+            noisy = np.clip(np.round(image + noise), 0, 255).astype(np.uint8)
+            told.append(_fit(noisy, _beside(pose), 60.0).alike_ratio)
+    assert np.mean(white) < 1.2
+    assert np.mean(blocks) > 2.1
 
 
 def test_a_camera_that_bends_its_response_is_told_from_depth() -> None:

@@ -1,0 +1,41 @@
+"""How many threads NumPy's matrices take from those who need the cores."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).parents[2]
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="threads are counted where Linux lists them")
+
+THREADS = "OPENBLAS_NUM_THREADS"
+
+
+def told_by_a_server(**environment: str) -> list[str]:
+    """What a process says that has loaded the server, then NumPy: what is set, and its threads."""
+    kept = {name: value for name, value in os.environ.items() if name != THREADS}
+    told = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            "import os, server, numpy, scipy.linalg;"
+            f"print(os.environ['{THREADS}'], *os.listdir('/proc/self/task'))",
+        ],
+        cwd=REPOSITORY,
+        env={**kept, **environment},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return told.stdout.split()
+
+
+def test_a_process_that_loads_numpy_has_one_thread() -> None:
+    setting, *threads = told_by_a_server()
+    assert (setting, len(threads)) == ("1", 1)
+
+
+def test_who_sets_another_number_has_it() -> None:
+    assert told_by_a_server(**{THREADS: "2"})[0] == "2"
