@@ -12,7 +12,7 @@ from tracker.appearance.light.fields.kernels import (
     shares_of,
     typical_contrast,
 )
-from tracker.appearance.light.kernels import BLUR, LIGHT, PLANE, RESPONSE, shaped_by
+from tracker.appearance.light.kernels import BLUR, LIGHT, PLANE, RESPONSE, by_response, shaped_by, slope_of
 from tracker.appearance.picture.kernels import MANY, paper_seen
 from tracker.compiled import compiled
 from tracker.geometry.kernels import add_products, products_of_four
@@ -48,10 +48,10 @@ def weighed_pixel(rows, i, value, lit, response, own, unit, row):
     # Geman and McClure: what is far off belongs to something else and has no say.
     w = 1.0 / (1.0 + z)
     cost = z * w
-    slope = contrast * (1.0 + response * (1.0 - 2.0 * s))
+    slope = contrast * slope_of(s, response)
     for k in range(9):
         row[k] = slope * rows[1 + k, i]
-    row[RESPONSE] = contrast * s * (1.0 - s)
+    row[RESPONSE] = contrast * by_response(s, response)
     return shaped, r, w * w * own[i], cost
 
 
@@ -60,7 +60,7 @@ def _weighed_pixels(rows, at, values, lit, response, own, unit, begin, count, sl
     """The same of many pixels in even light: derivatives (16, many), residuals and weights; their cost."""
     end, cost = begin + count, 0.0
     picture = rows[0, begin:end]
-    by_response, shaped_row, shaped_u, shaped_v = slopes[RESPONSE], slopes[13], slopes[14], slopes[15]
+    bent, shaped_row, shaped_u, shaped_v = slopes[RESPONSE], slopes[13], slopes[14], slopes[15]
     ones, us, vs = slopes[10], slopes[11], slopes[12]
     steep = np.empty(count)
     for k in range(count):
@@ -72,8 +72,8 @@ def _weighed_pixels(rows, at, values, lit, response, own, unit, begin, count, sl
         w = 1.0 / (1.0 + z)
         cost += z * w
         left[k], weights[k] = r, w * w * own[i]
-        steep[k] = contrast * (1.0 + response * (1.0 - 2.0 * s))
-        by_response[k] = contrast * s * (1.0 - s)
+        steep[k] = contrast * slope_of(s, response)
+        bent[k] = contrast * by_response(s, response)
         u, v = at[i, 0], at[i, 1]
         ones[k], us[k], vs[k] = 1.0, u, v
         shaped_row[k], shaped_u[k], shaped_v[k] = shaped, shaped * u, shaped * v
