@@ -13,6 +13,7 @@ from tracker.marker.explanation.kernels import (
     BLUR,
     FIELDS,
     PLACE,
+    RING,
     SPREAD,
     WIDE,
     clear_of_beyond,
@@ -22,10 +23,14 @@ from tracker.marker.explanation.kernels import (
 )
 from tracker.marker.explanation.light import contrasts, grid, smooth_light
 from tracker.marker.explanation.pictures import Pictures
-from tracker.marker.sampling.kernels import square_to_quad
+from tracker.marker.sampling.kernels import even_light, square_to_quad
 
 # Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
 FIRST_BLUR_PX = 0.8
+# What is compared with what is around it: a sixth of a side away sees the border and the paper at once.
+AROUND_FIELDS, PICTURE_GREY = 4, 100.0
+SQUARE = np.s_[RING:-RING, RING:-RING]
+LEAST_SD_GREY, LEAST_SD_RATIO = 6.0, 0.1
 UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
@@ -57,7 +62,7 @@ class Fit:
         self.to_px = np.empty(8)
         square_to_quad(np.ascontiguousarray(corners_px, dtype=np.float64), self.to_px)
         self.corners: Array = UNIT.copy()
-        self.blur: Array = np.array([1.0, 1.0, 0.0]) * ((FIRST_BLUR_PX / self.field_px) ** 2 + SPREAD)
+        self.blur: Array = np.zeros(3)
         self.held: Array = np.ones((WIDE, WIDE))
         self.visible: Mask = np.ones((WIDE, WIDE), np.bool_)
         self.light: Array = smooth_light(2)
@@ -92,8 +97,9 @@ class Fit:
         )
         return bool(contrast > 0.0)
 
-    def look(self) -> None:
-        """See what is there, before anything is fitted."""
+    def look(self, blur_px: float = FIRST_BLUR_PX) -> None:
+        """See what is there, before anything is fitted, and the model out of focus by so much."""
+        self.blur = np.array([1.0, 1.0, 0.0]) * ((blur_px / self.field_px) ** 2 + SPREAD)
         self.seen = sample_fields(self.image, self.to_px, self.corners)
         picture_at(self.pictures.layers, self.pictures.blurs_fields, self.blur, self.shown)
 
@@ -118,6 +124,17 @@ class Fit:
     def picture(self) -> npt.NDArray[np.float32]:
         """The model as it is fitted, dark 0 to bright 1."""
         return np.asarray(self.shown[0])
+
+    @property
+    def local_likeness(self) -> float:
+        """How like the model the square is where each field is judged beside those around it, -1..1.
+
+        A shadow, glare or a cover over a part of it leaves the rest as it is.
+        """
+        both = np.stack([self.seen[SQUARE], PICTURE_GREY * self.picture[SQUARE]]).astype(np.float32)
+        flat = both.reshape(2, -1)
+        even_light(flat, FIELDS, AROUND_FIELDS, LEAST_SD_GREY, LEAST_SD_RATIO)
+        return float(flat[0] @ flat[1])
 
     @property
     def clear(self) -> Mask:
