@@ -14,8 +14,9 @@ from tracker.pose.rivals import doubt_between
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.whole import Pixels, with_whole_shape
 
-# In empty scenes other squares reach 0.86 in plain light, at any size above 18 px.
-PLAIN_LIKENESS = 0.9
+# In empty scenes other squares reach 0.86 in plain light, at any size above 18 px; once in thousands 0.9
+# where they are wide. What is wide has 0.97 in plain light, or it is asked for an explanation.
+PLAIN_SIDES_PX, PLAIN_LIKENESS = (30.0, 40.0), (0.9, 0.95)
 # Where edges are weak, pixels may speak; not where nothing looks like the model before it is fitted.
 WORTH_EXPLAINING = 0.45
 # Farther than this the pose by edges is not within reach of the fit to all pixels.
@@ -91,12 +92,17 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
         found_by=scene.found_by,
         lead_sd2=found.fit.lead_sd2,
     )
-    if weak or plain < PLAIN_LIKENESS:
+    if weak or plain < _least_plain(found.corners_px):
         explained = _explained(scene, found, by_edges, plain=0.0 if weak else plain)
         if explained is None:
             return unseen
         by_edges = explained
     return with_whole_shape(scene.camera, scene.model, scene.pixels, by_edges, expected=scene.expected)
+
+
+def _least_plain(corners_px: Array) -> float:
+    """What is enough in plain light, of a square at these corners (4, 2)."""
+    return float(np.interp(side_px_of(corners_px), PLAIN_SIDES_PX, PLAIN_LIKENESS))
 
 
 def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
@@ -110,7 +116,7 @@ def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
         most = max(most, look.likeness)
         if not look.is_other_shape:
             alike = max(alike, look.likeness)
-        if alike >= PLAIN_LIKENESS:
+        if alike >= _least_plain(corners):
             break
     return alike, most
 

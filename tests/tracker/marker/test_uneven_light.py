@@ -19,6 +19,7 @@ from tests.tracker.scenes import (
 )
 from tracker.geometry import Array
 from tracker.marker import Explanation, explanation_of
+from tracker.marker.explanation import likeness_part_by_part, pictures_of
 
 CAMERA = camera_of((200, 160), focal_px=400.0)
 MIDDLE = (100.3, 80.7)
@@ -65,3 +66,14 @@ def test_a_field_that_differs_shows_as_half_of_its_contrast(seed: int) -> None:
         assert own.beside_noise.flipped_ratio < 0.5
     if other is not None and other.beside_noise is not None:
         assert other.beside_noise.flipped_ratio > 0.5
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_part_by_part_the_marker_is_told_from_its_turns_in_any_light(seed: int) -> None:
+    image, corners = _in_poor_light(OWN, seed)
+    pictures = pictures_of(code_model().square)
+    alike = [
+        likeness_part_by_part(image, pictures, np.roll(corners, turn, axis=0), side_px=SIDE_PX)
+        for turn in range(4)
+    ]
+    assert alike[0] > max(0.75, max(alike[1:]) + 0.1)

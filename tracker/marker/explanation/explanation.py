@@ -21,7 +21,7 @@ from tracker.marker.explanation.cover import (
     covered,
     weights_beside_a_cover,
 )
-from tracker.marker.explanation.fit import FIRST_BLUR_PX, UNIT, Fit, inside_square
+from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.flips import most_flipped
 from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
 from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
@@ -50,10 +50,10 @@ COVERED_MORE = 0.01
 COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
 MOST_INNER_HIDDEN_RATIO = 0.55
-# In uneven light of a kind, whose noise is told by the outline, that hardly hides what is inside: other squares
-# reach 0.85 there, true ones in strong noise 0.88 and more. Where the square is small, nothing is said.
+# In uneven light, the noise that the outline shows taken out, other squares reach 0.85, and true ones in
+# strong noise 0.88 and more. Where the square is small, nothing is said.
 LEAST_UNEVEN_PX, WORTH_UNEVEN = 18.0, 0.8
-WIDE_BLUR_SIDES, UNEVEN_ROUNDS = 0.05, 4
+UNEVEN_ROUNDS = 4
 LEAST_IN_NOISE, LEAST_BESIDE_NOISE = 0.65, 0.88
 # Blurred over more of its side all round, a part of the shape passes for a highlight.
 MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO, MOST_UNEVEN_MOVED_SIDE_RATIO = 0.055, 0.3, 0.08
@@ -209,13 +209,8 @@ def _in_usual_light(fit: Fit) -> Explanation | None:
 
 def _in_uneven_light(fit: Fit) -> Explanation | None:
     """By highlights and a shadow's edge at once, if the square is like the model part by part."""
-    blurs, alike = (FIRST_BLUR_PX, WIDE_BLUR_SIDES * fit.side_px), []
-    for blur_px in blurs:
-        fit.look(blur_px)
-        alike.append(fit.local_likeness)
-    if max(alike) < WORTH_UNEVEN:
+    if fit.look_part_by_part() < WORTH_UNEVEN:
         return None
-    fit.look(blurs[int(np.argmax(alike))])
     _under_highlights(fit)
     if not fit.walk(UNEVEN_ROUNDS):
         return None
