@@ -7,8 +7,8 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.edges import Gradient, GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.marker import MarkerModel, ScoreSettings, contradiction_of, explanation_of
-from tracker.pose.occurrence import Occurrence, side_px_of
+from tracker.marker import MarkerModel, ScoreSettings, contradiction_of, explanation_of, is_washed_out
+from tracker.pose.occurrence import Occurrence, corners_px_at, side_px_of
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.rivals import doubt_between
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
@@ -24,6 +24,8 @@ EDGES_OFF_PX = 0.6
 # On bent paper a part of the shape may be beside where it is expected. What is found anew is believed so far
 # only where it is large and nearly whole; what was there before, and is not contradicted, sooner.
 WIDE_PX, WHOLE_COVERAGE_RATIO, NEAR_LIKENESS, KNOWN_LIKENESS = 36.0, 0.85, 0.93, 0.85
+# Under glare, what has hardly moved and has no edges but the marker's is kept.
+KEPT_TARGET_COVERAGE_RATIO, KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO = 0.9, 3.0, 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,6 +131,8 @@ def _explained(scene: Scene, found: Occurrence, seen: Seen, *, plain: float) -> 
         found.corners_px - scene.corner_px,
         side_px=side_px_of(found.corners_px),
     )
+    if (explanation is None or not explanation.explains) and _is_kept(scene, found):
+        return seen
     if explanation is None or explanation.is_turned:
         return None
     if explanation.explains:
@@ -139,6 +143,19 @@ def _explained(scene: Scene, found: Occurrence, seen: Seen, *, plain: float) -> 
         return seen if explanation.likeness >= KNOWN_LIKENESS else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO
     return seen if wide and explanation.likeness >= NEAR_LIKENESS else None
+
+
+def _is_kept(scene: Scene, found: Occurrence) -> bool:
+    """Whether this is where the marker was expected, washed out by glare, and nothing of it contradicts."""
+    if scene.expected is None or found.agreement.target_coverage_ratio < KEPT_TARGET_COVERAGE_RATIO:
+        return False
+    expected = corners_px_at(scene.camera, scene.model, scene.expected)
+    side_px = side_px_of(found.corners_px)
+    off = float(np.abs(found.corners_px - expected).max())
+    if off > max(KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO * side_px):
+        return False
+    corners = found.corners_px - scene.corner_px
+    return is_washed_out(scene.window, scene.model.square, corners, side_px=side_px)
 
 
 def _moved(scene: Scene, found: Occurrence, seen: Seen, corners_px: Array) -> Seen:

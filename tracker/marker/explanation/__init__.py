@@ -8,6 +8,7 @@ from tracker.marker.explanation.contradiction import Contradiction, contradictio
 from tracker.marker.explanation.explanation import Explanation, explanation_of
 from tracker.marker.explanation.fit import likeness_part_by_part
 from tracker.marker.explanation.pictures import Pictures, pictures_of
+from tracker.marker.explanation.washed_out import is_washed_out
 
 __all__ = [
     "Contradiction",
@@ -15,6 +16,7 @@ __all__ = [
     "Pictures",
     "contradiction_of",
     "explanation_of",
+    "is_washed_out",
     "likeness_part_by_part",
     "pictures_of",
 ]

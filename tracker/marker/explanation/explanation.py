@@ -26,6 +26,8 @@ from tracker.marker.explanation.flips import most_flipped
 from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
 from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
+from tracker.marker.explanation.shape import shape_of
+from tracker.marker.explanation.washed_out import LEAST_GLARING_RATIO
 from tracker.marker.sampling.kernels import through
 
 FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 3, 6, 4, 3
@@ -34,8 +36,6 @@ WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
 # Light without highlights has a quadratic and a step.
 MOST_SMOOTH_TERMS = 7
-# Of the square at the sensor's limit: there is a highlight.
-LEAST_GLARING_RATIO = 0.02
 # By how many fields this turn of the model must explain more than the others do.
 LEAST_APART = 2.0
 # In empty scenes other squares from 16 px reach 0.91 with a fitted blur, in shadow too, and 0.84 under fitted
@@ -281,7 +281,7 @@ def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
     hidden, inside = covered(fit.left, blur_fields=fit.blur_fields)
     visible = ~hidden & fit.visible
     telling = visible & (fit.seen < SATURATED_GREY) & fit.clear
-    shape = _shape(fit.picture)
+    shape = shape_of(fit.picture)
     return Explanation(
         side_px=fit.side_px,
         likeness=likeness(fit.seen, fit.rest, telling & inside_square(), fit.light, 0.0),
@@ -316,15 +316,3 @@ def _blur_px(blur: Array, field_px: float) -> tuple[float, float]:
     larger, smaller, _, _ = axes_of(blur[0], blur[1], blur[2])
     least, most = (float(np.sqrt(max(one - SPREAD, 0.0))) for one in (smaller, larger))
     return least * field_px, most * field_px
-
-
-def _shape(picture: npt.NDArray[np.float32]) -> Mask:
-    """Where the model has its shape: around what is bright within the outline."""
-    u, v = grid()
-    bright = (picture > 0.5) & (np.maximum(np.abs(u), np.abs(v)) < 0.85)
-    rows, columns = np.nonzero(bright)
-    if len(rows) == 0:
-        return inside_square()
-    out = np.zeros_like(bright)
-    out[max(rows.min() - 1, 0) : rows.max() + 2, max(columns.min() - 1, 0) : columns.max() + 2] = True
-    return np.asarray(out & inside_square())
