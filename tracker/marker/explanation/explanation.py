@@ -9,7 +9,6 @@ What is left when these are fitted says far more than before of whether the insi
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from tracker.camera.blur.kernels import axes_of
 from tracker.edges import GreyImage
@@ -24,7 +23,7 @@ from tracker.marker.explanation.cover import (
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.flips import most_flipped
 from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
-from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
+from tracker.marker.explanation.light import contrasts, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.shape import shape_of
 from tracker.marker.explanation.washed_out import LEAST_GLARING_RATIO
