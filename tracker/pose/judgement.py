@@ -14,8 +14,8 @@ from tracker.pose.rivals import doubt_between
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.whole import Pixels, with_whole_shape
 
-# In empty scenes other squares reach 0.86 in plain light, and once in hundreds of images 0.9 to 0.93 where they
-# are small or wide. The marker itself has 0.97 there, or it is asked for an explanation.
+# In empty scenes other squares reach 0.86 in plain light, and once in hundreds of images 0.9 to 0.93 where
+# they are small or wide. The marker itself has 0.97 there, or it is asked for an explanation.
 PLAIN_SIDES_PX, PLAIN_LIKENESS = (20.0, 24.0, 30.0, 40.0), (0.95, 0.92, 0.92, 0.95)
 # Where edges are weak, pixels may speak; not where nothing looks like the model before it is fitted.
 WORTH_EXPLAINING = 0.45
