@@ -6,6 +6,7 @@ from tracker.marker.explanation import (
     Explanation,
     contradiction_of,
     explanation_of,
+    is_washed_out,
     pictures_of,
 )
 from tracker.marker.looks import Templates, templates_of
@@ -33,6 +34,7 @@ __all__ = [
     "contradiction_of",
     "edge_crossings",
     "explanation_of",
+    "is_washed_out",
     "model_agreement",
     "pictures_of",
     "reach_px",

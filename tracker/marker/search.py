@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
+from tracker.marker.explanation import likeness_part_by_part
 from tracker.marker.looks import (
     Template,
     Templates,
@@ -36,7 +37,7 @@ MOST_PIXELS_AT_ONCE = 1_000_000
 LEAST_LEVEL_PX = 12
 # At a closer look a marker in sight has 0.8 to 1.
 LEAST_LIKENESS = 0.76
-MOST_CANDIDATES = 4
+MOST_LOOKED_AT, MOST_CANDIDATES = 8, 4
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
 WINDOW_PX = 21
@@ -136,15 +137,33 @@ def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[li
             closer, alike = _closer(levels, turned, template)
             order = np.argsort(-alike, kind="stable")
             best = distinct(
-                closer, alike, order, given[m], MOST_CANDIDATES, LEAST_LIKENESS, SAME_OUTLINE_SIDE_RATIO
+                closer, alike, order, given[m], MOST_LOOKED_AT, LEAST_LIKENESS, SAME_OUTLINE_SIDE_RATIO
             )
-            given[m] = np.concatenate([given[m], closer[best]])
-            fresh.append([_candidate(closer[k], alike[k]) for k in best])
+            candidates = [_candidate(closer[k], alike[k]) for k in best]
+            kept = _by_two_looks(image, candidates, template)[:MOST_CANDIDATES]
+            given[m] = np.concatenate([given[m], *(one.corners_px[None].astype(np.float32) for one in kept)])
+            fresh.append(kept)
         yield fresh
 
 
 def _candidate(corners_px: npt.NDArray[np.float32], likeness: np.float32) -> Candidate:
     return Candidate(corners_px=corners_px.astype(np.float64), likeness=float(likeness))
+
+
+def _by_two_looks(image: GreyImage, candidates: list[Candidate], template: Template) -> list[Candidate]:
+    """The likeliest first, then those that are likeliest part by part.
+
+    Each look is the better one in some images, and few candidates are fitted.
+    """
+    if len(candidates) < 3:
+        return candidates
+    first, *others = candidates
+
+    def part_by_part(one: Candidate) -> float:
+        side = float(np.linalg.norm(np.diff(one.corners_px, axis=0), axis=1).mean())
+        return likeness_part_by_part(image, template.pictures, one.corners_px, side_px=side)
+
+    return [first, *sorted(others, key=part_by_part, reverse=True)]
 
 
 Look: TypeAlias = tuple[Level, Quads, npt.NDArray[np.float32], int]

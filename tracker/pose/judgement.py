@@ -7,15 +7,16 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.edges import Gradient, GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.marker import MarkerModel, ScoreSettings, contradiction_of, explanation_of
-from tracker.pose.occurrence import Occurrence, side_px_of
+from tracker.marker import MarkerModel, ScoreSettings, contradiction_of, explanation_of, is_washed_out
+from tracker.pose.occurrence import Occurrence, corners_px_at, side_px_of
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.rivals import doubt_between
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.whole import Pixels, with_whole_shape
 
-# In empty scenes other squares reach 0.86 in plain light, at any size above 18 px.
-PLAIN_LIKENESS = 0.9
+# In empty scenes other squares reach 0.86 in plain light, and once in hundreds of images 0.9 to 0.93 where
+# they are small or wide. The marker itself has 0.97 there, or it is asked for an explanation.
+PLAIN_SIDES_PX, PLAIN_LIKENESS = (20.0, 24.0, 30.0, 40.0), (0.95, 0.92, 0.92, 0.95)
 # Where edges are weak, pixels may speak; not where nothing looks like the model before it is fitted.
 WORTH_EXPLAINING = 0.45
 # Farther than this the pose by edges is not within reach of the fit to all pixels.
@@ -23,6 +24,8 @@ EDGES_OFF_PX = 0.6
 # On bent paper a part of the shape may be beside where it is expected. What is found anew is believed so far
 # only where it is large and nearly whole; what was there before, and is not contradicted, sooner.
 WIDE_PX, WHOLE_COVERAGE_RATIO, NEAR_LIKENESS, KNOWN_LIKENESS = 36.0, 0.85, 0.93, 0.85
+# Under glare, what has hardly moved and has no edges but the marker's is kept.
+KEPT_TARGET_COVERAGE_RATIO, KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO = 0.9, 3.0, 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,12 +94,17 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
         found_by=scene.found_by,
         lead_sd2=found.fit.lead_sd2,
     )
-    if weak or plain < PLAIN_LIKENESS:
+    if weak or plain < _least_plain(found.corners_px):
         explained = _explained(scene, found, by_edges, plain=0.0 if weak else plain)
         if explained is None:
             return unseen
         by_edges = explained
     return with_whole_shape(scene.camera, scene.model, scene.pixels, by_edges, expected=scene.expected)
+
+
+def _least_plain(corners_px: Array) -> float:
+    """What is enough in plain light, of a square at these corners (4, 2)."""
+    return float(np.interp(side_px_of(corners_px), PLAIN_SIDES_PX, PLAIN_LIKENESS))
 
 
 def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
@@ -110,7 +118,7 @@ def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
         most = max(most, look.likeness)
         if not look.is_other_shape:
             alike = max(alike, look.likeness)
-        if alike >= PLAIN_LIKENESS:
+        if alike >= _least_plain(corners):
             break
     return alike, most
 
@@ -123,6 +131,8 @@ def _explained(scene: Scene, found: Occurrence, seen: Seen, *, plain: float) -> 
         found.corners_px - scene.corner_px,
         side_px=side_px_of(found.corners_px),
     )
+    if (explanation is None or not explanation.explains) and _is_kept(scene, found):
+        return seen
     if explanation is None or explanation.is_turned:
         return None
     if explanation.explains:
@@ -133,6 +143,19 @@ def _explained(scene: Scene, found: Occurrence, seen: Seen, *, plain: float) -> 
         return seen if explanation.likeness >= KNOWN_LIKENESS else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO
     return seen if wide and explanation.likeness >= NEAR_LIKENESS else None
+
+
+def _is_kept(scene: Scene, found: Occurrence) -> bool:
+    """Whether this is where the marker was expected, washed out by glare, and nothing of it contradicts."""
+    if scene.expected is None or found.agreement.target_coverage_ratio < KEPT_TARGET_COVERAGE_RATIO:
+        return False
+    expected = corners_px_at(scene.camera, scene.model, scene.expected)
+    side_px = side_px_of(found.corners_px)
+    off = float(np.abs(found.corners_px - expected).max())
+    if off > max(KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO * side_px):
+        return False
+    corners = found.corners_px - scene.corner_px
+    return is_washed_out(scene.window, scene.model.square, corners, side_px=side_px)
 
 
 def _moved(scene: Scene, found: Occurrence, seen: Seen, corners_px: Array) -> Seen:

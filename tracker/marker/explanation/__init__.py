@@ -6,6 +6,17 @@ light are fitted, one after another, as long as that may explain what is left.
 
 from tracker.marker.explanation.contradiction import Contradiction, contradiction_of
 from tracker.marker.explanation.explanation import Explanation, explanation_of
-from tracker.marker.explanation.pictures import pictures_of
+from tracker.marker.explanation.fit import likeness_part_by_part
+from tracker.marker.explanation.pictures import Pictures, pictures_of
+from tracker.marker.explanation.washed_out import is_washed_out
 
-__all__ = ["Contradiction", "Explanation", "contradiction_of", "explanation_of", "pictures_of"]
+__all__ = [
+    "Contradiction",
+    "Explanation",
+    "Pictures",
+    "contradiction_of",
+    "explanation_of",
+    "is_washed_out",
+    "likeness_part_by_part",
+    "pictures_of",
+]

@@ -70,7 +70,7 @@ def contradiction_of(
     fit.visible &= labels != -1
     covered = 1.0 - float(fit.visible[SQUARE].mean())
     # What is covered has no say, everything else the same: so it is a correlation.
-    alike = likeness(fit.seen, fit.rest, fit.visible, fit.light) if fit.walk(1, free=0) else -1.0
+    alike = likeness(fit.seen, fit.rest, fit.visible, fit.light, 0.0) if fit.walk(1, free=0) else -1.0
     return Contradiction(
         inside_ratio=float(areas.max(initial=0)) / FIELDS**2,
         covered_ratio=covered,

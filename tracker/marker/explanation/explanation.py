@@ -9,7 +9,6 @@ What is left when these are fitted says far more than before of whether the insi
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from tracker.camera.blur.kernels import axes_of
 from tracker.edges import GreyImage
@@ -22,9 +21,12 @@ from tracker.marker.explanation.cover import (
     weights_beside_a_cover,
 )
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
+from tracker.marker.explanation.flips import most_flipped
 from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
-from tracker.marker.explanation.light import contrasts, grid, highlights, shadow_in, smooth_light
+from tracker.marker.explanation.light import contrasts, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
+from tracker.marker.explanation.shape import shape_of
+from tracker.marker.explanation.washed_out import LEAST_GLARING_RATIO
 from tracker.marker.sampling.kernels import through
 
 FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 3, 6, 4, 3
@@ -33,8 +35,6 @@ WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
 # Light without highlights has a quadratic and a step.
 MOST_SMOOTH_TERMS = 7
-# Of the square at the sensor's limit: there is a highlight.
-LEAST_GLARING_RATIO = 0.02
 # By how many fields this turn of the model must explain more than the others do.
 LEAST_APART = 2.0
 # In empty scenes other squares from 16 px reach 0.91 with a fitted blur, in shadow too, and 0.84 under fitted
@@ -49,6 +49,16 @@ COVERED_MORE = 0.01
 COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
 MOST_INNER_HIDDEN_RATIO = 0.55
+# In uneven light, the noise that the outline shows taken out, other squares reach 0.85, and true ones in
+# strong noise 0.88 and more. Where the square is small, nothing is said.
+LEAST_UNEVEN_PX, WORTH_UNEVEN = 18.0, 0.8
+UNEVEN_ROUNDS = 4
+LEAST_IN_NOISE, LEAST_BESIDE_NOISE = 0.65, 0.88
+# Blurred over more of its side all round, a part of the shape passes for a highlight.
+MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO, MOST_UNEVEN_MOVED_SIDE_RATIO = 0.055, 0.3, 0.08
+# Markers that differ in one field, a sixth of the side wide, have half of its contrast there, and more.
+MOST_FLIPPED_RATIO = 0.5
+SD_OF_MEDIAN = 1.4826
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
 MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
@@ -57,6 +67,20 @@ MOST_MOVED_BLURS = 1.75
 # Blurred over so much of its side, one square is like another: like this one under highlights, and in every
 # other light unless all is explained. Smear leaves one direction sharp.
 BLURRED_SIDE_RATIO, LEAST_LIKENESS_BLURRED, MOST_BLUR_SIDE_RATIO = 0.1, 0.98, 0.16
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BesideNoise:
+    """How like the model a square is where noise does not hide it.
+
+    Attributes:
+        likeness, inner_likeness: as in `Explanation`, without the noise that the outline shows.
+        flipped_ratio: how far the most doubtful part of the shape is from the model, towards dark for bright.
+    """
+
+    likeness: float
+    inner_likeness: float
+    flipped_ratio: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,6 +99,7 @@ class Explanation:
         blur_px: (2,), sd along the sharpest and the most blurred direction.
         under_highlights: whether highlights had to be fitted.
         is_turned: whether the model, turned by a quarter or more, explains as much.
+        beside_noise: in uneven light, what is left of both likenesses when the noise is taken out.
     """
 
     side_px: float
@@ -88,6 +113,7 @@ class Explanation:
     blur_px: tuple[float, float]
     under_highlights: bool = False
     is_turned: bool = False
+    beside_noise: BesideNoise | None = None
 
     @property
     def explains(self) -> bool:
@@ -99,20 +125,40 @@ class Explanation:
             else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
         )
         least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
+        if self.beside_noise is not None and not self._explains_beside_noise:
+            return False
         if self.blur_px[1] > BLURRED_SIDE_RATIO * self.side_px:
             if self.under_highlights:
                 return False
             least = LEAST_LIKENESS_BLURRED
         return (
             not self.is_turned
-            and min(self.likeness, self.inner_likeness)
-            >= least + COVERED_MORE * covered - HIGHLIGHTS_LESS * self.under_highlights
+            and (
+                self.beside_noise is not None
+                or min(self.likeness, self.inner_likeness)
+                >= least + COVERED_MORE * covered - HIGHLIGHTS_LESS * self.under_highlights
+            )
             and self.inside_ratio < LEAST_AREA_RATIO
             and self.hidden_ratio <= MOST_HIDDEN_RATIO
             and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
             and self.moved_px <= max(px, ratio * self.side_px, MOST_MOVED_BLURS * self.blur_px[1])
             and self.blur_px[0] <= BLURRED_SIDE_RATIO * self.side_px
             and self.blur_px[1] <= MOST_BLUR_SIDE_RATIO * self.side_px
+        )
+
+    @property
+    def _explains_beside_noise(self) -> bool:
+        """Whether in uneven light the shape stands out of the noise, and little but noise is left of it."""
+        without = self.beside_noise
+        return (
+            without is not None
+            and self.side_px >= LEAST_UNEVEN_PX
+            and max(self.hidden_ratio, self.inner_hidden_ratio) <= MOST_UNEVEN_HIDDEN_RATIO
+            and self.moved_px <= MOST_UNEVEN_MOVED_SIDE_RATIO * self.side_px
+            and self.blur_px[0] <= MOST_UNEVEN_BLUR_SIDE_RATIO * self.side_px
+            and min(self.likeness, self.inner_likeness) >= LEAST_IN_NOISE
+            and min(without.likeness, without.inner_likeness) >= LEAST_BESIDE_NOISE
+            and without.flipped_ratio <= MOST_FLIPPED_RATIO
         )
 
 
@@ -124,6 +170,16 @@ def explanation_of(
     `corners_px` are pixels of `image`: top-left, top-right, bottom-right, bottom-left of the printed face.
     """
     fit = Fit(image, pictures_of(square), corners_px, side_px)
+    best = _in_usual_light(fit)
+    if (best is None or not best.explains) and side_px >= LEAST_UNEVEN_PX:
+        uneven = _in_uneven_light(Fit(image, pictures_of(square), corners_px, side_px))
+        if uneven is not None and uneven.explains:
+            return uneven
+    return best
+
+
+def _in_usual_light(fit: Fit) -> Explanation | None:
+    """By smooth light, by a shadow's edge in it, or by highlights: what explains it first, or best."""
     fit.look()
     first = fit.place
     if not fit.walk(FIRST_ROUNDS, weights_beside_a_cover(fit.seen, fit.picture)):
@@ -148,6 +204,21 @@ def explanation_of(
         if found is not None and (best is None or found.explains or found.likeness > best.likeness):
             best = found
     return best
+
+
+def _in_uneven_light(fit: Fit) -> Explanation | None:
+    """By highlights and a shadow's edge at once, if the square is like the model part by part."""
+    if fit.look_part_by_part() < WORTH_UNEVEN:
+        return None
+    _under_highlights(fit)
+    if not fit.walk(UNEVEN_ROUNDS):
+        return None
+    # Light is added by glare; what a shadow takes away is contrast.
+    by_contrast = fit.rest + fit.gain * fit.picture
+    shadow = shadow_in(by_contrast, fit.picture, fit.visible)
+    if shadow is not None:
+        fit.gains = np.column_stack([contrasts(), shadow])
+    return _told(fit, in_noise=True) if fit.walk(ROUNDS) else None
 
 
 def _another_turn_is_nearer(fit: Fit) -> bool:
@@ -184,7 +255,7 @@ def _under_highlights(fit: Fit) -> bool:
     return True
 
 
-def _told(fit: Fit) -> Explanation | None:
+def _told(fit: Fit, *, in_noise: bool = False) -> Explanation | None:
     """The explanation by this light; what is covered has no say, and without it shows more clearly."""
     for _ in range(COVER_ROUNDS):
         hidden, _ = covered(fit.left, blur_fields=fit.blur_fields)
@@ -193,7 +264,7 @@ def _told(fit: Fit) -> Explanation | None:
         fit.visible = ~hidden
         if not (fit.visible & inside_square()).any() or not fit.walk(ROUNDS_AGAIN):
             return None
-    found = _explanation(fit)
+    found = _explanation(fit, in_noise=in_noise)
     if found.likeness < WORTH_TURNING or not (
         _is_covered(found) or fit.pictures.turned_likeness > HALF_TURNED
     ):
@@ -205,15 +276,15 @@ def _is_covered(found: Explanation) -> bool:
     return found.hidden_ratio > COVERED_RATIO
 
 
-def _explanation(fit: Fit) -> Explanation:
+def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
     hidden, inside = covered(fit.left, blur_fields=fit.blur_fields)
     visible = ~hidden & fit.visible
     telling = visible & (fit.seen < SATURATED_GREY) & fit.clear
-    shape = _shape(fit.picture)
+    shape = shape_of(fit.picture)
     return Explanation(
         side_px=fit.side_px,
-        likeness=likeness(fit.seen, fit.rest, telling & inside_square(), fit.light),
-        inner_likeness=likeness(fit.seen, fit.rest, telling & shape, fit.light),
+        likeness=likeness(fit.seen, fit.rest, telling & inside_square(), fit.light, 0.0),
+        inner_likeness=likeness(fit.seen, fit.rest, telling & shape, fit.light, 0.0),
         hidden_ratio=1.0 - float(visible[inside_square()].mean()),
         inner_hidden_ratio=1.0 - float(visible[shape].mean()),
         inside_ratio=inside / FIELDS**2,
@@ -221,6 +292,22 @@ def _explanation(fit: Fit) -> Explanation:
         moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
         under_highlights=fit.light.shape[1] > MOST_SMOOTH_TERMS,
         blur_px=_blur_px(fit.blur, fit.field_px),
+        beside_noise=_beside_noise(fit, telling, shape) if in_noise else None,
+    )
+
+
+def _beside_noise(fit: Fit, telling: Mask, shape: Mask) -> BesideNoise:
+    """What all squares share, outline and paper, shows by what is left of it how much is noise."""
+    left = np.abs(fit.rest[telling & ~shape])
+    noise = SD_OF_MEDIAN * float(np.median(left)) if len(left) else 0.0
+    alike, inner = (
+        likeness(fit.seen, fit.rest, telling & part, fit.light, noise) for part in (inside_square(), shape)
+    )
+    hopeful = min(alike, inner) >= LEAST_BESIDE_NOISE
+    return BesideNoise(
+        likeness=alike,
+        inner_likeness=inner,
+        flipped_ratio=most_flipped(fit, telling, shape, noise) if hopeful else 1.0,
     )
 
 
@@ -228,15 +315,3 @@ def _blur_px(blur: Array, field_px: float) -> tuple[float, float]:
     larger, smaller, _, _ = axes_of(blur[0], blur[1], blur[2])
     least, most = (float(np.sqrt(max(one - SPREAD, 0.0))) for one in (smaller, larger))
     return least * field_px, most * field_px
-
-
-def _shape(picture: npt.NDArray[np.float32]) -> Mask:
-    """Where the model has its shape: around what is bright within the outline."""
-    u, v = grid()
-    bright = (picture > 0.5) & (np.maximum(np.abs(u), np.abs(v)) < 0.85)
-    rows, columns = np.nonzero(bright)
-    if len(rows) == 0:
-        return inside_square()
-    out = np.zeros_like(bright)
-    out[max(rows.min() - 1, 0) : rows.max() + 2, max(columns.min() - 1, 0) : columns.max() + 2] = True
-    return np.asarray(out & inside_square())

@@ -13,6 +13,7 @@ from tracker.marker.explanation.kernels import (
     BLUR,
     FIELDS,
     PLACE,
+    RING,
     SPREAD,
     WIDE,
     clear_of_beyond,
@@ -22,10 +23,14 @@ from tracker.marker.explanation.kernels import (
 )
 from tracker.marker.explanation.light import contrasts, grid, smooth_light
 from tracker.marker.explanation.pictures import Pictures
-from tracker.marker.sampling.kernels import square_to_quad
+from tracker.marker.sampling.kernels import even_light, square_to_quad
 
 # Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
-FIRST_BLUR_PX = 0.8
+FIRST_BLUR_PX, WIDE_BLUR_SIDES = 0.8, 0.05
+# What is compared with what is around it: a sixth of a side away sees the border and the paper at once.
+AROUND_FIELDS, PICTURE_GREY = 4, 100.0
+SQUARE = np.s_[RING:-RING, RING:-RING]
+LEAST_SD_GREY, LEAST_SD_RATIO = 6.0, 0.1
 UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
@@ -57,7 +62,7 @@ class Fit:
         self.to_px = np.empty(8)
         square_to_quad(np.ascontiguousarray(corners_px, dtype=np.float64), self.to_px)
         self.corners: Array = UNIT.copy()
-        self.blur: Array = np.array([1.0, 1.0, 0.0]) * ((FIRST_BLUR_PX / self.field_px) ** 2 + SPREAD)
+        self.blur: Array = np.zeros(3)
         self.held: Array = np.ones((WIDE, WIDE))
         self.visible: Mask = np.ones((WIDE, WIDE), np.bool_)
         self.light: Array = smooth_light(2)
@@ -92,8 +97,9 @@ class Fit:
         )
         return bool(contrast > 0.0)
 
-    def look(self) -> None:
-        """See what is there, before anything is fitted."""
+    def look(self, blur_px: float = FIRST_BLUR_PX) -> None:
+        """See what is there, before anything is fitted, and the model out of focus by so much."""
+        self.blur = np.array([1.0, 1.0, 0.0]) * ((blur_px / self.field_px) ** 2 + SPREAD)
         self.seen = sample_fields(self.image, self.to_px, self.corners)
         picture_at(self.pictures.layers, self.pictures.blurs_fields, self.blur, self.shown)
 
@@ -119,6 +125,24 @@ class Fit:
         """The model as it is fitted, dark 0 to bright 1."""
         return np.asarray(self.shown[0])
 
+    def look_part_by_part(self) -> float:
+        """See what is there, and how like the model it is where each field is judged beside those around it.
+
+        A shadow, glare or a cover over a part of it leaves the rest as it is. Of two blurs the likelier one
+        stays. Returns the correlation, -1..1.
+        """
+        best, of_best = -1.0, np.zeros(3)
+        for blur_px in (FIRST_BLUR_PX, WIDE_BLUR_SIDES * self.side_px):
+            self.look(blur_px)
+            both = np.stack([self.seen[SQUARE], PICTURE_GREY * self.picture[SQUARE]])
+            flat = both.reshape(2, -1).astype(np.float32)
+            even_light(flat, FIELDS, AROUND_FIELDS, LEAST_SD_GREY, LEAST_SD_RATIO)
+            alike = float(flat[0] @ flat[1])
+            if alike > best:
+                best, of_best = alike, self.blur
+        self.blur = of_best
+        return best
+
     @property
     def clear(self) -> Mask:
         """Where blur brings in little of what lies beyond the marker's paper."""
@@ -135,6 +159,16 @@ class Fit:
     def left(self) -> Left:
         """What the fit leaves."""
         return Left(seen=self.seen, picture=self.picture, rest=self.rest, gain=self.gain)
+
+
+def likeness_part_by_part(
+    image: GreyImage, pictures: Pictures, corners_px: Array, *, side_px: float
+) -> float:
+    """How like a marker what an image shows at these corners (4, 2) is, part by part, -1..1.
+
+    In shadow, glare and noise it tells more than a glance, and less where motion smears.
+    """
+    return Fit(image, pictures, corners_px, side_px).look_part_by_part()
 
 
 @cache

@@ -282,8 +282,11 @@ def clear_of_beyond(blur, clear):
 
 
 @compiled
-def likeness(seen, rest, chosen, light):
-    """Root of the part that the model explains of what light alone leaves over, where `chosen`."""
+def likeness(seen, rest, chosen, light, noise):
+    """Root of the part that the model explains of what light alone leaves over, where `chosen`.
+
+    What noise of this sd, in grey levels, adds to both is taken out.
+    """
     n = light.shape[1]
     a, g, solution = np.zeros((n, n)), np.zeros(n), np.empty(n)
     count, left = 0, 0.0
@@ -312,4 +315,5 @@ def likeness(seen, rest, chosen, light):
                 for p in range(n):
                     value -= light[r * WIDE + c, p] * solution[p]
                 whole += value * value
+    left, whole = max(left - count * noise * noise, 0.0), whole - count * noise * noise
     return np.sqrt(max(1.0 - left / whole, 0.0)) if whole > 0.0 else 0.0

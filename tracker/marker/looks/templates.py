@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
+from tracker.marker.explanation import Pictures, pictures_of
 from tracker.marker.looks.kernels import masked_pictures
 from tracker.marker.model import MarkerModel
 from tracker.marker.sampling.kernels import even_light
@@ -61,6 +62,7 @@ class Template:
         upright: (p, n) under the covers: the lens's three and those of motion in four directions.
         basis: (p, n, 10), what such a picture is made of: itself, 1, and what changes when the outline's
             corners are off to the right and downwards, for each corner in turn, per side.
+        pictures: the model more finely, at several blurs.
     """
 
     turned: Float32
@@ -68,6 +70,7 @@ class Template:
     peeked: Float32
     upright: Masked
     basis: Float32
+    pictures: Pictures
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,6 +104,7 @@ def _template_of(square: npt.NDArray[np.uint8]) -> Template:
         peeked=np.array([_peek_picture(one) for one in turned[0]], np.float32),
         upright=_masked(upright),
         basis=np.ascontiguousarray(basis, np.float32),
+        pictures=pictures_of(square),
     )
 
 

@@ -1,0 +1,79 @@
+"""A marker in shadow, glare and noise at once, and markers that differ from it in one field."""
+
+import numpy as np
+import pytest
+
+from tests.tracker.scenes import CODE as OWN
+from tests.tracker.scenes import (
+    NEIGHBOURS,
+    Fields,
+    Image8,
+    Print,
+    camera_of,
+    code_image,
+    code_model,
+    corners_px_of,
+    facing_at_px,
+    rendered,
+    smeared,
+)
+from tracker.geometry import Array
+from tracker.marker import Explanation, explanation_of
+from tracker.marker.explanation import likeness_part_by_part, pictures_of
+
+CAMERA = camera_of((200, 160), focal_px=400.0)
+MIDDLE = (100.3, 80.7)
+SIDE_PX = 30.0
+
+
+def _in_poor_light(fields: Fields, seed: int) -> tuple[Image8, Array]:
+    """Half of the light, a shadow's edge across it, a highlight on it, a smear of 3 px, and noise."""
+    random = np.random.default_rng([seed, 31])
+    about, roll, *ways = random.uniform(0.0, 360.0, 5)
+    pose = facing_at_px(CAMERA, MIDDLE, SIDE_PX, tilt_deg=20, about_deg=about, roll_deg=roll)
+    plain = rendered(CAMERA, [Print(picture=code_image(fields), pose=pose)], blur_px=1.0, noise_grey=0.0)
+    v, u = np.mgrid[0:160, 0:200].astype(np.float64) - np.array(MIDDLE)[::-1, None, None]
+    across = u * np.cos(ways[0]) + v * np.sin(ways[0]) - random.uniform(-0.2, 0.2) * SIDE_PX
+    lit = smeared(plain, 3.0, ways[2]) * (1.0 - 0.6 / (1.0 + np.exp(-across / (0.12 * SIDE_PX))))
+    x, y = u - 0.3 * SIDE_PX * np.cos(ways[1]), v - 0.3 * SIDE_PX * np.sin(ways[1])
+    lit = lit + 160.0 * np.exp(-0.5 * (x * x + y * y) / (0.25 * SIDE_PX) ** 2)
+    noisy = 0.4 * lit + random.normal(0.0, 5.0, lit.shape)
+    return np.asarray(np.clip(np.rint(noisy), 0, 255), dtype=np.uint8), corners_px_of(CAMERA, pose)
+
+
+def _explained(fields: Fields, seed: int) -> Explanation | None:
+    image, corners = _in_poor_light(fields, seed)
+    off = np.random.default_rng([seed, 32]).normal(0.0, 0.4, (4, 2))
+    return explanation_of(image, code_model().square, corners + off, side_px=SIDE_PX)
+
+
+def test_a_marker_in_shadow_glare_and_noise_at_once_is_mostly_explained() -> None:
+    found = [_explained(OWN, seed) for seed in range(24)]
+    assert sum(one is not None and one.explains for one in found) >= 18
+
+
+@pytest.mark.parametrize("field", range(9))
+def test_noise_does_not_hide_that_one_field_differs(field: int) -> None:
+    for seed in range(4):
+        found = _explained(NEIGHBOURS[field], 100 * field + seed)
+        assert found is None or found.beside_noise is None or not found.explains, (seed, found)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_field_that_differs_shows_as_half_of_its_contrast(seed: int) -> None:
+    own, other = (_explained(fields, seed) for fields in (OWN, NEIGHBOURS[seed]))
+    if own is not None and own.beside_noise is not None and own.explains:
+        assert own.beside_noise.flipped_ratio < 0.5
+    if other is not None and other.beside_noise is not None:
+        assert other.beside_noise.flipped_ratio > 0.5
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_part_by_part_the_marker_is_told_from_its_turns_in_any_light(seed: int) -> None:
+    image, corners = _in_poor_light(OWN, seed)
+    pictures = pictures_of(code_model().square)
+    alike = [
+        likeness_part_by_part(image, pictures, np.roll(corners, turn, axis=0), side_px=SIDE_PX)
+        for turn in range(4)
+    ]
+    assert alike[0] > max(0.75, max(alike[1:]) + 0.1)

@@ -1,0 +1,55 @@
+"""A marker that was seen, and of which glare then hides a half."""
+
+import numpy as np
+import pytest
+
+from tests.tracker.pipeline.stepped import image_of, off_px, pose_of, tracker_of
+from tests.tracker.scenes import CODE, NEIGHBOURS, Fields, Image8, seen
+from tracker import Seen, Unseen
+from tracker.geometry import Camera, Marker, Rigid
+
+SIDE_PX = 60.0
+CENTRE_PX = (240.0, 180.0)
+# Under each glare.
+MIDDLE_FIELD = 4
+HELD: Rigid[Camera, Marker] = pose_of(CENTRE_PX, SIDE_PX)
+
+
+def _under_glare(image: Image8, from_deg: float) -> Image8:
+    """A highlight twice as bright as the sensor can take, on one side of the marker."""
+    height, width = image.shape
+    v, u = np.mgrid[0:height, 0:width].astype(np.float64)
+    u = u - CENTRE_PX[0] - 0.4 * SIDE_PX * np.cos(np.radians(from_deg))
+    v = v - CENTRE_PX[1] - 0.4 * SIDE_PX * np.sin(np.radians(from_deg))
+    light = 500.0 * np.exp(-0.5 * (u * u + v * v) / (0.27 * SIDE_PX) ** 2)
+    return np.asarray(np.clip(np.rint(image + light), 0, 255), dtype=np.uint8)
+
+
+def _in_glare(fields: Fields, from_deg: float) -> Seen | Unseen:
+    """What is said of these fields under glare, where the marker was an image before."""
+    tracker = tracker_of()
+    tracker.step(image_of(HELD), captured_at_s=0.0)
+    return tracker.step(_under_glare(image_of(HELD, fields=fields), from_deg), captured_at_s=0.03)["code"]
+
+
+@pytest.mark.parametrize("from_deg", range(0, 360, 45))
+def test_a_marker_is_kept_where_it_was_when_glare_hides_a_half_of_it(from_deg: float) -> None:
+    found = seen(_in_glare(CODE, from_deg))
+    assert found.found_by == "track"
+    assert off_px(found, HELD) < 0.6
+
+
+@pytest.mark.parametrize("field", [field for field in range(9) if field != MIDDLE_FIELD])
+def test_a_look_alike_is_not_kept_for_the_glare_on_its_other_side(field: int) -> None:
+    row, column = divmod(field, 3)
+    # Away from the field that differs, as it is seen: the face stands upright.
+    away_deg = float(np.degrees(np.arctan2(1 - row, 1 - column)))
+    assert isinstance(_in_glare(NEIGHBOURS[field], away_deg), Unseen)
+
+
+def test_a_blank_sheet_in_glare_is_not_kept() -> None:
+    tracker = tracker_of()
+    tracker.step(image_of(HELD), captured_at_s=0.0)
+    for k in range(4):
+        image = _under_glare(image_of(), 90.0 * k)
+        assert isinstance(tracker.step(image, captured_at_s=0.01 * (k + 1))["code"], Unseen)

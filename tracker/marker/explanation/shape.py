@@ -1,0 +1,20 @@
+"""Where a model has its shape, which makes it unique; its outline is what all squares share."""
+
+import numpy as np
+import numpy.typing as npt
+
+from tracker.marker.explanation.cover import Mask
+from tracker.marker.explanation.fit import inside_square
+from tracker.marker.explanation.light import grid
+
+
+def shape_of(picture: npt.NDArray[np.float32]) -> Mask:
+    """Where the model has its shape: around what is bright within the outline."""
+    u, v = grid()
+    bright = (picture > 0.5) & (np.maximum(np.abs(u), np.abs(v)) < 0.85)
+    rows, columns = np.nonzero(bright)
+    if len(rows) == 0:
+        return inside_square()
+    out = np.zeros_like(bright)
+    out[max(rows.min() - 1, 0) : rows.max() + 2, max(columns.min() - 1, 0) : columns.max() + 2] = True
+    return np.asarray(out & inside_square())
