@@ -4,7 +4,8 @@ A picture of the marker at every blur, and a fit of pose, blur, camera response 
 Nothing here searches: it starts within half a pixel.
 """
 
+from tracker.appearance.samples import CoveredAt
 from tracker.appearance.texture import Textures, textures_of
 from tracker.appearance.whole import WholeFit, whole_fits
 
-__all__ = ["Textures", "WholeFit", "textures_of", "whole_fits"]
+__all__ = ["CoveredAt", "Textures", "WholeFit", "textures_of", "whole_fits"]

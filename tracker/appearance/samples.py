@@ -1,8 +1,10 @@
 """The pixels that tell of a marker's pose."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from tracker.appearance.pixels.kernels import collect
 from tracker.appearance.texture import Textures
@@ -16,6 +18,9 @@ REACH_RATIO = 0.6
 # Where pixels are averaged, edges cover few of them, and all of those are asked.
 LEAST_SLOPE_RATIO, LEAST_SLOPE_RATIO_AVERAGED, FLAT_STRIDE = 0.25, 0.12, 10
 MOST_PIXELS = 30_000
+
+# Which points (n, 2) of a marker's plane, in sides from its centre to the right and upwards, are covered.
+CoveredAt = Callable[[Array], npt.NDArray[np.bool_]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,8 +47,9 @@ def samples_of(
     side_mm: float,
     step: int,
     blur_px2: Array,
+    covered_at: CoveredAt | None = None,
 ) -> Samples:
-    """The pixels that tell of the pose, as seen from a start at this blur (3,)."""
+    """The pixels that tell of the pose, as seen from a start at this blur (3,); not what is covered."""
     rays, values = np.empty((MOST_PIXELS, 2)), np.empty(MOST_PIXELS)
     count = collect(
         image,
@@ -60,9 +66,20 @@ def samples_of(
         rays,
         values,
     )
-    return Samples(
-        rays=rays[:count], values=values[:count], lens=lens, textures=textures, side_mm=side_mm, step=step
-    )
+    rays, values = rays[:count], values[:count]
+    if covered_at is not None:
+        seen = ~covered_at(_on_marker(rays, start) / side_mm)
+        rays, values = np.ascontiguousarray(rays[seen]), values[seen]
+    return Samples(rays=rays, values=values, lens=lens, textures=textures, side_mm=side_mm, step=step)
+
+
+def _on_marker(rays: Array, pose: Rigid[Camera, Marker]) -> Array:
+    """Where rays (n, 2) meet the marker's plane (n, 2), in mm."""
+    ahead = np.column_stack([rays, np.ones(len(rays))])
+    normal = pose.rotation[:, 2]
+    depths = float(normal @ pose.translation_mm) / (ahead @ normal)
+    at = (ahead * depths[:, None] - pose.translation_mm) @ pose.rotation
+    return np.asarray(at[:, :2], dtype=np.float64)
 
 
 def some_of(seen: Samples, count: int) -> Samples:

@@ -9,7 +9,7 @@ from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, again, cost_of, fitte
 from tracker.appearance.kernels import scores_spread
 from tracker.appearance.light.fields.kernels import PLAIN, typical_contrast
 from tracker.appearance.light.kernels import BLUR, RESPONSE
-from tracker.appearance.samples import Samples, samples_of, some_of
+from tracker.appearance.samples import CoveredAt, Samples, samples_of, some_of
 from tracker.appearance.texture import Textures
 from tracker.appearance.uneven import in_light_that_explains, is_uneven, leaves_much
 from tracker.edges import GreyImage
@@ -64,6 +64,7 @@ def whole_fits(
     side_mm: float,
     side_px: float,
     noise_grey: float,
+    covered_at: CoveredAt | None = None,
 ) -> list[WholeFit]:
     """The whole shape fitted from each start within half a pixel or so; those that fail are left out.
 
@@ -77,13 +78,27 @@ def whole_fits(
         side_mm: side of the marker.
         side_px: about how wide it is in the image.
         noise_grey: sd of the image's noise.
+        covered_at: what of the marker something covers, if any does.
     """
+
+    def chosen(blur_px2: Array) -> Samples:
+        return samples_of(
+            image,
+            lens,
+            textures,
+            starts[0],
+            side_mm=side_mm,
+            step=step,
+            blur_px2=blur_px2,
+            covered_at=covered_at,
+        )
+
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
-    seen = samples_of(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=focus)
+    seen = chosen(focus)
     near = _near_all(seen, starts, focus)
     if near and (blur := _widest(near, focus)) is not None:
-        seen = samples_of(image, lens, textures, starts[0], side_mm=side_mm, step=step, blur_px2=blur)
+        seen = chosen(blur)
         near = [one for one in (again(some_of(seen, FEW_PIXELS), one) for one in near) if one is not None]
     # Where even light leaves much, it has not been asked yet which of them is better.
     if near and not leaves_much(near, noise_grey):

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tracker.appearance import CoveredAt
 from tracker.camera import CameraModel
 from tracker.edges import Gradient, GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -94,12 +95,20 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
         found_by=scene.found_by,
         lead_sd2=found.fit.lead_sd2,
     )
+    covered_at: CoveredAt | None = None
     if weak or plain < _least_plain(found.corners_px):
         explained = _explained(scene, found, by_edges, plain=0.0 if weak else plain)
         if explained is None:
             return unseen
-        by_edges = explained
-    return with_whole_shape(scene.camera, scene.model, scene.pixels, by_edges, expected=scene.expected)
+        by_edges, covered_at = explained
+    return with_whole_shape(
+        scene.camera,
+        scene.model,
+        scene.pixels,
+        by_edges,
+        expected=scene.expected,
+        covered_at=covered_at,
+    )
 
 
 def _least_plain(corners_px: Array) -> float:
@@ -123,8 +132,13 @@ def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
     return alike, most
 
 
-def _explained(scene: Scene, found: Occurrence, seen: Seen, *, plain: float) -> Seen | None:
-    """The same where light and covers explain it, or nearly what is like the model in plain light already."""
+def _explained(
+    scene: Scene, found: Occurrence, seen: Seen, *, plain: float
+) -> tuple[Seen, CoveredAt | None] | None:
+    """The same where light and covers explain it, or nearly what is like the model in plain light already.
+
+    With it, what of the marker is covered, where that is known.
+    """
     explanation = explanation_of(
         scene.window,
         scene.model.square,
@@ -132,17 +146,18 @@ def _explained(scene: Scene, found: Occurrence, seen: Seen, *, plain: float) -> 
         side_px=side_px_of(found.corners_px),
     )
     if (explanation is None or not explanation.explains) and _is_kept(scene, found):
-        return seen
+        return seen, None
     if explanation is None or explanation.is_turned:
         return None
     if explanation.explains:
-        return _moved(scene, found, seen, explanation.corners_px + scene.corner_px)
+        moved = _moved(scene, found, seen, explanation.corners_px + scene.corner_px)
+        return moved, explanation.covers if explanation.hidden_ratio > 0.0 else None
     if plain <= 0.0:
         return None
     if scene.expected is not None:
-        return seen if explanation.likeness >= KNOWN_LIKENESS else None
+        return (seen, None) if explanation.likeness >= KNOWN_LIKENESS else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO
-    return seen if wide and explanation.likeness >= NEAR_LIKENESS else None
+    return (seen, None) if wide and explanation.likeness >= NEAR_LIKENESS else None
 
 
 def _is_kept(scene: Scene, found: Occurrence) -> bool:

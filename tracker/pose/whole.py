@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracker.appearance import Textures, WholeFit, whole_fits
+from tracker.appearance import CoveredAt, Textures, WholeFit, whole_fits
 from tracker.camera import CameraModel
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -52,10 +52,11 @@ def with_whole_shape(
     seen: Seen,
     *,
     expected: Rigid[Camera, Marker] | None = None,
+    covered_at: CoveredAt | None = None,
 ) -> Seen:
     """The same by all pixels of the marker where they can be explained, else by its edges as it was.
 
-    `expected` is the pose that the images before let expect.
+    `expected` is the pose that the images before let expect; `covered_at` tells what has no say.
     """
     side_px = side_px_of(seen.corners_px)
     starts = [seen.camera_from_marker]
@@ -69,6 +70,7 @@ def with_whole_shape(
         side_mm=model.side_mm,
         side_px=side_px,
         noise_grey=pixels.noise_grey,
+        covered_at=covered_at,
     )
     here = corners_px_at(camera, model, starts[0])
     reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)

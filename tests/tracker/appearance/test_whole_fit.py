@@ -1,10 +1,11 @@
 """The whole-shape fit against pictures whose truth is known."""
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from tests.tracker.scenes import Image8, Print, camera_of, code_model, facing_at_px, rendered
-from tracker.appearance import WholeFit, textures_of, whole_fits
+from tracker.appearance import CoveredAt, WholeFit, textures_of, whole_fits
 from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
 from tracker.pose import other_solution
 
@@ -110,6 +111,36 @@ def test_light_that_varies_costs_little_of_what_the_pixels_say(kind: str) -> Non
         ]
     )
     assert ratio < {"shadow": 1.45, "highlight": 1.7, "both": 1.4}[kind]
+
+
+def test_what_is_known_to_be_covered_has_no_say() -> None:
+    """A round finger passes for a shadow where it is not known of, and turns the marker by degrees."""
+    pose = facing_at_px(CAMERA, (330.0, 220.0), 30.0, tilt_deg=35.0, about_deg=20.0, roll_deg=50.0)
+    image, edge_px = _image(pose), 329.0
+    columns = np.arange(image.shape[1])
+    finger = 40.0 + 130.0 * np.exp(-(((columns - edge_px - 12.0) / 9.0) ** 2))
+    image[:, columns > edge_px] = np.round(finger[columns > edge_px])
+
+    def turned_deg(covered_at: CoveredAt | None) -> float:
+        fits = whole_fits(
+            image,
+            CAMERA.lens,
+            TEXTURES,
+            [_beside(pose)],
+            side_mm=MODEL.side_mm,
+            side_px=30.0,
+            noise_grey=1.0,
+            covered_at=covered_at,
+        )
+        turn = fits[0].camera_from_marker.rotation @ pose.rotation.T
+        return float(np.degrees(np.linalg.norm(vector_from_rotation(turn))))
+
+    def under_the_finger(at_ratio: Array) -> npt.NDArray[np.bool_]:
+        points_mm = np.column_stack([at_ratio * MODEL.side_mm, np.zeros(len(at_ratio))])
+        return np.asarray(CAMERA.px_from_camera(pose.move_points(points_mm))[:, 0] > edge_px - 1.5)
+
+    assert turned_deg(under_the_finger) < 0.4
+    assert turned_deg(None) > 2.0
 
 
 def test_what_blur_brings_in_from_beyond_the_paper_does_not_move_it() -> None:

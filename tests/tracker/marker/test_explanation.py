@@ -207,3 +207,9 @@ def test_what_covers_it_is_told() -> None:
     assert free.hidden_ratio < 0.02
     # Three twentieths of the square, and a field more all around that blur may reach.
     assert 0.12 < covered.hidden_ratio < 0.3
+    # The placed face looks at the camera upright: what lies to the right in the image does so on the marker.
+    points = np.array(
+        [[0.45, 0.0], [0.45, 0.4], [0.55, -0.3], [0.2, 0.0], [-0.45, 0.0], [0.0, 0.45], [3.0, 0.0]]
+    )
+    assert covered.covers(points).tolist() == [True, True, True, False, False, False, False]
+    assert not free.covers(points).any()

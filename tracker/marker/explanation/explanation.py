@@ -22,7 +22,15 @@ from tracker.marker.explanation.cover import (
 )
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.flips import most_flipped
-from tracker.marker.explanation.kernels import FIELDS, SATURATED_GREY, SPREAD, WIDE, likeness, picture_at
+from tracker.marker.explanation.kernels import (
+    FIELDS,
+    RING,
+    SATURATED_GREY,
+    SPREAD,
+    WIDE,
+    likeness,
+    picture_at,
+)
 from tracker.marker.explanation.light import contrasts, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.shape import shape_of
@@ -100,6 +108,7 @@ class Explanation:
         under_highlights: whether highlights had to be fitted.
         is_turned: whether the model, turned by a quarter or more, explains as much.
         beside_noise: in uneven light, what is left of both likenesses when the noise is taken out.
+        hidden: which fields of the square and its paper (n, n), from the top left, something covers.
     """
 
     side_px: float
@@ -114,6 +123,19 @@ class Explanation:
     under_highlights: bool = False
     is_turned: bool = False
     beside_noise: BesideNoise | None = None
+    hidden: Mask | None = None
+
+    def covers(self, at_ratio: Array) -> Mask:
+        """Whether something covers these points (n, 2) of the marker's plane.
+
+        They are in sides from its centre, to the right and upwards of the printed face.
+        """
+        if self.hidden is None or self.hidden_ratio <= COVERED_RATIO:
+            return np.zeros(len(at_ratio), np.bool_)
+        fields = np.floor((at_ratio * (1.0, -1.0) + 0.5) * FIELDS).astype(np.int64) + RING
+        inside = ((fields >= 0) & (fields < WIDE)).all(axis=1)
+        columns, rows = np.clip(fields, 0, WIDE - 1).T
+        return np.asarray(inside & self.hidden[rows, columns])
 
     @property
     def explains(self) -> bool:
@@ -293,6 +315,7 @@ def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
         under_highlights=fit.light.shape[1] > MOST_SMOOTH_TERMS,
         blur_px=_blur_px(fit.blur, fit.field_px),
         beside_noise=_beside_noise(fit, telling, shape) if in_noise else None,
+        hidden=~visible,
     )
 
 
