@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracker.appearance.equations.kernels import EVEN, equations, trust, typical_sd, weighed_pixel
+from tracker.appearance.equations.kernels import EVEN, equations, hold, trust, typical_sd, weighed_pixel
 from tracker.appearance.light.fields.kernels import (
     AROUND,
     MOST_SHARES,
@@ -153,8 +153,11 @@ def whole_fit(
 
 @compiled
 def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers, light, scale, cut):
-    """The robust sum of squared residuals of a fit, in units of `scale`; infinite where it cannot be seen."""
-    n = len(values)
+    """The robust sum of squared residuals of a fit, in units of `scale`; infinite where it cannot be seen.
+
+    With what is known beforehand: of two poses that leave as much, the one in stranger light is worse.
+    """
+    n, count = len(values), len(numbers)
     rows, at, lit, own = np.empty((10, n)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     blur = numbers[BLUR : BLUR + 3]
     if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
@@ -166,7 +169,8 @@ def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers
         r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], numbers[RESPONSE])
         z = r * r * own[i] * unit
         cost += z / (1.0 + z)
-    return cost * cut * cut
+    held = hold(np.zeros((count, count)), np.zeros(count), numbers, scale, light)
+    return cost * cut * cut + held / (scale * scale)
 
 
 @compiled

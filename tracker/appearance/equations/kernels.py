@@ -156,7 +156,7 @@ def _add_cell(slopes, there, left, weights, count, room, a, g):
 
 
 @compiled
-def _hold(a, g, numbers, scale, light):
+def hold(a, g, numbers, scale, light):
     """Add to the normal equations what is known beforehand; returns what it costs."""
     for m in range(3):
         a[BLUR + m, BLUR + m] += (scale / (1.0 + numbers[BLUR] + numbers[BLUR + 1])) ** 2
@@ -177,7 +177,7 @@ def equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g):
         cost, total = _even_equations(rows, at, values, lit, numbers, own, unit, a, g)
     else:
         cost, total = _uneven_equations(rows, at, values, lit, numbers, light, own, unit, a, g)
-    return cost + _hold(a, g, numbers, scale, light), total
+    return cost + hold(a, g, numbers, scale, light), total
 
 
 @compiled
