@@ -34,6 +34,7 @@ class Watching:
     """
 
     def __init__(self) -> None:
+        self._lens: Array = np.zeros(0)
         self._jumps: dict[str, JumpWatch] = {}
         self._sight = LastSight()
         self._scene: SceneWatch | None = None
@@ -65,6 +66,10 @@ class Watching:
         at_s: float,
     ) -> Watched:
         """What is known with one more image, (h, w) or (h, w, 3)."""
+        if not np.array_equal(self._lens, setup.camera.lens):
+            # Another camera model places what stands still elsewhere: nothing has moved or jumped by that.
+            self._lens = setup.camera.lens
+            self._jumps, self._reference, self._reference_is_elsewhere = {}, None, False
         jumped = frozenset(
             name
             for name, seen in sightings.items()

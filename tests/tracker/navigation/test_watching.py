@@ -119,6 +119,23 @@ def test_a_reference_that_moves_in_a_still_scene_was_bumped_and_one_that_moves_w
     assert (told.camera_moved, told.reference_moved) == (True, False)
 
 
+def test_a_reference_that_another_camera_model_places_elsewhere_was_not_bumped(
+    setup: Setup, picture: npt.NDArray[np.uint8]
+) -> None:
+    """As when a server starts, and its first images come before what the open case knows of the camera."""
+    play = Play(setup)
+    play.show(picture, seen(REFERENCE), images=30)
+    matrix = setup.camera.matrix * np.array([[1.02, 1.0, 1.0], [1.0, 1.02, 1.0], [1.0, 1.0, 1.0]])
+    play.setup = replace(setup, camera=replace(setup.camera, matrix=matrix))
+    play.watching.begin(from_s=None, now_s=play.now_s)
+    farther = seen(replace(REFERENCE, translation_mm=REFERENCE.translation_mm * np.array([1.0, 1.0, 1.02])))
+    told = play.show(picture, farther, images=30)
+    assert (told.reference_moved, told.jumped) == (False, frozenset())
+    # A bump after that is one.
+    bumped = seen(moved(farther.camera_from_marker, 8.0))
+    assert play.show(picture, bumped, images=30).reference_moved
+
+
 def test_a_pose_that_jumps_is_told_and_one_that_stays_away_is_believed_after_a_while(
     setup: Setup, picture: npt.NDArray[np.uint8]
 ) -> None:
