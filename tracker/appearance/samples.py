@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from tracker.appearance.picture.kernels import onto_plane
 from tracker.appearance.pixels.kernels import collect
 from tracker.appearance.texture import Textures
 from tracker.edges import GreyImage
@@ -68,18 +69,12 @@ def samples_of(
     )
     rays, values = rays[:count], values[:count]
     if covered_at is not None:
-        seen = ~covered_at(_on_marker(rays, start) / side_mm)
+        at = np.empty_like(rays)
+        onto_plane(rays, 0, count, start.rotation, start.translation_mm, side_mm, at)
+        # That is in half sides.
+        seen = ~covered_at(0.5 * at)
         rays, values = np.ascontiguousarray(rays[seen]), values[seen]
     return Samples(rays=rays, values=values, lens=lens, textures=textures, side_mm=side_mm, step=step)
-
-
-def _on_marker(rays: Array, pose: Rigid[Camera, Marker]) -> Array:
-    """Where rays (n, 2) meet the marker's plane (n, 2), in mm."""
-    ahead = np.column_stack([rays, np.ones(len(rays))])
-    normal = pose.rotation[:, 2]
-    depths = float(normal @ pose.translation_mm) / (ahead @ normal)
-    at = (ahead * depths[:, None] - pose.translation_mm) @ pose.rotation
-    return np.asarray(at[:, :2], dtype=np.float64)
 
 
 def some_of(seen: Samples, count: int) -> Samples:

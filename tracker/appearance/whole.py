@@ -96,13 +96,15 @@ def whole_fits(
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
     seen = chosen(focus)
-    near = _near_all(seen, starts, focus)
+    few = some_of(seen, FEW_PIXELS)
+    near = [one for one in (_near(few, start, focus) for start in starts) if one is not None]
     if near and (blur := _widest(near, focus)) is not None:
         seen = chosen(blur)
-        near = [one for one in (again(some_of(seen, FEW_PIXELS), one) for one in near) if one is not None]
+        few = some_of(seen, FEW_PIXELS)
+        near = [one for one in (again(few, one) for one in near) if one is not None]
     # Where even light leaves much, it has not been asked yet which of them is better.
     if near and not leaves_much(near, noise_grey):
-        near = _in_question(some_of(seen, FEW_PIXELS), near)
+        near = _in_question(few, near)
     done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
     if not done:
         return []
@@ -119,12 +121,6 @@ def _in_question(few: Samples, near: list[Fitted]) -> list[Fitted]:
     scale = min(one.scale_grey for one in near)
     costs = [cost_of(few, one, scale) for one in near]
     return [one for one, cost in zip(near, costs, strict=True) if cost < min(costs) + OUT_OF_QUESTION_SD2]
-
-
-def _near_all(seen: Samples, starts: list[Rigid[Camera, Marker]], blur_px2: Array) -> list[Fitted]:
-    """The poses near some starts."""
-    few = some_of(seen, FEW_PIXELS)
-    return [one for one in (_near(few, start, blur_px2) for start in starts) if one is not None]
 
 
 def _widest(near: list[Fitted], focus_px2: Array) -> Array | None:

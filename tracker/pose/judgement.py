@@ -151,7 +151,7 @@ def _explained(
         return None
     if explanation.explains:
         moved = _moved(scene, found, seen, explanation.corners_px + scene.corner_px)
-        return moved, explanation.covers if explanation.hidden_ratio > 0.0 else None
+        return moved, explanation.covers if explanation.is_covered else None
     if plain <= 0.0:
         return None
     if scene.expected is not None:

@@ -56,7 +56,7 @@ def paper_seen(at, lens, rotation, translation, side_mm, blur, share):
 
 
 @compiled
-def _onto_plane(rays, begin, count, rotation, translation, side_mm, at):
+def onto_plane(rays, begin, count, rotation, translation, side_mm, at):
     """Into `at` (n, 2): where the rays from `begin` on meet the marker's plane, in half sides."""
     r00, r10, r20 = rotation[0, 0], rotation[1, 0], rotation[2, 0]
     r01, r11, r21 = rotation[0, 1], rotation[1, 1], rotation[2, 1]
@@ -171,7 +171,7 @@ def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, fre
     seen, one, drawn = np.empty((6, MANY)), np.empty((6, MANY)), np.empty((2, MANY))
     for begin in range(0, len(rays), MANY):
         count = min(MANY, len(rays) - begin)
-        _onto_plane(rays, begin, count, rotation, translation, side_mm, at)
+        onto_plane(rays, begin, count, rotation, translation, side_mm, at)
         _add_taps(tex, level, at, begin, count, taps, many, room, smear[0] > 0.0, one, seen, drawn)
         _changes(rays, begin, count, rotation, translation, side_mm, seen, spread, rows)
         if free:

@@ -21,7 +21,7 @@ from tracker.marker.explanation.cover import (
     weights_beside_a_cover,
 )
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
-from tracker.marker.explanation.flips import most_flipped
+from tracker.marker.explanation.flips import MOST_FLIPPED_RATIO, most_flipped
 from tracker.marker.explanation.kernels import (
     FIELDS,
     RING,
@@ -64,8 +64,6 @@ UNEVEN_ROUNDS = 4
 LEAST_IN_NOISE, LEAST_BESIDE_NOISE = 0.65, 0.88
 # Blurred over more of its side all round, a part of the shape passes for a highlight.
 MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO, MOST_UNEVEN_MOVED_SIDE_RATIO = 0.055, 0.3, 0.08
-# Markers that differ in one field, a sixth of the side wide, have half of its contrast there, and more.
-MOST_FLIPPED_RATIO = 0.5
 SD_OF_MEDIAN = 1.4826
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
@@ -120,17 +118,22 @@ class Explanation:
     corners_px: Array
     moved_px: float
     blur_px: tuple[float, float]
+    hidden: Mask
     under_highlights: bool = False
     is_turned: bool = False
     beside_noise: BesideNoise | None = None
-    hidden: Mask | None = None
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether something covers more of the square than a fit leaves over by itself."""
+        return self.hidden_ratio > COVERED_RATIO
 
     def covers(self, at_ratio: Array) -> Mask:
         """Whether something covers these points (n, 2) of the marker's plane.
 
         They are in sides from its centre, to the right and upwards of the printed face.
         """
-        if self.hidden is None or self.hidden_ratio <= COVERED_RATIO:
+        if not self.is_covered:
             return np.zeros(len(at_ratio), np.bool_)
         fields = np.floor((at_ratio * (1.0, -1.0) + 0.5) * FIELDS).astype(np.int64) + RING
         inside = ((fields >= 0) & (fields < WIDE)).all(axis=1)
@@ -140,7 +143,7 @@ class Explanation:
     @property
     def explains(self) -> bool:
         """Whether nothing is left that would need another shape to explain it."""
-        covered = self.hidden_ratio > COVERED_RATIO
+        covered = self.is_covered
         px, ratio = (
             (MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO)
             if covered
@@ -287,15 +290,9 @@ def _told(fit: Fit, *, in_noise: bool = False) -> Explanation | None:
         if not (fit.visible & inside_square()).any() or not fit.walk(ROUNDS_AGAIN):
             return None
     found = _explanation(fit, in_noise=in_noise)
-    if found.likeness < WORTH_TURNING or not (
-        _is_covered(found) or fit.pictures.turned_likeness > HALF_TURNED
-    ):
+    if found.likeness < WORTH_TURNING or not (found.is_covered or fit.pictures.turned_likeness > HALF_TURNED):
         return found
     return replace(found, is_turned=_another_turn_is_nearer(fit))
-
-
-def _is_covered(found: Explanation) -> bool:
-    return found.hidden_ratio > COVERED_RATIO
 
 
 def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:

@@ -19,6 +19,8 @@ from tracker.marker.explanation.light import grid
 # A part is a sixth of the side wide, as a disc of the same area; parts are asked every so many fields.
 PART_SIDES, APART_FIELDS, EDGE_FIELDS = 1.0 / 6.0, 2, 4
 LEAST_SEEN_RATIO = 0.6
+# Markers that differ in one field, a sixth of the side wide, have half of its contrast there, and more.
+MOST_FLIPPED_RATIO = 0.5
 # Neighbouring fields err alike, and many parts are asked.
 NOISES = 10.0
 

@@ -10,7 +10,7 @@ from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import covered
 from tracker.marker.explanation.fit import Fit, inside_square
-from tracker.marker.explanation.flips import most_flipped
+from tracker.marker.explanation.flips import MOST_FLIPPED_RATIO, most_flipped
 from tracker.marker.explanation.kernels import SATURATED_GREY, likeness
 from tracker.marker.explanation.light import contrasts, highlights
 from tracker.marker.explanation.pictures import pictures_of
@@ -19,7 +19,7 @@ from tracker.marker.explanation.shape import shape_of
 # Of the square at the sensor's limit: there is a highlight.
 LEAST_GLARING_RATIO = 0.02
 # Of other squares with as many of the marker's edges a hundredth passes, of washed-out markers nine tenths.
-LEAST_ALIKE, LEAST_PART_BY_PART, MOST_FLIPPED_RATIO, LEAST_SEEN_RATIO = 0.5, 0.5, 0.5, 0.25
+LEAST_ALIKE, LEAST_PART_BY_PART, LEAST_SEEN_RATIO = 0.5, 0.5, 0.25
 LIGHT_ROUNDS = 4
 
 
