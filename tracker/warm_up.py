@@ -1,15 +1,21 @@
 """Compile all hot loops ahead, so that nothing compiles in theatre: `python -m tracker.warm_up`."""
 
 import numpy as np
+import numpy.typing as npt
 
+from tracker.appearance import textures_of, whole_fits
 from tracker.camera import CameraModel
-from tracker.geometry import Rigid, Tool, Vertebra
+from tracker.edges import GreyImage
+from tracker.geometry import Array, Camera, Marker, Rigid, Tool, Vertebra
 from tracker.marker import MarkerModel, explanation_of
 from tracker.navigation.certainty import Drill, Placed, Room, judge
 from tracker.navigation.clearance import field_of_bone
 from tracker.pipeline import Tracker
 from tracker.pipeline.practice import PracticePicture, practice_picture
 from tracker.plan import Channel, Surface
+
+# From the marker's centre towards its right top corner, in sides.
+COVERED_FROM_RATIO = 0.3
 
 
 def warm_up() -> None:
@@ -27,7 +33,9 @@ def warm_up() -> None:
     tracker = Tracker(camera=camera, models=[model])
     for at_s in (0.0, 0.03, 0.06):
         tracker.step(picture.image, captured_at_s=at_s)
-    _explain(model, picture)
+    shaded = _half_in_shadow(picture)
+    _explain(model, picture, shaded)
+    _fit(model, picture, shaded, camera)
     _judge()
 
 
@@ -56,14 +64,44 @@ def _judge() -> None:
     wall.distances_mm(np.zeros((1, 3)))
 
 
-def _explain(model: MarkerModel, picture: PracticePicture) -> None:
+def _half_in_shadow(picture: PracticePicture) -> GreyImage:
+    """The same picture, the marker half in the shadow of something with a soft edge."""
+    columns = np.arange(picture.image.shape[1]) - float(picture.corners_px[:, 0].mean())
+    light = 1.0 - 0.6 / (1.0 + np.exp(-columns / (0.06 * picture.side_px)))
+    return np.asarray(np.rint(picture.image * light), dtype=np.uint8)
+
+
+def _explain(model: MarkerModel, picture: PracticePicture, shaded: GreyImage) -> None:
     """Ask what explains a square that no light explains: half in shadow, with a spot of full brightness."""
     side = picture.side_px
     left, top = np.ceil(picture.corners_px[0]).astype(int).tolist()
-    shaded = np.where(np.arange(picture.image.shape[1]) < left + 0.6 * side, 1.0, 0.4)
-    lit = picture.image.astype(np.float64) * shaded
-    lit[top + 2 : top + side // 4, left + side // 3 : left + 2 * side // 3] = 255.0
-    explanation_of(np.rint(lit).astype(np.uint8), model.square, picture.corners_px, side_px=float(side))
+    spotted = shaded.copy()
+    spotted[top + 2 : top + side // 4, left + side // 3 : left + 2 * side // 3] = 255
+    explanation_of(spotted, model.square, picture.corners_px, side_px=float(side))
+
+
+def _fit(model: MarkerModel, picture: PracticePicture, shaded: GreyImage, camera: CameraModel) -> None:
+    """Fit the whole shape in light that varies, one corner of it covered."""
+
+    def is_covered(points_ratio: Array) -> npt.NDArray[np.bool_]:
+        return np.asarray(points_ratio.min(axis=1) > COVERED_FROM_RATIO)
+
+    away_mm = model.side_mm * camera.matrix[0, 0] / picture.side_px
+    beside_px = picture.corners_px.mean(axis=0) - camera.matrix[:2, 2]
+    pose: Rigid[Camera, Marker] = Rigid(
+        rotation=np.diag([1.0, -1.0, -1.0]),
+        translation_mm=np.array([*(beside_px * model.side_mm / picture.side_px), away_mm]),
+    )
+    whole_fits(
+        shaded,
+        camera.lens,
+        textures_of(model.square),
+        [pose],
+        side_mm=model.side_mm,
+        side_px=float(picture.side_px),
+        noise_grey=1.0,
+        covered_at=is_covered,
+    )
 
 
 if __name__ == "__main__":

@@ -1,0 +1,63 @@
+"""In theatre nothing compiles: whatever an image shows, the warm-up has run each loop on such arrays."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from tests.benchmarks.limits.finders import tracker_of
+from tests.benchmarks.scenes.conditions import conditions_of
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.hand import hand_scenes
+from tests.benchmarks.scenes.rigs import RIGS
+from tests.benchmarks.scenes.scene import image_of
+from tracker.warm_up import warm_up
+
+CHECKOUT = Path(__file__).resolve().parents[3]
+RIG = RIGS["A"]
+# The first is sound, then the condition sets in.
+IMAGES = 3
+
+
+def _versions() -> dict[str, int]:
+    """How many kinds of arguments each loop of the tracker is compiled for, in this process."""
+    return {
+        f"{room}.{name}": len(loop.signatures)
+        for room, module in list(sys.modules.items())
+        if room.startswith("tracker.")
+        for name, loop in vars(module).items()
+        if hasattr(loop, "signatures")
+    }
+
+
+def _see_everything() -> None:
+    """Search and step through each condition of the benchmark."""
+    for nth, condition in enumerate(conditions_of(RIG).values()):
+        face = FACES[nth % len(FACES)]
+        tracker = tracker_of(RIG, [face])
+        scenes = hand_scenes(RIG, face, "still", seed=nth, count=IMAGES, condition=condition, sound_images=1)
+        for at_s, scene in scenes:
+            image = image_of(scene)
+            tracker.step(image, captured_at_s=at_s)
+        tracker.search(image)
+
+
+def test_after_the_warm_up_no_image_makes_anything_compile() -> None:
+    # In a process of its own: other tests call the loops with other arrays, which would hide it.
+    told = subprocess.run(
+        [sys.executable, "-m", "tests.tracker.pipeline.test_nothing_compiles"],
+        cwd=CHECKOUT,
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
+    before, after = json.loads(told)
+    assert len(before) > 40
+    assert {name: kinds for name, kinds in after.items() if kinds != before.get(name, 0)} == {}
+
+
+if __name__ == "__main__":
+    warm_up()
+    at_first = _versions()
+    _see_everything()
+    sys.stdout.write(json.dumps([at_first, _versions()]))
