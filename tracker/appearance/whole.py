@@ -9,6 +9,7 @@ from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, again, cost_of, fitte
 from tracker.appearance.kernels import scores_spread
 from tracker.appearance.light.fields.kernels import PLAIN, typical_contrast
 from tracker.appearance.light.kernels import BLUR, RESPONSE
+from tracker.appearance.mirrored import with_mirrored
 from tracker.appearance.samples import CoveredAt, Samples, samples_of, some_of
 from tracker.appearance.texture import Textures
 from tracker.appearance.uneven import in_light_that_explains, is_uneven, leaves_much
@@ -26,8 +27,10 @@ WIDE_BLUR_RATIO = 4.0
 FEW_PIXELS, SOME_PIXELS = 200, 800
 # The other planar solution is let go when those few pixels speak against it by so much.
 OUT_OF_QUESTION_SD2 = 30.0
-# Errors within one of so many parts a side are taken to be alike.
-BLOCKS = 7
+# Errors within one of so many parts a side are taken to be alike: those of a wide blur are, over much of it.
+BLOCKS = 5
+# What a net of light cannot follow is in the pose: measured on rendered scenes, where the truth is known.
+UNEVEN_FACTOR = 1.4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,6 +113,7 @@ def whole_fits(
         return []
     if is_uneven(seen, done):
         done = in_light_that_explains(seen, done, noise_grey)
+        done = with_mirrored(seen, done, [start.rotation for start in starts])
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
     records = [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
@@ -162,9 +166,10 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
         BLOCKS,
     )
     alike = max(float(mean_ratio(alone, together)), 1.0)
+    by_light = 1.0 if one.light[0] == PLAIN else UNEVEN_FACTOR
     return WholeFit(
         camera_from_marker=Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm),
-        covariance=alone * alike,
+        covariance=alone * alike * by_light,
         alike_ratio=alike,
         scale_grey=one.scale_grey,
         contrast_grey=float(typical_contrast(one.numbers, one.light)),

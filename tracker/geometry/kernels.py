@@ -25,6 +25,19 @@ def off_rotation(m):
 
 
 @compiled
+def mirror(rotation, translation, out):
+    """The rotation that looks the same but for perspective: mirrored across the line of sight."""
+    squared = translation[0] ** 2 + translation[1] ** 2 + translation[2] ** 2
+    for c in range(3):
+        along = 0.0
+        for k in range(3):
+            along += translation[k] * rotation[k, c]
+        for k in range(3):
+            mirrored = rotation[k, c] - 2.0 * translation[k] * along / squared
+            out[k, c] = -mirrored if c == 2 else mirrored
+
+
+@compiled
 def turn_by(rotation, w):
     """Multiply a rotation vector from the left into a rotation matrix, in place."""
     angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])

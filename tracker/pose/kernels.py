@@ -5,7 +5,7 @@ import numpy as np
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.edges.kernels import crossing
-from tracker.geometry.kernels import solve_positive, turn_by
+from tracker.geometry.kernels import mirror, solve_positive, turn_by
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
 LEAST_EDGES = 12
@@ -218,19 +218,6 @@ def _refine(
             return False
         shift += step[6]
     return False
-
-
-@compiled
-def mirror(rotation, translation, out):
-    """The rotation that looks the same but for perspective: mirrored across the line of sight."""
-    squared = translation[0] ** 2 + translation[1] ** 2 + translation[2] ** 2
-    for c in range(3):
-        along = 0.0
-        for k in range(3):
-            along += translation[k] * rotation[k, c]
-        for k in range(3):
-            mirrored = rotation[k, c] - 2.0 * translation[k] * along / squared
-            out[k, c] = -mirrored if c == 2 else mirrored
 
 
 @compiled

@@ -5,8 +5,9 @@ import numpy as np
 
 from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
+from tracker.geometry.kernels import mirror
 from tracker.pose.foreshortening.kernels import foreshortened
-from tracker.pose.kernels import fit_square, mirror
+from tracker.pose.kernels import fit_square
 
 # The closed form is within a few pixels; each round squares what is left.
 FIT_ROUNDS = 6

@@ -6,6 +6,7 @@ import numpy as np
 
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 from tracker.geometry.kernels import turn_between
+from tracker.pose.arc import TOOL_REACH_MM
 
 # Costs of both solutions this much apart (in units of the residuals' variance) leave no doubt: the odds of
 # the worse one are under 1 in 10,000.
@@ -14,8 +15,7 @@ UNDECIDED_COST = 2.0
 # Nearer than this, two solutions are one.
 LEAST_TURN_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
 EXPECTED_TURN_SD_DEG = 4.0
-# From a marker to the end of the tool that it is on: what a doubt about its tilt is about.
-TOOL_REACH_MM, SMALL_DOUBT = 120.0, 0.05
+SMALL_DOUBT = 0.05
 # A hand turns a drill by less than this between two images; farther is the other solution.
 FAR_TURN_DEG, NEAR_TURN_DEG = 20.0, 10.0
 

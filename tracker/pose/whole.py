@@ -10,6 +10,7 @@ from tracker.camera import CameraModel
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.marker import MarkerModel
+from tracker.pose.arc import beyond_first_order
 from tracker.pose.occurrence import corners_px_at, side_px_of
 from tracker.pose.planar import other_solution
 from tracker.pose.rivals import doubt_between, lead_between, surprise
@@ -85,6 +86,7 @@ def with_whole_shape(
     if not _is_exact(near[first], pixels.noise_grey):
         return seen
     pose, covariance = near[first].camera_from_marker, COVARIANCE_FACTOR * near[first].covariance
+    covariance = covariance + beyond_first_order(covariance)
     for k in others:
         gap = float(costs[k] - costs[first])
         covariance = covariance + doubt_between(pose, near[k].camera_from_marker, gap=gap, expected=expected)
