@@ -39,6 +39,7 @@ def fitted(
     light: tuple[int, int],
     scale_grey: float = 0.0,
     settled: float = SETTLED_SD2,
+    rounds: int = ROUNDS,
 ) -> Fitted | None:
     """A fit from a start; None where it fails.
 
@@ -50,6 +51,7 @@ def fitted(
         light: its kind, and the nodes of its net.
         scale_grey: of the residuals, where it is known; even light is found first where it is 0.
         settled: a step that promises less ends it.
+        rounds: of steps, at most.
     """
     rotation, translation_mm, numbers = rotation.copy(), translation_mm.copy(), numbers.copy()
     matrix, scale, weight, good, looked = whole_fit(
@@ -64,7 +66,7 @@ def fitted(
         light,
         scale_grey,
         LEAST_BLUR_PX2 + seen.step * seen.step * PIXEL_PX2,
-        ROUNDS,
+        rounds,
         CUT,
         MOST_MOVE_PX * seen.step,
         settled,
@@ -113,3 +115,12 @@ def cost_of(seen: Samples, one: Fitted, scale_grey: float) -> float:
             CUT,
         )
     )
+
+
+def in_question(seen: Samples, fits: list[Fitted], within_sd2: float) -> list[Fitted]:
+    """Those fits to the same pixels whose cost is within so much of the least."""
+    if len(fits) < 2:
+        return fits
+    scale = min(one.scale_grey for one in fits)
+    costs = [cost_of(seen, one, scale) for one in fits]
+    return [one for one, cost in zip(fits, costs, strict=True) if cost < min(costs) + within_sd2]

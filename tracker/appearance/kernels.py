@@ -8,15 +8,17 @@ from tracker.appearance.light.fields.kernels import (
     MOST_SHARES,
     NODES_REACH,
     PLAIN,
+    band_of,
     fields_first,
     light_up,
+    shared_numbers,
     shares_of,
 )
 from tracker.appearance.light.kernels import BLUR, LIGHT, RESPONSE, even_light, shaped_by
 from tracker.appearance.picture.kernels import predict
 from tracker.camera.blur.kernels import keep_within
 from tracker.compiled import compiled
-from tracker.geometry.kernels import solve_positive, turn_by
+from tracker.geometry.kernels import solve_banded, turn_by
 
 # A step that lowered the cost by less was within a standard deviation, and the next is within a tenth.
 SETTLED_COST_SD2 = 0.3
@@ -64,19 +66,19 @@ def _advance(rotation, translation, numbers, step, share, least_blur):
 
 
 @compiled
-def _solved(a, g, damping, order, step, rotation, translation, lens, side_mm, most_px):
+def _solved(a, g, damping, order, band, step, rotation, translation, lens, side_mm, most_px):
     """The damped step, what it promises in squared grey levels, and the share of it that may be gone.
 
-    It is solved for in this order of the numbers. A share of 0 means that there is no step.
+    It is solved for in this order of the numbers, with their band in it. A share of 0: there is no step.
     """
     n = len(g)
     damped, sides, solved = np.empty((n, n)), np.empty(n), np.empty(n)
     for m in range(n):
         sides[m] = g[order[m]]
-        for k in range(n):
+        for k in range(m, n):
             damped[m, k] = a[order[m], order[k]]
         damped[m, m] *= 1.0 + damping
-    if not solve_positive(damped, sides, solved):
+    if not solve_banded(damped, band, sides, solved):
         return 0.0, 0.0
     gain = 0.0
     for m in range(n):
@@ -87,6 +89,17 @@ def _solved(a, g, damping, order, step, rotation, translation, lens, side_mm, mo
     if not np.isfinite(moved):
         return 0.0, 0.0
     return gain, min(most_px / max(moved, 1e-12), 0.4 / max(turned, 1e-12), 1.0)
+
+
+@compiled
+def _cost(rows, values, lit, numbers, light, own, scale, cut):
+    """The robust sum of squared residuals, in squared grey levels, with that of what is known beforehand."""
+    cost, unit, count = 0.0, 1.0 / (cut * scale) ** 2, len(numbers)
+    for i in range(len(values)):
+        r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], numbers[RESPONSE])
+        z = r * r * own[i] * unit
+        cost += z / (1.0 + z)
+    return cost / unit + hold(np.zeros((count, count)), np.zeros(count), numbers, scale, light)
 
 
 @compiled
@@ -116,38 +129,39 @@ def whole_fit(
         light_up(at, numbers, light, lit)
         scale = typical_sd(rows, values, lit, numbers[RESPONSE], own)
     trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own)
+    light_up(at, numbers, light, lit)
     cost, total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
     old_rotation, old_translation, old = rotation.copy(), translation.copy(), numbers.copy()
-    old_a, old_g, damping, order = a.copy(), g.copy(), 1e-6, fields_first(light)
+    damping, order, band = 1e-6, fields_first(light), band_of(light)
     for _ in range(rounds):
-        old_a[:, :], old_g[:] = a, g
-        gain, share = _solved(a, g, damping, order, step, rotation, translation, lens, side_mm, most_px)
+        gain, share = _solved(a, g, damping, order, band, step, rotation, translation, lens, side_mm, most_px)
         if share == 0.0:
             return failed
         old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
         facing = _advance(rotation, translation, numbers, step, share, least_blur)
         if facing and gain < settled * scale * scale and share == 1.0:
             break
-        new_cost, new_total = np.inf, 0.0
+        new_cost = np.inf
         if facing and predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
-            new_cost, new_total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
+            light_up(at, numbers, light, lit)
+            new_cost = _cost(rows, values, lit, numbers, light, own, scale, cut)
         fallen = (cost - new_cost) / (scale * scale)
         if not fallen >= 0.0:
             rotation[:, :], translation[:], numbers[:] = old_rotation, old_translation, old
-            a[:, :], g[:] = old_a, old_g
             # As low as the picture's first order allows, or else a step too far.
             if fallen > -SETTLED_COST_SD2 or damping > 1.0:
                 break
             damping = max(100.0 * damping, 1e-2)
             continue
-        damping, cost, total = 0.1 * damping, new_cost, new_total
-        if share == 1.0 and fallen < SETTLED_COST_SD2:
-            break
+        damping *= 0.1
+        ends = share == 1.0 and fallen < SETTLED_COST_SD2
         typical = typical_sd(rows, values, lit, numbers[RESPONSE], own)
-        if abs(typical - scale) > 0.1 * scale:
+        if not ends and abs(typical - scale) > 0.1 * scale:
             scale = typical
             trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own)
-            cost, total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
+        cost, total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
+        if ends:
+            break
     return a, scale, total / own.sum(), True, seen
 
 
@@ -157,20 +171,14 @@ def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers
 
     With what is known beforehand: of two poses that leave as much, the one in stranger light is worse.
     """
-    n, count = len(values), len(numbers)
+    n = len(values)
     rows, at, lit, own = np.empty((10, n)), np.empty((n, 2)), np.empty((n, 2)), np.ones(n)
     blur = numbers[BLUR : BLUR + 3]
     if not predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, False):
         return np.inf
     light_up(at, numbers, light, lit)
     trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own)
-    cost, unit = 0.0, 1.0 / (cut * scale) ** 2
-    for i in range(n):
-        r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], numbers[RESPONSE])
-        z = r * r * own[i] * unit
-        cost += z / (1.0 + z)
-    held = hold(np.zeros((count, count)), np.zeros(count), numbers, scale, light)
-    return cost * cut * cut + held / (scale * scale)
+    return _cost(rows, values, lit, numbers, light, own, scale, cut) / (scale * scale)
 
 
 @compiled
@@ -182,9 +190,9 @@ def scores_spread(values, seen, numbers, light, scale, cut, inverse, blocks):
     """
     rows, at, lit, own = seen
     n = len(values)
-    moved, there = np.zeros((blocks * blocks, 6)), np.zeros(blocks * blocks)
+    scores, there = np.zeros((blocks * blocks, len(numbers))), np.zeros(blocks * blocks)
     spread = np.zeros((6, 6))
-    row, room = np.empty(LIGHT), (np.empty(AROUND, np.int64), np.empty(AROUND))
+    row, weight = np.empty(LIGHT), np.empty(AROUND)
     where, share = np.empty(MOST_SHARES, np.int64), np.empty(MOST_SHARES)
     unit = 1.0 / (cut * scale) ** 2
     weights, stiffness = 0.0, 0.0
@@ -196,16 +204,20 @@ def scores_spread(values, seen, numbers, light, scale, cut, inverse, blocks):
         stiffness += own[i] * (1.0 - 3.0 * z) / (1.0 + z) ** 3
         c = min(max(int((x + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
         b = min(max(int((y + NODES_REACH) * 0.5 / NODES_REACH * blocks), 0), blocks - 1)
-        block = b * blocks + c
-        there[block] = 1.0
-        shares = shares_of(x, y, shaped, lit[i, 1], numbers, light, room, where, share)
+        there[b * blocks + c] = 1.0
+        score = scores[b * blocks + c]
+        shares = shared_numbers(x, y, light, where)
+        shares_of(x, y, shaped, lit[i, 1], numbers, light, weight, share)
+        r *= w
+        for k in range(LIGHT):
+            score[k] += r * row[k]
+        for k in range(shares):
+            score[where[k]] += r * share[k]
+    moved = np.zeros((blocks * blocks, 6))
+    for block in range(blocks * blocks):
         for m in range(6):
-            one = 0.0
-            for k in range(LIGHT):
-                one += inverse[m, k] * row[k]
-            for k in range(shares):
-                one += inverse[m, where[k]] * share[k]
-            moved[block, m] += one * w * r
+            for k in range(len(numbers)):
+                moved[block, m] += inverse[m, k] * scores[block, k]
     count = there.sum()
     for block in range(blocks * blocks):
         for m in range(6):

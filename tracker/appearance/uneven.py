@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracker.appearance.fit import CUT, STRAIGHT_SD2, Fitted, again, cost_of, fitted
+from tracker.appearance.fit import CUT, ROUNDS, STRAIGHT_SD2, Fitted, again, cost_of, fitted, in_question
 from tracker.appearance.light.fields.kernels import (
     FREE,
     GLARING,
@@ -25,8 +25,8 @@ EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
 LEAST_PATTERN_SD2 = 80.0
 # Two fields explain what one does too, and by chance a little more.
 FREE_PRICE_SD2 = 50.0
-# So many pixels tell which light it is.
-TELLING_PIXELS = 2000
+# So many pixels, and so many steps, tell which light it is; one that then costs so much more is let go.
+TELLING_PIXELS, TELLING_ROUNDS, LET_GO_SD2 = 600, 2, 60.0
 
 
 def leaves_much(fits: list[Fitted], noise_grey: float) -> bool:
@@ -46,22 +46,22 @@ def is_uneven(seen: Samples, even: list[Fitted]) -> bool:
 def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float) -> list[Fitted]:
     """The same poses in the simplest light that explains the pixels; as they were where none does."""
     some = some_of(seen, TELLING_PIXELS)
-    light = _light_of(some, even[0], noise_grey)
-    if light is None:
+    first = _explained(some, even[0], noise_grey)
+    if first is None:
         return even
-    fits = [one for one in (_in_light(some, one, light) for one in even) if one is not None]
-    if not fits:
-        return even
+    others = [_begun(some, one, first.light[0], rounds=ROUNDS) for one in even[1:]]
+    fits = [first, *(one for one in others if one is not None)]
     return fits if some is seen else [one for one in (again(seen, one) for one in fits) if one is not None]
 
 
-def _light_of(seen: Samples, even: Fitted, noise_grey: float) -> tuple[int, int] | None:
-    """The light that explains the pixels at about this pose; None where nothing can be fitted."""
-    single = [_in_light(seen, even, (kind, NODES)) for kind in (SHADED, GLARING)]
-    fits = [one for one in single if one is not None]
+def _explained(seen: Samples, even: Fitted, noise_grey: float) -> Fitted | None:
+    """About this pose in the light that explains the pixels; None where nothing can be fitted."""
+    begun = [_begun(seen, even, kind) for kind in (SHADED, GLARING)]
+    told = in_question(seen, [one for one in begun if one is not None], LET_GO_SD2)
+    fits = [one for one in (again(seen, one) for one in told) if one is not None]
     # What leaves no more than noise leaves nothing to explain.
     if not fits or min(one.scale_grey for one in fits) > noise_grey:
-        free = _in_light(seen, even, (FREE, NODES))
+        free = _begun(seen, even, FREE, rounds=ROUNDS)
         fits += [] if free is None else [free]
     if not fits:
         return None
@@ -70,11 +70,14 @@ def _light_of(seen: Samples, even: Fitted, noise_grey: float) -> tuple[int, int]
     def price(one: Fitted) -> float:
         return cost_of(seen, one, scale) + (FREE_PRICE_SD2 if one.light[0] == FREE else 0.0)
 
-    return min(fits, key=price).light
+    return min(fits, key=price)
 
 
-def _in_light(seen: Samples, even: Fitted, light: tuple[int, int]) -> Fitted | None:
-    """The same pose in such a light."""
+def _begun(seen: Samples, even: Fitted, kind: int, *, rounds: int = TELLING_ROUNDS) -> Fitted | None:
+    """The same pose in such a light, after some steps."""
+    light = (kind, NODES)
     numbers = np.zeros(numbers_of(light))
     from_plain(even.numbers, light, numbers)
-    return fitted(seen, even.rotation, even.translation_mm, numbers, light=light, settled=STRAIGHT_SD2)
+    return fitted(
+        seen, even.rotation, even.translation_mm, numbers, light=light, settled=STRAIGHT_SD2, rounds=rounds
+    )

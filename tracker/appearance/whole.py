@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.appearance.equations.kernels import EVEN
-from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, again, cost_of, fitted
+from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, again, cost_of, fitted, in_question
 from tracker.appearance.kernels import scores_spread
-from tracker.appearance.light.fields.kernels import PLAIN, typical_contrast
+from tracker.appearance.light.fields.kernels import PLAIN, band_of, fields_first, typical_contrast
 from tracker.appearance.light.kernels import BLUR, RESPONSE
 from tracker.appearance.mirrored import with_mirrored
 from tracker.appearance.samples import CoveredAt, Samples, samples_of, some_of
@@ -105,26 +105,19 @@ def whole_fits(
         seen = chosen(blur)
         few = some_of(seen, FEW_PIXELS)
         near = [one for one in (again(few, one) for one in near) if one is not None]
+    if not near:
+        return []
     # Where even light leaves much, it has not been asked yet which of them is better.
-    if near and not leaves_much(near, noise_grey):
-        near = _in_question(few, near)
-    done = [one for one in (_at_all(seen, one) for one in near) if one is not None]
+    if not (much := leaves_much(near, noise_grey)):
+        near = in_question(few, near, OUT_OF_QUESTION_SD2)
+    done = _at_all(seen, near, noise_grey, much)
     if not done:
         return []
-    if is_uneven(seen, done):
-        done = in_light_that_explains(seen, done, noise_grey)
-        done = with_mirrored(seen, done, [start.rotation for start in starts])
+    done = with_mirrored(seen, done, [start.rotation for start in starts])
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
     records = [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
     return [one for one in records if one is not None]
-
-
-def _in_question(few: Samples, near: list[Fitted]) -> list[Fitted]:
-    """Those fits to the same few pixels that may be the best of all."""
-    scale = min(one.scale_grey for one in near)
-    costs = [cost_of(few, one, scale) for one in near]
-    return [one for one, cost in zip(near, costs, strict=True) if cost < min(costs) + OUT_OF_QUESTION_SD2]
 
 
 def _widest(near: list[Fitted], focus_px2: Array) -> Array | None:
@@ -141,17 +134,26 @@ def _near(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> Fitted
     return fitted(few, start.rotation, start.translation_mm, numbers, light=(PLAIN, 0))
 
 
-def _at_all(seen: Samples, near: Fitted) -> Fitted | None:
-    """The same by all pixels."""
+def _at_all(seen: Samples, near: list[Fitted], noise_grey: float, much: bool) -> list[Fitted]:
+    """The same by all pixels, in the light that explains them; `much`: whether even light leaves much."""
     some = some_of(seen, SOME_PIXELS)
-    nearer = near if some is seen else again(some, near)
-    return None if nearer is None else again(seen, nearer)
+    done = _by(some, near)
+    if not (much and done and is_uneven(some, done)):
+        done = done if some is seen else _by(seen, done)
+        if not done or not is_uneven(seen, done):
+            return done
+    return in_light_that_explains(seen, done, noise_grey)
+
+
+def _by(seen: Samples, near: list[Fitted]) -> list[Fitted]:
+    """The same by these pixels; those that fail are left out."""
+    return [one for one in (again(seen, one) for one in near) if one is not None]
 
 
 def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
     """What the fit says of the pose; None where it says nothing."""
     # What is known beforehand is in the matrix: it needs no ridge.
-    rows, is_told = pose_rows(one.matrix, 0.0)
+    rows, is_told = pose_rows(one.matrix, fields_first(one.light), band_of(one.light), 0.0)
     if not is_told:
         return None
     alone = np.ascontiguousarray(rows[:, :6]) * one.scale_grey**2

@@ -54,65 +54,94 @@ def turn_by(rotation, w):
 
 
 @compiled
-def _factor(a, ridge, lower, d):
+def _factor(a, ridge, band, upper, d):
     """Cholesky factor of a symmetric positive definite matrix (n, n), scaled to a unit diagonal by `d` (n,).
 
-    False where it is not positive. `ridge` is added to that diagonal. Scaled, because mm and radians differ
-    by orders of magnitude. What is 0 before the first number of a row stays so, and costs nothing.
+    Read and written is the upper half alone. False where it is not positive. `ridge` is added to that
+    diagonal. Scaled, because mm and radians differ by orders of magnitude. `band`: so many of the numbers
+    come first and meet only those that are less than so far beyond them, and all that come after these.
     """
     n = len(d)
-    first = np.zeros(n, np.int64)
+    banded, wide = band
     for i in range(n):
         if not a[i, i] > 0.0:
             return False
-        d[i] = np.sqrt(a[i, i])
-        while a[i, first[i]] == 0.0:
-            first[i] += 1
+        d[i] = 1.0 / np.sqrt(a[i, i])
     for i in range(n):
-        for j in range(first[i], i + 1):
-            rest = a[i, j] / (d[i] * d[j]) + (ridge if i == j else 0.0)
-            for k in range(max(first[i], first[j]), j):
-                rest -= lower[i, k] * lower[j, k]
-            if i == j:
-                if not rest > 1e-13:
-                    return False
-                lower[i, i] = np.sqrt(rest)
-            else:
-                lower[i, j] = rest / lower[j, j]
+        row, source = upper[i], a[i]
+        for k in range(i, min(i + wide, banded)):
+            row[k] = source[k] * d[i] * d[k]
+        for k in range(max(i, banded), n):
+            row[k] = source[k] * d[i] * d[k]
+        row[i] += ridge
+    for i in range(n):
+        row, end = upper[i], min(i + wide, banded)
+        if not row[i] > 1e-13:
+            return False
+        row[i] = np.sqrt(row[i])
+        unit = 1.0 / row[i]
+        for k in range(i + 1, end):
+            row[k] *= unit
+        for k in range(max(i + 1, banded), n):
+            row[k] *= unit
+        for j in range(i + 1, end):
+            to, by = upper[j], row[j]
+            for k in range(j, end):
+                to[k] -= by * row[k]
+            for k in range(banded, n):
+                to[k] -= by * row[k]
+        for j in range(max(i + 1, banded), n):
+            to, by = upper[j], row[j]
+            for k in range(j, n):
+                to[k] -= by * row[k]
     return True
 
 
 @compiled
-def _substitute(lower, d, g, out):
+def _substitute(upper, d, band, g, out):
     """Solve for one right-hand side (n,) by a factor, into `out`."""
     n = len(g)
+    banded, wide = band
     for i in range(n):
-        rest = g[i] / d[i]
-        for k in range(i):
-            rest -= lower[i, k] * out[k]
-        out[i] = rest / lower[i, i]
+        out[i] = g[i] * d[i]
+    for i in range(n):
+        row = upper[i]
+        out[i] /= row[i]
+        for k in range(i + 1, min(i + wide, banded)):
+            out[k] -= row[k] * out[i]
+        for k in range(max(i + 1, banded), n):
+            out[k] -= row[k] * out[i]
     for i in range(n - 1, -1, -1):
-        rest = out[i]
-        for k in range(i + 1, n):
-            rest -= lower[k, i] * out[k]
-        out[i] = rest / lower[i, i]
+        row, rest = upper[i], out[i]
+        for k in range(i + 1, min(i + wide, banded)):
+            rest -= row[k] * out[k]
+        for k in range(max(i + 1, banded), n):
+            rest -= row[k] * out[k]
+        out[i] = rest / row[i]
     for i in range(n):
-        out[i] /= d[i]
+        out[i] *= d[i]
+
+
+@compiled
+def solve_banded(a, band, g, out):
+    """Solve a x = g for a symmetric positive definite matrix (n, n) into `out`; False where it is not.
+
+    Read is its upper half alone. `band`: how many of the numbers come first and meet only those less than so
+    far beyond them, and all that come after these. Its own, because NumPy's in compiled code raises where
+    there is no answer, does not see that a matrix is not positive, and took a third longer with few unknowns.
+    """
+    n = len(g)
+    upper, d = np.empty((n, n)), np.empty(n)
+    if not _factor(a, RIDGE, band, upper, d):
+        return False
+    _substitute(upper, d, band, g, out)
+    return True
 
 
 @compiled
 def solve_positive(a, g, out):
-    """Solve a x = g for a symmetric positive definite matrix (n, n) into `out`; False where it is not.
-
-    Its own, because NumPy's in compiled code raises where there is no answer, does not see that a matrix is
-    not positive, and took a third longer with so few unknowns.
-    """
-    n = len(g)
-    lower, d = np.zeros((n, n)), np.empty(n)
-    if not _factor(a, RIDGE, lower, d):
-        return False
-    _substitute(lower, d, g, out)
-    return True
+    """The same where each number meets all others."""
+    return solve_banded(a, (0, 0), g, out)
 
 
 @compiled
@@ -139,21 +168,29 @@ def could_be_tilted(squares, squared_area, least_ratio):
 
 
 @compiled
-def pose_rows(matrix, ridge):
+def pose_rows(matrix, order, band, ridge):
     """The first six rows (6, n) of the inverse of a positive matrix (n, n), and False where it has none.
 
-    A fit's matrix starts with the pose: its part (6, 6) is what the fit says of the pose alone. `ridge`: of
-    the unit diagonal that the matrix is scaled to; it bounds what is hardly known.
+    A fit's matrix starts with the pose: its part (6, 6) is what the fit says of the pose alone. `order` (n,):
+    in which the numbers are solved for, and their `band` in it. `ridge`: of the unit diagonal that the matrix
+    is scaled to; it bounds what is hardly known.
     """
     n = len(matrix)
-    lower, d, unit = np.zeros((n, n)), np.empty(n), np.zeros(n)
-    rows = np.empty((6, n))
-    if not _factor(matrix, ridge, lower, d):
+    upper, d, ordered = np.empty((n, n)), np.empty(n), np.empty((n, n))
+    unit, out, rows = np.zeros(n), np.empty(n), np.empty((6, n))
+    for i in range(n):
+        for j in range(i, n):
+            ordered[i, j] = matrix[order[i], order[j]]
+    if not _factor(ordered, ridge, band, upper, d):
         return rows, False
-    for k in range(6):
-        unit[k] = 1.0
-        _substitute(lower, d, unit, rows[k])
-        unit[k] = 0.0
+    for i in range(n):
+        if order[i] > 5:
+            continue
+        unit[i] = 1.0
+        _substitute(upper, d, band, unit, out)
+        unit[i] = 0.0
+        for j in range(n):
+            rows[order[i], order[j]] = out[j]
     for k in range(6):
         for m in range(k):
             rows[m, k] = rows[k, m] = 0.5 * (rows[m, k] + rows[k, m])
@@ -202,11 +239,11 @@ def products_of_four(one, rows, count):
 def mean_ratio(a, b):
     """Mean ratio of a symmetric matrix `b` (n, n) to a positive one `a`, over all ways; 0 where it is not."""
     n = len(a)
-    lower, d, out = np.zeros((n, n)), np.empty(n), np.empty(n)
-    if not _factor(a, 0.0, lower, d):
+    upper, d, out = np.empty((n, n)), np.empty(n), np.empty(n)
+    if not _factor(a, 0.0, (0, 0), upper, d):
         return 0.0
     total = 0.0
     for k in range(n):
-        _substitute(lower, d, b[k], out)
+        _substitute(upper, d, (0, 0), b[k], out)
         total += out[k]
     return total / n

@@ -22,6 +22,7 @@ LEAST_RESIDUAL_PX = 0.03
 # that are near to each other. Measured on rendered scenes, where the truth is known.
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
 MOST_MIRRORINGS = 5
+IN_ORDER, NO_BAND = np.arange(PARAMETERS), (0, 0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,7 +151,7 @@ def _fit(
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)
     variance *= max(CORRELATION_LENGTH_PX / spacing, 1.0)
     variance += SIDE_BIAS_PX**2 * count / INDEPENDENT_SIDES
-    inverse, is_told = pose_rows(matrix, RIDGE)
+    inverse, is_told = pose_rows(matrix, IN_ORDER, NO_BAND, RIDGE)
     if not is_told:
         return None
     return Fit(

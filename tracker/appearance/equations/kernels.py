@@ -8,7 +8,7 @@ from tracker.appearance.light.fields.kernels import (
     PLAIN,
     by_cells,
     hold_light,
-    light_up,
+    shared_numbers,
     shares_of,
     typical_contrast,
 )
@@ -23,6 +23,8 @@ RESPONSE_SD = 0.3
 LEAST_SCALE_GREY = 0.3
 # What lies beyond the paper is unknown: a whole contrast brighter or darker.
 BEYOND_CONTRAST = 1.0
+# Numbers that a pixel in uneven light sees, at most, and about half of them.
+WIDEST, HALF = LIGHT + MOST_SHARES, 12
 
 
 @compiled
@@ -111,48 +113,66 @@ def _uneven_equations(rows, at, values, lit, numbers, light, own, unit, a, g):
     nodes, response, n = light[1], numbers[RESPONSE], len(values)
     order, begins = np.empty(n, np.int64), np.empty((nodes - 2) ** 2 + 1, np.int64)
     by_cells(at, nodes, order, begins)
-    row, near = np.empty(LIGHT), (np.empty(AROUND, np.int64), np.empty(AROUND))
-    where, share = np.empty(MOST_SHARES, np.int64), np.empty(MOST_SHARES)
-    all_slopes, left, weights = np.empty((LIGHT + MOST_SHARES, MANY)), np.empty(MANY), np.empty(MANY)
-    room, all_there = np.empty(MANY), np.empty(LIGHT + MOST_SHARES, np.int64)
+    there, room = np.arange(WIDEST), np.empty(AROUND)
+    four, weights = np.zeros((4, WIDEST)), np.zeros(4)
+    products, sides = np.empty((WIDEST, WIDEST)), np.empty(WIDEST)
     cost, total = 0.0, 0.0
     for cell in range(len(begins) - 1):
         begin, end = begins[cell], begins[cell + 1]
-        while begin < end:
-            count = min(MANY, end - begin)
-            shares = 0
-            for k in range(count):
-                i = order[begin + k]
-                shaped, left[k], weights[k], one = weighed_pixel(
-                    rows, i, values[i], lit, response, own, unit, row
-                )
-                cost += one
-                total += weights[k]
-                shares = shares_of(at[i, 0], at[i, 1], shaped, lit[i, 1], numbers, light, near, where, share)
-                all_slopes[:LIGHT, k] = row
-                all_slopes[LIGHT : LIGHT + shares, k] = share[:shares]
-            many = LIGHT + shares
-            slopes, there = all_slopes[:many], all_there[:many]
-            for m in range(many):
-                there[m] = m if m < LIGHT else where[m - LIGHT]
-            _add_cell(slopes, there, left, weights, count, room, a, g)
-            begin += count
+        if begin == end:
+            continue
+        products[:, :], sides[:] = 0.0, 0.0
+        first, many = order[begin], 0
+        count = LIGHT + shared_numbers(at[first, 0], at[first, 1], light, there[LIGHT:])
+        for k in range(begin, end):
+            i, row = order[k], four[many]
+            shaped, r, weights[many], one = weighed_pixel(rows, i, values[i], lit, response, own, unit, row)
+            shares_of(at[i, 0], at[i, 1], shaped, lit[i, 1], numbers, light, room, row[LIGHT:])
+            cost += one
+            total += weights[many]
+            r *= weights[many]
+            for m in range(WIDEST):
+                sides[m] += r * row[m]
+            many += 1
+            if many == 4:
+                _add_four(four, weights, count, products)
+                many = 0
+        if many > 0:
+            weights[many:] = 0.0
+            _add_four(four, weights, count, products)
+        _put(products, sides, there[:count], a, g)
     return cost / unit, total
 
 
 @compiled
-def _add_cell(slopes, there, left, weights, count, room, a, g):
-    """Add pixels' derivatives (m, many) to the normal equations of the numbers that they are by, `there`."""
-    many = len(there)
-    own = np.zeros((many, many))
-    add_products(slopes, weights, count, room, own)
-    for m in range(many):
-        total = 0.0
-        for k in range(count):
-            total += weights[k] * left[k] * slopes[m, k]
-        g[there[m]] += total
-        for k in range(many):
-            a[there[m], there[k]] += own[m, k]
+def _add_four(four, weights, count, products):
+    """Add the weighted products of the first numbers of four pixels' rows (4, WIDEST) with one another.
+
+    The lower half alone is right.
+    """
+    r0, r1, r2, r3 = four[0], four[1], four[2], four[3]
+    for m in range(count):
+        w0, w1, w2, w3 = weights[0] * r0[m], weights[1] * r1[m], weights[2] * r2[m], weights[3] * r3[m]
+        line = products[m]
+        # As many each time, so that the machine takes all of a row in few steps.
+        for k in range(HALF):
+            line[k] += w0 * r0[k] + w1 * r1[k] + w2 * r2[k] + w3 * r3[k]
+        if m >= HALF:
+            for k in range(HALF, WIDEST):
+                line[k] += w0 * r0[k] + w1 * r1[k] + w2 * r2[k] + w3 * r3[k]
+
+
+@compiled
+def _put(products, sides, there, a, g):
+    """Add the products and sides of some numbers to the normal equations, where `there` has them."""
+    for m in range(len(there)):
+        i = there[m]
+        g[i] += sides[m]
+        a[i, i] += products[m, m]
+        for k in range(m):
+            j = there[k]
+            a[i, j] += products[m, k]
+            a[j, i] += products[m, k]
 
 
 @compiled
@@ -171,7 +191,6 @@ def equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g):
     """The normal equations with what is known beforehand in them; returns their cost and weight."""
     a[:, :] = 0.0
     g[:] = 0.0
-    light_up(at, numbers, light, lit)
     unit = 1.0 / (cut * scale) ** 2
     if light[0] == PLAIN:
         cost, total = _even_equations(rows, at, values, lit, numbers, own, unit, a, g)

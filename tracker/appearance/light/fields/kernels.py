@@ -61,6 +61,16 @@ def fields_first(light):
 
 
 @compiled
+def band_of(light):
+    """How many of the fields' numbers there are, and how far apart in that order those are that meet."""
+    kind, nodes = light
+    if kind == PLAIN:
+        return 0, 0
+    fields = 2 if kind == FREE else 1
+    return fields * nodes * nodes, fields * (2 * nodes + 3)
+
+
+@compiled
 def _in_cells(x, y, nodes):
     """A point in half sides, in cells of the net to the right and upwards."""
     cells = nodes - 2
@@ -88,8 +98,8 @@ def by_cells(at, nodes, order, begins):
 
 
 @compiled
-def _cell_of(x, y, nodes, index, weight):
-    """The nine nodes around a point in half sides, into `index` (9,), and their weights (9,).
+def _cell_of(x, y, nodes, weight):
+    """The first of the nine nodes around a point in half sides, and into `weight` (9,) what each is of it.
 
     A quadratic B-spline: glare is round on the scale of its net, and straight lines between nodes were off
     by several grey levels.
@@ -98,12 +108,23 @@ def _cell_of(x, y, nodes, index, weight):
     c, r = int(fx), int(fy)
     fx -= c
     fy -= r
-    wx = (0.5 * (1 - fx) ** 2, 0.5 + fx - fx * fx, 0.5 * fx * fx)
-    wy = (0.5 * (1 - fy) ** 2, 0.5 + fy - fy * fy, 0.5 * fy * fy)
-    for j in range(3):
-        for i in range(3):
-            index[3 * j + i] = (r + j) * nodes + c + i
-            weight[3 * j + i] = wy[j] * wx[i]
+    left, middle, right = 0.5 * (1 - fx) ** 2, 0.5 + fx - fx * fx, 0.5 * fx * fx
+    wy = 0.5 * (1 - fy) ** 2
+    weight[0], weight[1], weight[2] = wy * left, wy * middle, wy * right
+    wy = 0.5 + fy - fy * fy
+    weight[3], weight[4], weight[5] = wy * left, wy * middle, wy * right
+    wy = 0.5 * fy * fy
+    weight[6], weight[7], weight[8] = wy * left, wy * middle, wy * right
+    return r * nodes + c
+
+
+@compiled
+def _field_at(field, first, nodes, weight):
+    """A field (nodes^2,) between the nine nodes from the first on."""
+    upper, middle, lower = field[first:], field[first + nodes :], field[first + 2 * nodes :]
+    total = weight[0] * upper[0] + weight[1] * upper[1] + weight[2] * upper[2]
+    total += weight[3] * middle[0] + weight[4] * middle[1] + weight[5] * middle[2]
+    return total + weight[6] * lower[0] + weight[7] * lower[1] + weight[8] * lower[2]
 
 
 @compiled
@@ -116,17 +137,13 @@ def light_up(at, numbers, light, lit):
             lit[i, 0] = d + dx * at[i, 0] + dy * at[i, 1]
             lit[i, 1] = c + cx * at[i, 0] + cy * at[i, 1]
         return
-    index, weight = np.empty(AROUND, np.int64), np.empty(AROUND)
-    both = nodes * nodes
-    rest = numbers[LIGHT + both :]
+    weight, both = np.empty(AROUND), nodes * nodes
+    first_field, rest = numbers[LIGHT : LIGHT + both], numbers[LIGHT + both :]
     for i in range(len(at)):
         x, y = at[i, 0], at[i, 1]
-        _cell_of(x, y, nodes, index, weight)
-        field, second = 0.0, 0.0
-        for k in range(AROUND):
-            field += weight[k] * numbers[LIGHT + index[k]]
-            if kind == FREE:
-                second += weight[k] * rest[index[k]]
+        first = _cell_of(x, y, nodes, weight)
+        field = _field_at(first_field, first, nodes, weight)
+        second = _field_at(rest, first, nodes, weight) if kind == FREE else 0.0
         if kind == SHADED:
             lit[i, 0], lit[i, 1] = rest[1] + rest[0] * field, field
         elif kind == GLARING:
@@ -136,36 +153,46 @@ def light_up(at, numbers, light, lit):
 
 
 @compiled
-def shares_of(x, y, shaped, contrast, numbers, light, room, where, share):
-    """By how much each number of the light lights a pixel: which ones into `where`, and `share`; how many.
+def shared_numbers(x, y, light, where):
+    """Which numbers of the light light a pixel, and all others in its cell of the net; how many.
 
-    `shaped`: what the pixel sees of the picture, 0..1. `room`: indices (9,) and weights (9,).
+    Into `where`, in the order of `shares_of`.
     """
     kind, nodes = light
     if kind == PLAIN:
         for k in range(PLANE):
             where[k] = LIGHT + k
+        return PLANE
+    fx, fy = _in_cells(x, y, nodes)
+    first, rest = LIGHT + int(fy) * nodes + int(fx), LIGHT + nodes * nodes
+    for k in range(AROUND):
+        where[k] = first + k // 3 * nodes + k % 3
+        where[AROUND + k] = where[k] + nodes * nodes if kind == FREE else rest + k
+    return AROUND + (AROUND if kind == FREE else (2 if kind == SHADED else 3))
+
+
+@compiled
+def shares_of(x, y, shaped, contrast, numbers, light, weight, share):
+    """By how much each of its numbers of the light lights a pixel, into `share`.
+
+    `shaped`: what the pixel sees of the picture, 0..1. `weight` (9,): room.
+    """
+    kind, nodes = light
+    if kind == PLAIN:
         share[0], share[1], share[2] = 1.0, x, y
         share[3], share[4], share[5] = shaped, shaped * x, shaped * y
-        return PLANE
-    index, weight = room
-    _cell_of(x, y, nodes, index, weight)
-    rest = LIGHT + nodes * nodes
-    by_field = numbers[rest] + shaped if kind == SHADED else 1.0
+        return
+    _cell_of(x, y, nodes, weight)
+    by_field = numbers[LIGHT + nodes * nodes] + shaped if kind == SHADED else 1.0
     for k in range(AROUND):
-        where[k], share[k] = LIGHT + index[k], weight[k] * by_field
+        share[k] = weight[k] * by_field
     if kind == SHADED:
-        where[AROUND], share[AROUND] = rest, contrast
-        where[AROUND + 1], share[AROUND + 1] = rest + 1, 1.0
-        return AROUND + 2
-    if kind == GLARING:
-        for k in range(3):
-            where[AROUND + k] = rest + k
+        share[AROUND], share[AROUND + 1] = contrast, 1.0
+    elif kind == GLARING:
         share[AROUND], share[AROUND + 1], share[AROUND + 2] = shaped, shaped * x, shaped * y
-        return AROUND + 3
-    for k in range(AROUND):
-        where[AROUND + k], share[AROUND + k] = rest + index[k], weight[k] * shaped
-    return 2 * AROUND
+    else:
+        for k in range(AROUND):
+            share[AROUND + k] = weight[k] * shaped
 
 
 @compiled
