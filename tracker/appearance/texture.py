@@ -21,6 +21,8 @@ WORKING_SIDE = 480
 REACH_RATIO = 0.8
 # A texel is this part of the blur, so that straight lines between texels are the picture.
 TEXEL_BLURS = 0.45
+# Steepness is told to so fine a part: a byte holds it, and what is asked of it is a whole number of them.
+STEEPNESS = 200.0
 
 Texels = npt.NDArray[np.float32]
 
@@ -36,7 +38,8 @@ class Textures:
         sizes: (k,), texels a side.
         blurs_ratio: (k,), sd of the blur in sides, ascending.
         texels_ratio: (k,), width of a texel in sides.
-        steepest: (k,), the steepest slope of each, by one side.
+        steepness: a byte for each texel, in their order: by how many `STEEPNESS`ths of the steepest slope of
+            its picture it is steep, rounded up.
     """
 
     texels: Texels
@@ -44,12 +47,12 @@ class Textures:
     sizes: npt.NDArray[np.int64]
     blurs_ratio: Array
     texels_ratio: Array
-    steepest: Array
+    steepness: npt.NDArray[np.uint8]
 
     @cached_property
     def arrays(self) -> tuple[np.ndarray, ...]:
         """As the compiled loops take them."""
-        return self.texels, self.starts, self.sizes, self.blurs_ratio, self.texels_ratio, self.steepest
+        return self.texels, self.starts, self.sizes, self.blurs_ratio, self.texels_ratio, self.steepness
 
 
 def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
@@ -78,8 +81,14 @@ def textures_of(square: npt.NDArray[np.uint8]) -> Textures:
         sizes=np.array(sizes, np.int64),
         blurs_ratio=blurs,
         texels_ratio=np.asarray(TEXEL_BLURS * blurs, np.float64),
-        steepest=np.array([np.hypot(part[..., 1], part[..., 2]).max() for part in parts], np.float64),
+        steepness=np.concatenate([_steepness_of(part) for part in parts]),
     )
+
+
+def _steepness_of(part: Texels) -> npt.NDArray[np.uint8]:
+    """How steep each of some texels (n, n, 3) is (n * n,), as in `Textures`."""
+    slope = np.hypot(part[..., 1], part[..., 2]).ravel()
+    return np.asarray(np.ceil(slope * (STEEPNESS / slope.max())), dtype=np.uint8)
 
 
 def _on_paper(square: npt.NDArray[np.uint8]) -> tuple[Texels, float, float]:

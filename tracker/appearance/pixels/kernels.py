@@ -4,6 +4,7 @@ import numpy as np
 
 from tracker.appearance.picture.kernels import footprint
 from tracker.appearance.taps.kernels import in_sides
+from tracker.appearance.texture import STEEPNESS
 from tracker.camera.blur.kernels import level_of
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
@@ -42,17 +43,22 @@ def _extent(rotation, translation, lens, reach_mm, step, width, height, outline)
 
 
 @compiled
-def _steep(texels, first, size, texel, least2, x, y):
-    """Whether the picture is steep at the texel next to (x, y) in sides."""
-    c = min(max(int(x / texel + 0.5 * size), 0), size - 1)
-    r = min(max(int(0.5 * size - y / texel), 0), size - 1)
-    i = first + 3 * (r * size + c)
-    return texels[i + 1] ** 2 + texels[i + 2] ** 2 > least2
+def _texels_under(row_at, count, first, size, texel, under):
+    """Into `under` (n,): the texel next to each point of a row (2, n) in sides."""
+    xs, ys = row_at[0], row_at[1]
+    half, unit, last = 0.5 * size, 1.0 / texel, size - 1
+    for k in range(count):
+        c = min(max(int(xs[k] * unit + half), 0), last)
+        r = min(max(int(half - ys[k] * unit), 0), last)
+        under[k] = first + r * size + c
 
 
 @compiled
 def _value(image, step, r, c):
     """The mean of a block of step x step pixels, -1 where it is brighter than the camera can tell."""
+    if step == 1:
+        one = image[r, c]
+        return float(one) if one < BRIGHTEST else -1.0
     total = 0
     for i in range(step):
         for j in range(step):
@@ -101,27 +107,39 @@ def _row_extent(outline, row, least, most):
 
 
 @compiled
-def _row_on_plane(r, c0, count, step, lens, here, rotation, translation, side_mm, rays, at):
-    """Rays (n, 2) of a row of pixels and where they meet the marker's plane (2, n), in sides.
-
-    `here` (2,): a ray near the first of them.
-    """
+def _row_of_rays(r, c0, count, step, lens, here, rays):
+    """Rays (2, n) of a row of pixels. `here` (2,): a ray near the first of them, and that one afterwards."""
     half = 0.5 * (step - 1)
     v = step * r + half
-    middle, ahead, room = here.copy(), here.copy(), (np.empty((2, 3)), np.empty(3))
-    _look_along(step * c0 + half, v, lens, ahead, 4, room)
     xs, ys = rays[0], rays[1]
+    if lens[25] > 0.0:
+        # There is no lens.
+        for k in range(count):
+            xs[k], ys[k] = (step * (c0 + k) + half - lens[2]) / lens[0], (v - lens[3]) / lens[1]
+        return
+    room = (np.empty((2, 3)), np.empty(3))
+    _look_along(step * c0 + half, v, lens, here, 3, room)
+    start, middle, ahead = here.copy(), here.copy(), here.copy()
+    _look_along(step * (c0 + APART_PX) + half, v, lens, middle, 2, room)
     for first in range(0, count, 2 * APART_PX):
-        here[:], middle[:] = ahead, ahead
-        _look_along(step * (c0 + first + APART_PX) + half, v, lens, middle, 2, room)
-        ahead[:] = middle
-        _look_along(step * (c0 + first + 2 * APART_PX) + half, v, lens, ahead, 2, room)
+        if first > 0:
+            middle[:] = 2.0 * start - middle
+            _look_along(step * (c0 + first + APART_PX) + half, v, lens, middle, 1, room)
+        ahead[:] = 2.0 * middle - start
+        _look_along(step * (c0 + first + 2 * APART_PX) + half, v, lens, ahead, 1, room)
         # Over so few pixels a lens bends as a parabola does.
-        dx, dy = 0.5 * (ahead[0] - here[0]), 0.5 * (ahead[1] - here[1])
-        ddx, ddy = 0.5 * (ahead[0] + here[0]) - middle[0], 0.5 * (ahead[1] + here[1]) - middle[1]
+        dx, dy = 0.5 * (ahead[0] - start[0]), 0.5 * (ahead[1] - start[1])
+        ddx, ddy = 0.5 * (ahead[0] + start[0]) - middle[0], 0.5 * (ahead[1] + start[1]) - middle[1]
         for k in range(min(2 * APART_PX, count - first)):
             t = k / APART_PX - 1.0
             xs[first + k], ys[first + k] = middle[0] + t * (dx + t * ddx), middle[1] + t * (dy + t * ddy)
+        start[:] = ahead
+
+
+@compiled
+def _row_on_plane(count, rotation, translation, side_mm, rays, at):
+    """Where a row's rays (2, n) meet the marker's plane (2, n), in sides."""
+    xs, ys = rays[0], rays[1]
     r00, r10, r20 = rotation[0, 0] / side_mm, rotation[1, 0] / side_mm, rotation[2, 0] / side_mm
     r01, r11, r21 = rotation[0, 1] / side_mm, rotation[1, 1] / side_mm, rotation[2, 1] / side_mm
     nx, ny, nz = rotation[0, 2], rotation[1, 2], rotation[2, 2]
@@ -147,7 +165,7 @@ def collect(
     many of the others. Fills `rays` (n, 2), their directions with the lens taken out, and `values` (n,);
     returns how many.
     """
-    texels, starts, sizes, blurs, widths, steepest = tex
+    _, starts, sizes, blurs, widths, steepness = tex
     height, width = image.shape
     outline = np.empty((4, 2))
     c0, c1, r0, r1 = _extent(rotation, translation, lens, reach_ratio * side_mm, step, width, height, outline)
@@ -156,23 +174,25 @@ def collect(
         return 0
     m00, _, m11 = in_sides(ahead, blur)
     level = level_of(max(m00, m11), blurs)
-    first, size, texel = starts[level], sizes[level], widths[level]
-    least2 = (slope_ratio * steepest[level]) ** 2
-    n, flat = 0, 0
+    size, texel = sizes[level], widths[level]
+    least, n, flat = slope_ratio * STEEPNESS, 0, 0
     here = np.empty(2)
     here[0], here[1] = translation[0] / translation[2], translation[1] / translation[2]
     row_rays, row_at = np.empty((2, c1 - c0 + 1)), np.empty((2, c1 - c0 + 1))
+    under = np.empty(c1 - c0 + 1, np.int64)
     for r in range(r0, r1 + 1):
         begin, end = _row_extent(outline, r, c0, c1)
         count = end - begin + 1
         if count < 1:
             continue
-        _row_on_plane(r, begin, count, step, lens, here, rotation, translation, side_mm, row_rays, row_at)
+        _row_of_rays(r, begin, count, step, lens, here, row_rays)
+        _row_on_plane(count, rotation, translation, side_mm, row_rays, row_at)
+        # Three floats are a texel.
+        _texels_under(row_at, count, starts[level] // 3, size, texel, under)
         for k in range(count):
-            px, py = row_at[0, k], row_at[1, k]
-            if abs(px) > reach_ratio or abs(py) > reach_ratio:
+            if abs(row_at[0, k]) > reach_ratio or abs(row_at[1, k]) > reach_ratio:
                 continue
-            if not _steep(texels, first, size, texel, least2, px, py):
+            if steepness[under[k]] <= least:
                 flat += 1
                 if flat % stride != 0:
                     continue
