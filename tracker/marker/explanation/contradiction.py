@@ -13,9 +13,10 @@ import numpy as np
 from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import LEAST_AREA_RATIO
-from tracker.marker.explanation.cover.kernels import wrong_pieces
-from tracker.marker.explanation.fit import Fit, inside_square
-from tracker.marker.explanation.kernels import FIELDS, RING, WIDE, likeness
+from tracker.marker.explanation.cover.kernels import contradicting
+from tracker.marker.explanation.fit import field_px_of, first_blur_of, inside_square
+from tracker.marker.explanation.kernels import FIELDS
+from tracker.marker.explanation.light import smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 
 # A flipped part differs by one whole contrast; blur and its bleeding take up to half of it.
@@ -24,7 +25,6 @@ CONTRADICTION = 0.45
 # marker itself has 0.9 and more in plain light. Few pixels say little: what is small must say it clearly.
 LIKENESS_SIDES_PX, LEAST_LIKENESS = (20.0, 32.0, 40.0, 48.0), (0.88, 0.80, 0.80, 0.70)
 LIGHT_ROUNDS = 4
-SQUARE = np.s_[RING:-RING, RING:-RING]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,22 +58,22 @@ def contradiction_of(
 
     `corners_px` are pixels of `image`: top-left, top-right, bottom-right, bottom-left of the printed face.
     """
-    least = float(np.interp(side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
-    fit = Fit(image, pictures_of(square), corners_px, side_px)
-    fit.look()
-    fit.visible, fit.gains = inside_square().copy(), np.ones((WIDE * WIDE, 1))
-    if not fit.walk(LIGHT_ROUNDS, free=0):
-        return Contradiction(inside_ratio=0.0, covered_ratio=1.0, likeness=-1.0, least_likeness=least)
-    labels = np.zeros((WIDE, WIDE), np.int64)
-    rest, gain = (np.ascontiguousarray(one[SQUARE]) for one in (fit.rest, fit.gain))
-    areas = wrong_pieces(rest, gain, 0, CONTRADICTION, 1, labels[SQUARE])
-    fit.visible &= labels != -1
-    covered = 1.0 - float(fit.visible[SQUARE].mean())
-    # What is covered has no say, everything else the same: so it is a correlation.
-    alike = likeness(fit.seen, fit.rest, fit.visible, fit.light, 0.0) if fit.walk(1, free=0) else -1.0
+    pictures, field_px = pictures_of(square), field_px_of(side_px)
+    largest, covered, alike = contradicting(
+        image,
+        np.ascontiguousarray(corners_px, dtype=np.float64),
+        pictures.layers,
+        pictures.blurs_fields,
+        first_blur_of(field_px),
+        field_px,
+        smooth_light(2),
+        inside_square(),
+        LIGHT_ROUNDS,
+        CONTRADICTION,
+    )
     return Contradiction(
-        inside_ratio=float(areas.max(initial=0)) / FIELDS**2,
+        inside_ratio=largest / FIELDS**2,
         covered_ratio=covered,
-        likeness=float(alike),
-        least_likeness=least,
+        likeness=alike,
+        least_likeness=float(np.interp(side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS)),
     )

@@ -27,6 +27,7 @@ from tracker.marker.sampling.kernels import even_light, square_to_quad
 
 # Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
 FIRST_BLUR_PX, WIDE_BLUR_SIDES = 0.8, 0.05
+LEAST_SIDE_PX = 8.0
 # What is compared with what is around it: a sixth of a side away sees the border and the paper at once.
 AROUND_FIELDS, PICTURE_GREY = 4, 100.0
 SQUARE = np.s_[RING:-RING, RING:-RING]
@@ -58,7 +59,7 @@ class Fit:
     def __init__(self, image: GreyImage, pictures: Pictures, corners_px: Array, side_px: float) -> None:
         self.image, self.pictures = image, pictures
         self.side_px = side_px
-        self.field_px = max(side_px, 8.0) / FIELDS
+        self.field_px = field_px_of(side_px)
         self.to_px = np.empty(8)
         square_to_quad(np.ascontiguousarray(corners_px, dtype=np.float64), self.to_px)
         self.corners: Array = UNIT.copy()
@@ -99,7 +100,7 @@ class Fit:
 
     def look(self, blur_px: float = FIRST_BLUR_PX) -> None:
         """See what is there, before anything is fitted, and the model out of focus by so much."""
-        self.blur = np.array([1.0, 1.0, 0.0]) * ((blur_px / self.field_px) ** 2 + SPREAD)
+        self.blur = np.array([1.0, 1.0, 0.0]) * first_blur_of(self.field_px, blur_px)
         self.seen = sample_fields(self.image, self.to_px, self.corners)
         picture_at(self.pictures.layers, self.pictures.blurs_fields, self.blur, self.shown)
 
@@ -169,6 +170,16 @@ def likeness_part_by_part(
     In shadow, glare and noise it tells more than a glance, and less where motion smears.
     """
     return Fit(image, pictures, corners_px, side_px).look_part_by_part()
+
+
+def field_px_of(side_px: float) -> float:
+    """How wide a field of a square is, in px."""
+    return max(side_px, LEAST_SIDE_PX) / FIELDS
+
+
+def first_blur_of(field_px: float, blur_px: float = FIRST_BLUR_PX) -> float:
+    """The variance of a blur, and of the spread of a field's samples, in fields."""
+    return (blur_px / field_px) ** 2 + SPREAD
 
 
 @cache

@@ -4,7 +4,18 @@ import numpy as np
 
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
-from tracker.marker.explanation.kernels import SATURATED_GREY, WIDE, u_of
+from tracker.marker.explanation.kernels import (
+    FIELDS,
+    RING,
+    SATURATED_GREY,
+    WIDE,
+    likeness,
+    picture_at,
+    sample_fields,
+    u_of,
+    walk,
+)
+from tracker.marker.sampling.kernels import square_to_quad
 
 
 @compiled
@@ -157,3 +168,48 @@ def weights_of_a_part(seen, picture, angles, places, limit, weight):
             off /= limit * best[3]
             weight[r, c] = 1.0 / (1.0 + off * off) ** 2
     return True
+
+
+@compiled
+def contradicting(image, corners_px, layers, blurs, blur, field_px, light, inside, rounds, limit):
+    """Fields of the largest piece in a square that contradicts a model; the part that is covered; likeness.
+
+    The model's `layers`, as `Pictures` has them, are out of focus by `blur` (variance in fields). Fitted is
+    the `light` (WIDE^2, n) alone, in so many rounds. `inside` (WIDE, WIDE): which fields are the square's.
+    Covered is the part of it that pieces over its border hide, off by more than `limit` of the contrast. The
+    likeness, -1..1, is that of the rest; -1 where there is nothing of the model.
+    """
+    to_px, corners, blur_here = np.empty(8), np.zeros((4, 2)), np.array([blur, blur, 0.0])
+    square_to_quad(corners_px, to_px)
+    corners[1, 0] = corners[2, 0] = corners[2, 1] = corners[3, 1] = 1.0
+    seen, shown = sample_fields(image, to_px, corners), np.empty((6, WIDE, WIDE), np.float32)
+    picture_at(layers, blurs, blur_here, shown)
+    visible, even = inside.copy(), np.ones((WIDE * WIDE, 1))
+    held, weight = np.ones((WIDE, WIDE)), np.ones((WIDE, WIDE))
+    rest, lit = np.empty((WIDE, WIDE)), np.empty((WIDE, WIDE))
+    contrast = walk(
+        image, to_px, layers, blurs, corners, blur_here, held, visible, weight, light, even, field_px, rounds,
+        0, seen, shown, rest, lit,
+    )  # fmt: skip
+    if not contrast > 0.0:
+        return 0, 1.0, -1.0
+    labels, end = np.zeros((FIELDS, FIELDS), np.int64), RING + FIELDS
+    own_rest, own_lit = rest[RING:end, RING:end].copy(), lit[RING:end, RING:end].copy()
+    areas = wrong_pieces(own_rest, own_lit, 0, limit, 1, labels)
+    largest, hidden = 0, 0
+    for area in areas:
+        largest = max(largest, area)
+    for r in range(FIELDS):
+        for c in range(FIELDS):
+            if labels[r, c] == -1:
+                visible[RING + r, RING + c] = False
+            hidden += not visible[RING + r, RING + c]
+    weight[:, :] = 1.0
+    contrast = walk(
+        image, to_px, layers, blurs, corners, blur_here, held, visible, weight, light, even, field_px, 1, 0,
+        seen, shown, rest, lit,
+    )  # fmt: skip
+    if not contrast > 0.0:
+        return largest, hidden / FIELDS**2, -1.0
+    # What is covered has no say, everything else the same: so it is a correlation.
+    return largest, hidden / FIELDS**2, likeness(seen, rest, visible, light, 0.0)
