@@ -9,6 +9,8 @@ from tracker.pose.sighting import Seen, Sighting, Unseen, UnseenReason
 def one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
     """Where two markers are claimed on one square, the one that fits it better; the other is not there."""
     kept = dict(sightings)
+    if sum(isinstance(sighting, Seen) for sighting in sightings.values()) < 2:
+        return kept
     names = sorted(sightings, key=lambda name: worth_of(sightings[name]), reverse=True)
     places: list[Seen] = []
     for name in names:

@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
+from tracker.geometry import Camera, Marker, Rigid, vector_from_rotation
+from tracker.geometry.kernels import turn_between, turn_by
 from tracker.pose.planar import other_solution
 from tracker.pose.rivals import Expected
 from tracker.pose.sighting import Seen, Sighting
@@ -38,7 +39,8 @@ class Prior:
         if self.pose is None or not 0.0 < ahead <= LONGEST_AHEAD_S:
             return None
         translation = self.pose.translation_mm + self.velocity_mm_s * ahead
-        rotation = rotation_from_vector(self.turning_rad_s * ahead) @ self.pose.rotation
+        rotation = self.pose.rotation.copy()
+        turn_by(rotation, self.turning_rad_s * ahead)
         if translation[2] <= 1.0 or float(rotation[:, 2] @ translation) >= 0.0:
             return None
         pose: Rigid[Camera, Marker] = Rigid(rotation=rotation, translation_mm=translation)
@@ -61,16 +63,14 @@ class Prior:
             now = sighting.camera_from_marker
             velocity = (now.translation_mm - self.pose.translation_mm) / interval
             # Faster than any hand: it was somewhere else before, and that says nothing of the next image.
-            if float(np.linalg.norm(velocity)) < MOST_SPEED_MM_S:
+            if float(velocity @ velocity) < MOST_SPEED_MM_S**2:
                 self.velocity_mm_s = velocity
             # From one planar solution to the other is no turn of the hand.
             before = (self.pose, other_solution(self.pose))
-            turned = min((_turn(now, pose) for pose in before), key=lambda turn: float(turn @ turn))
-            if float(np.linalg.norm(turned)) < MOST_TURN_RAD:
+            turns = [float(turn_between(now.rotation, pose.rotation)) for pose in before]
+            nearer = before[turns[1] < turns[0]]
+            if min(turns) < MOST_TURN_RAD:
+                turned = vector_from_rotation(now.rotation @ nearer.rotation.T)
                 self.turning_rad_s = turned / interval
         self.pose, self.at_s = sighting.camera_from_marker, at_s
         self.lead_sd2 = min(KEPT_LEAD_RATIO * sighting.lead_sd2, MOST_LEAD_SD2)
-
-
-def _turn(now: Rigid[Camera, Marker], before: Rigid[Camera, Marker]) -> Array:
-    return vector_from_rotation(now.rotation @ before.rotation.T)

@@ -1,6 +1,6 @@
 """The part of an image that is looked at around an expected marker."""
 
-import numpy as np
+from math import ceil, floor
 
 from tracker.geometry import Array
 from tracker.pose.occurrence import side_px_of
@@ -17,9 +17,9 @@ def window_around(
     """
     margin = reach_px + MARGIN_PX + MARGIN_SIDE_RATIO * side_px_of(corners_px)
     width, height = size_wh_px
-    left, top = np.floor(corners_px.min(axis=0) - margin).astype(int).tolist()
-    right, bottom = np.ceil(corners_px.max(axis=0) + margin).astype(int).tolist()
-    left, top, right, bottom = max(left, 0), max(top, 0), min(right, width), min(bottom, height)
+    across, down = corners_px.T.tolist()
+    left, top = max(floor(min(across) - margin), 0), max(floor(min(down) - margin), 0)
+    right, bottom = min(ceil(max(across) + margin), width), min(ceil(max(down) + margin), height)
     if right - left < LEAST_PX or bottom - top < LEAST_PX:
         return None
     return left, top, right, bottom
