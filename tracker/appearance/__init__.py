@@ -6,6 +6,7 @@ Nothing here searches: it starts within half a pixel.
 
 from tracker.appearance.samples import CoveredAt
 from tracker.appearance.texture import Textures, textures_of
+from tracker.appearance.uneven import KnownLight
 from tracker.appearance.whole import WholeFit, whole_fits
 
-__all__ = ["CoveredAt", "Textures", "WholeFit", "textures_of", "whole_fits"]
+__all__ = ["CoveredAt", "KnownLight", "Textures", "WholeFit", "textures_of", "whole_fits"]

@@ -1,11 +1,23 @@
 """Light that varies over the marker: which kind of it explains the pixels."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from tracker.appearance.fit import CUT, ROUNDS, STRAIGHT_SD2, Fitted, again, cost_of, fitted, in_question
+from tracker.appearance.fit import (
+    CUT,
+    ROUNDS,
+    STRAIGHT_SD2,
+    Fitted,
+    again,
+    cost_of,
+    fitted,
+    in_question,
+)
 from tracker.appearance.light.fields.kernels import (
     FREE,
     GLARING,
+    PLAIN,
     SHADED,
     from_plain,
     numbers_of,
@@ -14,6 +26,7 @@ from tracker.appearance.light.fields.kernels import (
 from tracker.appearance.light.kernels import RESPONSE
 from tracker.appearance.light.pattern.kernels import pattern_of_light
 from tracker.appearance.samples import Samples, some_of
+from tracker.geometry import Array
 
 # Uneven light is a net of so many nodes a side: a shadow's edge is a fifth of the marker wide, a highlight
 # less.
@@ -27,6 +40,47 @@ LEAST_PATTERN_SD2 = 80.0
 FREE_PRICE_SD2 = 50.0
 # So many pixels, and so many steps, tell which light it is; one that then costs so much more is let go.
 TELLING_PIXELS, TELLING_ROUNDS, LET_GO_SD2 = 600, 2, 60.0
+
+
+# The light of an image serves so many more, as long as it leaves at most so many times as much: then it is
+# asked anew which light it is.
+MOST_IMAGES, MOST_MORE_LEFT = 10, 1.15
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KnownLight:
+    """Uneven light that explained an image.
+
+    Attributes:
+        light: its kind, and the nodes of its net.
+        numbers: of blur, response and light, as `whole_fit` has them.
+        scale_grey: of the residuals that it left.
+        images: how many it has served since it was asked which light it is.
+    """
+
+    light: tuple[int, int]
+    numbers: Array
+    scale_grey: float
+    images: int
+
+
+def known_from(one: Fitted, before: KnownLight | None) -> KnownLight | None:
+    """The light of a fit, found anew or from that of the image before; None where it is even."""
+    if one.light[0] == PLAIN:
+        return None
+    images = 0 if before is None else before.images + 1
+    return KnownLight(light=one.light, numbers=one.numbers, scale_grey=one.scale_grey, images=images)
+
+
+def in_known_light(seen: Samples, rotation: Array, translation_mm: Array, known: KnownLight) -> Fitted | None:
+    """A pose from a start, in about the light of the image before; None where that explains less now."""
+    if known.images >= MOST_IMAGES:
+        return None
+    some = some_of(seen, TELLING_PIXELS)
+    one = fitted(some, rotation, translation_mm, known.numbers, light=known.light, settled=STRAIGHT_SD2)
+    if one is None or one.scale_grey > MOST_MORE_LEFT * known.scale_grey:
+        return None
+    return one if some is seen else again(seen, one)
 
 
 def leaves_much(fits: list[Fitted], noise_grey: float) -> bool:
@@ -46,7 +100,7 @@ def is_uneven(seen: Samples, even: list[Fitted]) -> bool:
 def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float) -> list[Fitted]:
     """The same poses in the simplest light that explains the pixels; as they were where none does."""
     some = some_of(seen, TELLING_PIXELS)
-    first = _explained(some, even[0], noise_grey)
+    first = _explained(seen, some, even[0], noise_grey)
     if first is None:
         return even
     others = [_begun(some, one, first.light[0], rounds=ROUNDS) for one in even[1:]]
@@ -54,15 +108,18 @@ def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float)
     return fits if some is seen else [one for one in (again(seen, one) for one in fits) if one is not None]
 
 
-def _explained(seen: Samples, even: Fitted, noise_grey: float) -> Fitted | None:
+def _explained(seen: Samples, some: Samples, even: Fitted, noise_grey: float) -> Fitted | None:
     """About this pose in the light that explains the pixels; None where nothing can be fitted."""
-    begun = [_begun(seen, even, kind) for kind in (SHADED, GLARING)]
-    told = in_question(seen, [one for one in begun if one is not None], LET_GO_SD2)
-    fits = [one for one in (again(seen, one) for one in told) if one is not None]
+    begun = [_begun(some, even, kind) for kind in (SHADED, GLARING)]
+    told = in_question(some, [one for one in begun if one is not None], LET_GO_SD2)
+    fits = [one for one in (again(some, one) for one in told) if one is not None]
     # What leaves no more than noise leaves nothing to explain.
     if not fits or min(one.scale_grey for one in fits) > noise_grey:
-        free = _begun(seen, even, FREE, rounds=ROUNDS)
+        free = _begun(some, even, FREE, rounds=ROUNDS)
         fits += [] if free is None else [free]
+    if len(fits) > 1 and some is not seen:
+        # Between those that are left, all pixels decide.
+        fits = [one for one in (again(seen, one) for one in fits) if one is not None]
     if not fits:
         return None
     scale = min(one.scale_grey for one in fits)

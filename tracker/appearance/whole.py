@@ -1,5 +1,6 @@
 """The pose that explains every pixel of a marker: pose, blur, camera response and light fitted together."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,14 @@ from tracker.appearance.light.kernels import BLUR, RESPONSE
 from tracker.appearance.mirrored import with_mirrored
 from tracker.appearance.samples import CoveredAt, Samples, samples_of, some_of
 from tracker.appearance.texture import Textures
-from tracker.appearance.uneven import in_light_that_explains, is_uneven, leaves_much
+from tracker.appearance.uneven import (
+    KnownLight,
+    in_known_light,
+    in_light_that_explains,
+    is_uneven,
+    known_from,
+    leaves_much,
+)
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
 from tracker.geometry.kernels import mean_ratio, pose_rows
@@ -46,6 +54,7 @@ class WholeFit:
         explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
         response: bend of the camera's response, 0 where grey levels are proportional to light.
         cost_sd2: robust sum of squared residuals in units of the smaller scale of both; 0 of one alone.
+        light: the uneven light that it was found in; None where it is even.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -56,6 +65,7 @@ class WholeFit:
     explained_ratio: float
     response: float
     cost_sd2: float
+    light: KnownLight | None = None
 
 
 def whole_fits(
@@ -68,6 +78,7 @@ def whole_fits(
     side_px: float,
     noise_grey: float,
     covered_at: CoveredAt | None = None,
+    known: KnownLight | None = None,
 ) -> list[WholeFit]:
     """The whole shape fitted from each start within half a pixel or so; those that fail are left out.
 
@@ -82,6 +93,7 @@ def whole_fits(
         side_px: about how wide it is in the image.
         noise_grey: sd of the image's noise.
         covered_at: what of the marker something covers, if any does.
+        known: the uneven light of the image before, if it is known.
     """
 
     def chosen(blur_px2: Array) -> Samples:
@@ -98,32 +110,53 @@ def whole_fits(
 
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
-    seen = chosen(focus)
-    few = some_of(seen, FEW_PIXELS)
-    near = [one for one in (_near(few, start, focus) for start in starts) if one is not None]
-    if near and (blur := _widest(near, focus)) is not None:
-        seen = chosen(blur)
-        few = some_of(seen, FEW_PIXELS)
-        near = [one for one in (again(few, one) for one in near) if one is not None]
-    if not near:
-        return []
-    # Where even light leaves much, it has not been asked yet which of them is better.
-    if not (much := leaves_much(near, noise_grey)):
-        near = in_question(few, near, OUT_OF_QUESTION_SD2)
-    done = _at_all(seen, near, noise_grey, much)
+    done: list[Fitted] = []
+    # It is the light of one pose: of two, it would speak for that one.
+    if known is not None and len(starts) == 1:
+        wide = _wide(known.numbers, focus)
+        seen = chosen(focus if wide is None else wide)
+        one = in_known_light(seen, starts[0].rotation, starts[0].translation_mm, known)
+        done = [] if one is None else [one]
+    if not done:
+        known = None
+        seen, done = _anew(chosen, starts, focus, noise_grey)
     if not done:
         return []
     done = with_mirrored(seen, done, [start.rotation for start in starts])
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
-    records = [_record(seen, one, cost) for one, cost in zip(done, costs, strict=True)]
+    records = [_record(seen, one, cost, known) for one, cost in zip(done, costs, strict=True)]
     return [one for one in records if one is not None]
 
 
-def _widest(near: list[Fitted], focus_px2: Array) -> Array | None:
-    """The blur (3,) of the best of some fits where it is wide; None where it is about a camera's in focus."""
-    best = min(near, key=lambda one: one.scale_grey)
-    blur = best.numbers[BLUR : BLUR + 3]
+def _anew(
+    chosen: Callable[[Array], Samples],
+    starts: list[Rigid[Camera, Marker]],
+    focus_px2: Array,
+    noise_grey: float,
+) -> tuple[Samples, list[Fitted]]:
+    """Pixels, chosen at a blur (3,), and the fits to them from each start, whatever the light is."""
+    seen = chosen(focus_px2)
+    few = some_of(seen, FEW_PIXELS)
+    near = [one for one in (_near(few, start, focus_px2) for start in starts) if one is not None]
+    if not near:
+        return seen, []
+    sharp = min(near, key=lambda one: one.scale_grey)
+    if (blur := _wide(sharp.numbers, focus_px2)) is not None:
+        seen = chosen(blur)
+        few = some_of(seen, FEW_PIXELS)
+        near = _by(few, near)
+        if not near:
+            return seen, []
+    # Where even light leaves much, it has not been asked yet which of them is better.
+    if not (much := leaves_much(near, noise_grey)):
+        near = in_question(few, near, OUT_OF_QUESTION_SD2)
+    return seen, _at_all(seen, near, noise_grey, much)
+
+
+def _wide(numbers: Array, focus_px2: Array) -> Array | None:
+    """The blur (3,) of a fit where it is wide; None where it is about a camera's in focus."""
+    blur = numbers[BLUR : BLUR + 3]
     return blur if float(blur[:2].sum()) > WIDE_BLUR_RATIO * float(focus_px2[:2].sum()) else None
 
 
@@ -150,8 +183,8 @@ def _by(seen: Samples, near: list[Fitted]) -> list[Fitted]:
     return [one for one in (again(seen, one) for one in near) if one is not None]
 
 
-def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
-    """What the fit says of the pose; None where it says nothing."""
+def _record(seen: Samples, one: Fitted, cost_sd2: float, known: KnownLight | None = None) -> WholeFit | None:
+    """What the fit says of the pose; None where it says nothing. `known`: the light that it came from."""
     # What is known beforehand is in the matrix: it needs no ridge.
     rows, is_told = pose_rows(one.matrix, fields_first(one.light), band_of(one.light), 0.0)
     if not is_told:
@@ -178,4 +211,5 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float) -> WholeFit | None:
         explained_ratio=one.explained_ratio,
         response=float(one.numbers[RESPONSE]),
         cost_sd2=cost_sd2,
+        light=known_from(one, known),
     )

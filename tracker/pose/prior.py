@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tracker.appearance import KnownLight
 from tracker.geometry import Camera, Marker, Rigid, vector_from_rotation
 from tracker.geometry.kernels import turn_between, turn_by
 from tracker.pose.planar import other_solution
@@ -25,10 +26,11 @@ KEPT_LEAD_RATIO, MOST_LEAD_SD2 = 0.9, 25.0
 
 @dataclass(slots=True)
 class Prior:
-    """The last pose of one marker, how sure that is, and how fast it moved. Mutable: the tracker's window."""
+    """A marker's last pose, how sure it is, its light and its motion. Mutable: the tracker's window."""
 
     pose: Rigid[Camera, Marker] | None = None
     lead_sd2: float = 0.0
+    light: KnownLight | None = None
     at_s: float = 0.0
     velocity_mm_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
     turning_rad_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -49,6 +51,7 @@ class Prior:
             translation_mm=pose.translation_mm,
             rival=other_solution(pose),
             lead_sd2=self.lead_sd2,
+            light=self.light,
         )
 
     def learn(self, sighting: Sighting, at_s: float) -> None:
@@ -73,4 +76,5 @@ class Prior:
                 turned = vector_from_rotation(now.rotation @ nearer.rotation.T)
                 self.turning_rad_s = turned / interval
         self.pose, self.at_s = sighting.camera_from_marker, at_s
+        self.light = sighting.light
         self.lead_sd2 = min(KEPT_LEAD_RATIO * sighting.lead_sd2, MOST_LEAD_SD2)

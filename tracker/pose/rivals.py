@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tracker.appearance import KnownLight
 from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 from tracker.geometry.kernels import turn_between
 from tracker.pose.arc import TOOL_REACH_MM
@@ -27,10 +28,12 @@ class Expected(Rigid[Camera, Marker]):
     Attributes:
         rival: the other planar solution; it moves along.
         lead_sd2: by how much the images before speak for this one, in squared residuals by their variance.
+        light: the uneven light of the last image; None where it was even.
     """
 
     rival: Rigid[Camera, Marker]
     lead_sd2: float
+    light: KnownLight | None = None
 
 
 def surprise(pose: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> float:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal, TypeAlias
 
+from tracker.appearance import KnownLight
 from tracker.geometry import Array, Camera, Marker, Rigid
 
 FoundBy: TypeAlias = Literal["search", "track"]
@@ -41,6 +42,7 @@ class Seen:
         found_by: "search" (whole image, no prior) or "track" (where it was expected).
         lead_sd2: by how much this image and those before speak for this pose against the other planar
             solution, in squared residuals by their variance; infinite where no other fits.
+        light: the uneven light that its pixels were explained in; None where it is even, or edges told alone.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -53,6 +55,7 @@ class Seen:
     fit_error_px2: float
     found_by: FoundBy
     lead_sd2: float = float("inf")
+    light: KnownLight | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

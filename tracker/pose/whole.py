@@ -13,7 +13,7 @@ from tracker.marker import MarkerModel
 from tracker.pose.arc import beyond_first_order
 from tracker.pose.occurrence import corners_px_at, side_px_of
 from tracker.pose.planar import other_solution
-from tracker.pose.rivals import doubt_between, lead_between, surprise
+from tracker.pose.rivals import Expected, doubt_between, lead_between, surprise
 from tracker.pose.sighting import Seen
 
 # Edges place a pose to a fraction of a pixel: a whole-shape fit that ends farther away fitted something else.
@@ -72,6 +72,7 @@ def with_whole_shape(
         side_px=side_px,
         noise_grey=pixels.noise_grey,
         covered_at=covered_at,
+        known=expected.light if isinstance(expected, Expected) else None,
     )
     here = corners_px_at(camera, model, starts[0])
     reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)
@@ -93,7 +94,13 @@ def with_whole_shape(
     lead = seen.lead_sd2
     if len(starts) > 1:
         lead = lead_between(costs, [one.camera_from_marker for one in near], int(first))
-    return replace(seen, camera_from_marker=pose, pose_covariance=covariance, lead_sd2=lead)
+    return replace(
+        seen,
+        camera_from_marker=pose,
+        pose_covariance=covariance,
+        lead_sd2=lead,
+        light=near[first].light,
+    )
 
 
 def _is_exact(one: WholeFit, noise_grey: float) -> bool:
