@@ -38,6 +38,18 @@ def mirror(rotation, translation, out):
 
 
 @compiled
+def straightened(m, out):
+    """Into `out` (3, 3): a rotation but for rounding, without that; returns by how much it was off."""
+    # The first step of the polar decomposition leaves the square of what it was off.
+    for r in range(3):
+        for c in range(3):
+            out[r, c] = 1.5 * m[r, c]
+            for k in range(3):
+                out[r, c] -= 0.5 * m[r, k] * (m[0, k] * m[0, c] + m[1, k] * m[1, c] + m[2, k] * m[2, c])
+    return off_rotation(m)[0]
+
+
+@compiled
 def turn_by(rotation, w):
     """Multiply a rotation vector from the left into a rotation matrix, in place."""
     angle = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])

@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry.kernels import off_rotation
+from tracker.geometry.kernels import straightened
 
 Array = npt.NDArray[np.float64]
 # A matrix that is off by less is a rotation but for rounding.
@@ -66,9 +66,9 @@ def rotation_between(a: npt.ArrayLike, b: npt.ArrayLike) -> Array:
 def nearest_rotation(matrix: npt.ArrayLike) -> Array:
     """The rotation (3, 3) nearest to a matrix that is one but for rounding, or nearly."""
     given = np.array(matrix, dtype=np.float64, order="C")
-    if off_rotation(given)[0] < ROUNDING:
-        # The first step of the polar decomposition leaves the square of what it was off.
-        return np.asarray(given @ (1.5 * np.eye(3) - 0.5 * given.T @ given))
+    straight = np.empty((3, 3))
+    if straightened(given, straight) < ROUNDING:
+        return straight
     u, _, vt = np.linalg.svd(given)
     return np.asarray(u @ vt)
 
