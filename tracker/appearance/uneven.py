@@ -104,22 +104,17 @@ def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float)
     if first is None:
         return even
     others = [_begun(some, one, first.light[0], rounds=ROUNDS) for one in even[1:]]
-    fits = [first, *(one for one in others if one is not None)]
-    return fits if some is seen else [one for one in (again(seen, one) for one in fits) if one is not None]
+    return [first, *_by_all(seen, some, others)]
 
 
 def _explained(seen: Samples, some: Samples, even: Fitted, noise_grey: float) -> Fitted | None:
     """About this pose in the light that explains the pixels; None where nothing can be fitted."""
     begun = [_begun(some, even, kind) for kind in (SHADED, GLARING)]
     told = in_question(some, [one for one in begun if one is not None], LET_GO_SD2)
-    fits = [one for one in (again(some, one) for one in told) if one is not None]
+    fits = [one for one in (again(seen, one) for one in told) if one is not None]
     # What leaves no more than noise leaves nothing to explain.
     if not fits or min(one.scale_grey for one in fits) > noise_grey:
-        free = _begun(some, even, FREE, rounds=ROUNDS)
-        fits += [] if free is None else [free]
-    if len(fits) > 1 and some is not seen:
-        # Between those that are left, all pixels decide.
-        fits = [one for one in (again(seen, one) for one in fits) if one is not None]
+        fits += _by_all(seen, some, [_begun(some, even, FREE, rounds=ROUNDS)])
     if not fits:
         return None
     scale = min(one.scale_grey for one in fits)
@@ -128,6 +123,12 @@ def _explained(seen: Samples, some: Samples, even: Fitted, noise_grey: float) ->
         return cost_of(seen, one, scale) + (FREE_PRICE_SD2 if one.light[0] == FREE else 0.0)
 
     return min(fits, key=price)
+
+
+def _by_all(seen: Samples, some: Samples, fits: list[Fitted | None]) -> list[Fitted]:
+    """Fits to some of the pixels, by all of them; those that fail are left out."""
+    told = [one for one in fits if one is not None]
+    return told if some is seen else [one for one in (again(seen, one) for one in told) if one is not None]
 
 
 def _begun(seen: Samples, even: Fitted, kind: int, *, rounds: int = TELLING_ROUNDS) -> Fitted | None:
