@@ -1,5 +1,6 @@
 """A marker in shadow, glare and noise at once, and markers that differ from it in one field."""
 
+import cv2
 import numpy as np
 import pytest
 
@@ -18,7 +19,7 @@ from tests.tracker.scenes import (
     smeared,
 )
 from tracker.geometry import Array
-from tracker.marker import Explanation, explanation_of
+from tracker.marker import Explanation, MarkerModel, explanation_of
 from tracker.marker.explanation import likeness_part_by_part, pictures_of
 
 CAMERA = camera_of((200, 160), focal_px=400.0)
@@ -26,30 +27,52 @@ MIDDLE = (100.3, 80.7)
 SIDE_PX = 30.0
 
 
-def _in_poor_light(fields: Fields, seed: int) -> tuple[Image8, Array]:
+def _in_poor_light(picture: Image8, seed: int, side_px: float) -> tuple[Image8, Array]:
     """Half of the light, a shadow's edge across it, a highlight on it, a smear of 3 px, and noise."""
     random = np.random.default_rng([seed, 31])
     about, roll, *ways = random.uniform(0.0, 360.0, 5)
-    pose = facing_at_px(CAMERA, MIDDLE, SIDE_PX, tilt_deg=20, about_deg=about, roll_deg=roll)
-    plain = rendered(CAMERA, [Print(picture=code_image(fields), pose=pose)], blur_px=1.0, noise_grey=0.0)
+    pose = facing_at_px(CAMERA, MIDDLE, side_px, tilt_deg=20, about_deg=about, roll_deg=roll)
+    plain = rendered(CAMERA, [Print(picture=picture, pose=pose)], blur_px=1.0, noise_grey=0.0)
     v, u = np.mgrid[0:160, 0:200].astype(np.float64) - np.array(MIDDLE)[::-1, None, None]
-    across = u * np.cos(ways[0]) + v * np.sin(ways[0]) - random.uniform(-0.2, 0.2) * SIDE_PX
-    lit = smeared(plain, 3.0, ways[2]) * (1.0 - 0.6 / (1.0 + np.exp(-across / (0.12 * SIDE_PX))))
-    x, y = u - 0.3 * SIDE_PX * np.cos(ways[1]), v - 0.3 * SIDE_PX * np.sin(ways[1])
-    lit = lit + 160.0 * np.exp(-0.5 * (x * x + y * y) / (0.25 * SIDE_PX) ** 2)
+    across = u * np.cos(ways[0]) + v * np.sin(ways[0]) - random.uniform(-0.2, 0.2) * side_px
+    lit = smeared(plain, 3.0, ways[2]) * (1.0 - 0.6 / (1.0 + np.exp(-across / (0.12 * side_px))))
+    x, y = u - 0.3 * side_px * np.cos(ways[1]), v - 0.3 * side_px * np.sin(ways[1])
+    lit = lit + 160.0 * np.exp(-0.5 * (x * x + y * y) / (0.25 * side_px) ** 2)
     noisy = 0.4 * lit + random.normal(0.0, 5.0, lit.shape)
     return np.asarray(np.clip(np.rint(noisy), 0, 255), dtype=np.uint8), corners_px_of(CAMERA, pose)
 
 
-def _explained(fields: Fields, seed: int) -> Explanation | None:
-    image, corners = _in_poor_light(fields, seed)
+def _explained(fields: Fields, seed: int, *, side_px: float = SIDE_PX) -> Explanation | None:
+    image, corners = _in_poor_light(code_image(fields), seed, side_px)
     off = np.random.default_rng([seed, 32]).normal(0.0, 0.4, (4, 2))
-    return explanation_of(image, code_model().square, corners + off, side_px=SIDE_PX)
+    return explanation_of(image, code_model().square, corners + off, side_px=side_px)
 
 
-def test_a_marker_in_shadow_glare_and_noise_at_once_is_mostly_explained() -> None:
-    found = [_explained(OWN, seed) for seed in range(24)]
-    assert sum(one is not None and one.explains for one in found) >= 18
+@pytest.mark.parametrize("side_px", [24.0, 30.0])
+def test_a_marker_in_shadow_glare_and_noise_at_once_is_mostly_explained(side_px: float) -> None:
+    found = [_explained(OWN, seed, side_px=side_px) for seed in range(24)]
+    assert sum(one is not None and one.explains for one in found) >= 21
+
+
+@pytest.mark.parametrize(("field", "seed"), [(8, 1017), (7, 1052)])
+def test_a_field_that_is_dark_in_the_model_may_be_what_differs(field: int, seed: int) -> None:
+    found = _explained(NEIGHBOURS[field], seed, side_px=20.0)
+    assert found is None or not found.explains
+
+
+def test_a_turn_of_what_is_nearly_round_is_not_explained() -> None:
+    picture = np.full((192, 192), 20, np.uint8)
+    picture[24:-24, 24:-24] = 240
+    cv2.circle(picture, (96, 96), 58, 20, -1)
+    cv2.circle(picture, (96, 96), 38, 240, -1)
+    cv2.circle(picture, (106, 86), 17, 20, -1)
+    model = MarkerModel.from_image(picture, side_mm=25.0, name="round")
+    for seed in (21, 22, 23):
+        image, corners = _in_poor_light(picture, seed, 26.0)
+        for turn in (1, 2, 3):
+            turned = np.roll(corners, turn, axis=0)
+            found = explanation_of(image, model.square, turned, side_px=26.0)
+            assert found is None or not found.explains, (seed, turn)
 
 
 @pytest.mark.parametrize("field", range(9))
@@ -70,7 +93,7 @@ def test_a_field_that_differs_shows_as_half_of_its_contrast(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_part_by_part_the_marker_is_told_from_its_turns_in_any_light(seed: int) -> None:
-    image, corners = _in_poor_light(OWN, seed)
+    image, corners = _in_poor_light(code_image(OWN), seed, SIDE_PX)
     pictures = pictures_of(code_model().square)
     alike = [
         likeness_part_by_part(image, pictures, np.roll(corners, turn, axis=0), side_px=SIDE_PX)

@@ -1,8 +1,8 @@
 """Could a part of the shape be dark for bright, and light, blur and place hide it?
 
-Glare is fitted by a net that takes in half of a small part that another marker has dark for bright. So each
-part of the shape is asked: by how much of its contrast would it have to be changed, when everything else that
-is fitted gives way?
+Light that is fitted takes in some of a small part that another marker has dark for bright. So each part of
+the shape is asked: by how much of its contrast would it have to be changed, when everything else that is
+fitted gives way?
 """
 
 from functools import cache
