@@ -59,12 +59,14 @@ COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
 MOST_INNER_HIDDEN_RATIO = 0.55
 # In uneven light, the noise that the outline shows taken out, other squares reach 0.92 where they have 0.7
-# with it (9,000 looked at). Where the square is small, nothing is said.
+# with it, and wide ones 0.95 with 0.89 (9,000 looked at); of a wide square the noise hides less. Where the
+# square is small, nothing is said.
 LEAST_UNEVEN_PX, WORTH_UNEVEN = 18.0, 0.7
 UNEVEN_ROUNDS = 6
-LEAST_IN_NOISE, LEAST_BESIDE_NOISE = 0.7, 0.92
+IN_NOISE_SIDES_PX, LEAST_IN_NOISE, LEAST_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9), 0.94
 # Blurred over more of its side all round, or hidden more, a part of the shape passes for light.
-MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO, MOST_UNEVEN_MOVED_SIDE_RATIO = 0.08, 0.4, 0.08
+MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.08, 0.4
+MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO = 2.0, 0.06
 SD_OF_MEDIAN = 1.4826
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
@@ -176,13 +178,15 @@ class Explanation:
     def _explains_beside_noise(self) -> bool:
         """Whether in uneven light the shape stands out of the noise, and little but noise is left of it."""
         without = self.beside_noise
+        moved_px = max(MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO * self.side_px)
+        least = float(np.interp(self.side_px, IN_NOISE_SIDES_PX, LEAST_IN_NOISE))
         return (
             without is not None
             and self.side_px >= LEAST_UNEVEN_PX
             and max(self.hidden_ratio, self.inner_hidden_ratio) <= MOST_UNEVEN_HIDDEN_RATIO
-            and self.moved_px <= MOST_UNEVEN_MOVED_SIDE_RATIO * self.side_px
+            and self.moved_px <= moved_px
             and self.blur_px[0] <= MOST_UNEVEN_BLUR_SIDE_RATIO * self.side_px
-            and min(self.likeness, self.inner_likeness) >= LEAST_IN_NOISE
+            and min(self.likeness, self.inner_likeness) >= least
             and min(without.likeness, without.inner_likeness) >= LEAST_BESIDE_NOISE
             and without.flipped_ratio <= MOST_FLIPPED_RATIO
         )
