@@ -13,6 +13,7 @@ from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_s
 from tracker.geometry import Array
 from tracker.marker.explanation import likeness_part_by_part
 from tracker.marker.looks import (
+    STEPS,
     Template,
     Templates,
     glance,
@@ -45,8 +46,10 @@ LEAST_PIECE_PX = 4.0
 NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
 # Of many models each has its share, so that they cost little more than one.
-MOST_PEEKED, LEAST_PEEKED = 60, 40
-MOST_CLOSER, LEAST_CLOSER = 24, 8
+MOST_PEEKED, LEAST_PEEKED = 120, 40
+MOST_NUDGED, LEAST_NUDGED = 96, 24
+# A single corner says little of where the others are: a first step tells which outlines are worth all of them.
+FIRST_STEPS, MOST_CLOSER = 2, 12
 # Of four sides, where they are is known better than of two.
 MOST_CLOSER_OF_FOUR = 8
 # Where one outline is as like as this, those that are so far behind are not it.
@@ -134,6 +137,8 @@ def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[li
         fresh: list[list[Candidate]] = []
         for m, template in enumerate(templates.each):
             turned = _top(level.full_px(quads), likeness[:, m], most)
+            if most > MOST_CLOSER:
+                turned = _worth_all_steps(levels, turned, template)
             closer, alike = _closer(levels, turned, template)
             order = np.argsort(-alike, kind="stable")
             best = distinct(
@@ -227,7 +232,7 @@ def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Temp
     most = max(MOST_PEEKED // len(templates), LEAST_PEEKED)
     quads = likely(level.soft, corners, templates, most=most)
     likeness = glance_past_cover(level.image, quads, templates)
-    return level, quads, likeness, max(MOST_CLOSER // len(templates), LEAST_CLOSER)
+    return level, quads, likeness, max(MOST_NUDGED // len(templates), LEAST_NUDGED)
 
 
 def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int) -> Quads:
@@ -241,13 +246,23 @@ def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int) -> Quads:
     return np.ascontiguousarray(quads[q[:, None], corner])
 
 
-def _closer(levels: Levels, quads: Quads, template: Template) -> tuple[Quads, npt.NDArray[np.float32]]:
+def _worth_all_steps(levels: Levels, quads: Quads, template: Template) -> Quads:
+    """The outlines that are likest after a first step, moved by it."""
+    moved, alike = _closer(levels, quads, template, steps=FIRST_STEPS)
+    return moved[np.argsort(-alike, kind="stable")[:MOST_CLOSER]]
+
+
+def _closer(
+    levels: Levels, quads: Quads, template: Template, *, steps: int = STEPS
+) -> tuple[Quads, npt.NDArray[np.float32]]:
     """Outlines moved to where they fit, all in px of the whole image, and how like the model each is."""
     sides = np.linalg.norm(np.diff(quads, axis=1), axis=2).mean(axis=1)
     which = np.array([levels.for_side(float(side)) for side in sides], dtype=int)
     found, alike = quads.copy(), np.zeros(len(quads), np.float32)
     for k in np.unique(which):
         own = which == k
-        moved, alike[own] = looked_closer(levels[k].image, levels[k].own_px(quads[own]), template)
+        moved, alike[own] = looked_closer(
+            levels[k].image, levels[k].own_px(quads[own]), template, steps=steps
+        )
         found[own] = levels[k].full_px(moved)
     return found, alike

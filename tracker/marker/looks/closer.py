@@ -23,7 +23,9 @@ DAMPING = np.float32(1.0)
 STIFFNESS = np.float32(10.0)
 
 
-def looked_closer(image: GreyImage, quads: Quads, template: Template) -> tuple[Quads, Float32]:
+def looked_closer(
+    image: GreyImage, quads: Quads, template: Template, *, steps: int = STEPS
+) -> tuple[Quads, Float32]:
     """Outlines (q, 4, 2) moved to where their inside is most like the model, and how much it is (q,).
 
     An outline that is off by a tenth of its side is brought to a few hundredths, out of focus, in motion or
@@ -33,6 +35,7 @@ def looked_closer(image: GreyImage, quads: Quads, template: Template) -> tuple[Q
         image: the level at which a cell of the outlines is a pixel to three.
         quads: in px of that level, the model's own first corner first.
         template: the model's.
+        steps: how often each is moved at most.
     """
     masked = template.upright
     found, likeness = look_closer(
@@ -43,7 +46,7 @@ def looked_closer(image: GreyImage, quads: Quads, template: Template) -> tuple[Q
         masked.mean,
         masked.spread,
         COVERS,
-        STEPS,
+        steps,
         DAMPING,
         STIFFNESS,
         CELLS,
