@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -17,7 +17,6 @@ from tracker.marker.looks import (
     Template,
     Templates,
     glance,
-    glance_past_cover,
     likely,
     looked_closer,
 )
@@ -46,9 +45,8 @@ LEAST_PIECE_PX = 4.0
 NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
 # Of many models each has its share, so that they cost little more than one.
-MOST_PEEKED, LEAST_PEEKED = 120, 40
-MOST_NUDGED, LEAST_NUDGED = 96, 24
-# A single corner says little of where the others are: a first step tells which outlines are worth all of them.
+MOST_PEEKED, LEAST_PEEKED = 180, 40
+# A corner says little of where the others are: two steps tell which outlines are worth all of them.
 FIRST_STEPS, MOST_CLOSER = 2, 12
 # Of four sides, where they are is known better than of two.
 MOST_CLOSER_OF_FOUR = 8
@@ -133,11 +131,11 @@ def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[li
         return
     given = [np.empty((0, 4, 2), np.float32) for _ in templates.each]
     levels = Levels(first_level(image))
-    for level, quads, likeness, most in _looks(image, levels, templates):
+    for level, quads, likeness, is_peek in _looks(image, levels, templates):
         fresh: list[list[Candidate]] = []
         for m, template in enumerate(templates.each):
-            turned = _top(level.full_px(quads), likeness[:, m], most)
-            if most > MOST_CLOSER:
+            turned = _top(level.full_px(quads), likeness[:, m], is_peek=is_peek)
+            if is_peek:
                 turned = _worth_all_steps(levels, turned, template)
             closer, alike = _closer(levels, turned, template)
             order = np.argsort(-alike, kind="stable")
@@ -171,11 +169,17 @@ def _by_two_looks(image: GreyImage, candidates: list[Candidate], template: Templ
     return [first, *sorted(others, key=part_by_part, reverse=True)]
 
 
-Look: TypeAlias = tuple[Level, Quads, npt.NDArray[np.float32], int]
+class Look(NamedTuple):
+    """Outlines (q, 4, 2) in px of a level, and their likeness (q, m, 4), at a glance or at a mere peek."""
+
+    level: Level
+    quads: Quads
+    likeness: npt.NDArray[np.float32]
+    is_peek: bool
 
 
 def _looks(image: GreyImage, levels: Levels, templates: Templates) -> Iterator[Look]:
-    """Outlines (q, 4, 2) in px of a level, their likeness (q, m, 4), how many to look at, look after look."""
+    """Look after look, at rising cost."""
     level = levels[0]
     regions = _regions(level)
     yield _of_four_sides(level, regions, templates)
@@ -216,7 +220,7 @@ def _regions(level: Level) -> Regions:
 def _of_four_sides(level: Level, regions: Regions, templates: Templates) -> Look:
     """Outlines that dark regions fill."""
     quads = quads_of(regions)
-    return level, quads, glance(level.image, quads, templates), MOST_CLOSER_OF_FOUR
+    return Look(level, quads, glance(level.image, quads, templates), is_peek=False)
 
 
 def _edge_segments(image: GreyImage, least_px: float) -> npt.NDArray[np.float32]:
@@ -230,16 +234,15 @@ def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Temp
     step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
     corners = corner_quads_of(level.image, segments, least_step_grey=step)
     most = max(MOST_PEEKED // len(templates), LEAST_PEEKED)
-    quads = likely(level.soft, corners, templates, most=most)
-    likeness = glance_past_cover(level.image, quads, templates)
-    return level, quads, likeness, max(MOST_NUDGED // len(templates), LEAST_NUDGED)
+    return Look(level, *likely(level.soft, corners, templates, most=most), is_peek=True)
 
 
-def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int) -> Quads:
+def _top(quads: Quads, likeness: npt.NDArray[np.float32], *, is_peek: bool) -> Quads:
     """The likeliest outlines and turns (q, 4), each with the model's own first corner first."""
     flat = likeness.ravel()
+    most = len(quads) if is_peek else MOST_CLOSER_OF_FOUR
     best = np.argpartition(-flat, most)[:most] if len(flat) > most else np.arange(len(flat))
-    if len(best) and flat[best].max() > SURE_LIKENESS:
+    if not is_peek and len(best) and flat[best].max() > SURE_LIKENESS:
         best = best[flat[best] > flat[best].max() - FAR_BEHIND]
     q, turn = np.divmod(best, 4)
     corner = (np.arange(4) - turn[:, None]) % 4
@@ -247,7 +250,7 @@ def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int) -> Quads:
 
 
 def _worth_all_steps(levels: Levels, quads: Quads, template: Template) -> Quads:
-    """The outlines that are likest after a first step, moved by it."""
+    """The outlines that are likest after the first steps, moved by them."""
     moved, alike = _closer(levels, quads, template, steps=FIRST_STEPS)
     return moved[np.argsort(-alike, kind="stable")[:MOST_CLOSER]]
 

@@ -1,7 +1,5 @@
 """Candidates: where in an image a marker could be, found without knowing anything before."""
 
-from itertools import pairwise
-
 import cv2
 import numpy as np
 import pytest
@@ -109,7 +107,8 @@ def test_each_round_gives_few_and_only_new_ones_the_likeliest_first() -> None:
     assert len(given) >= 2
     for candidates in (one[0] for one in given):
         assert len(candidates) <= 4
-        assert all(a.likeness >= b.likeness for a, b in pairwise(candidates))
+        # Behind the likeliest come those that are likest part by part.
+        assert all(one.likeness <= candidates[0].likeness for one in candidates)
     every = [candidate.corners_px for one in given for candidate in one[0]]
     for i, a in enumerate(every):
         assert all(np.abs(a - b).max() > 1.0 for b in every[:i])

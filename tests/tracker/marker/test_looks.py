@@ -7,7 +7,7 @@ import pytest
 from tests.tracker.scenes import OTHER, Image8, camera_of, code_model, facing_at_px, in_clutter, smeared
 from tracker.geometry import Array
 from tracker.marker import templates_of
-from tracker.marker.looks import Templates, glance, glance_past_cover, looked_closer
+from tracker.marker.looks import Templates, glance, looked_closer
 from tracker.marker.looks.kernels import distinct
 
 CAMERA = camera_of((320, 240), focal_px=500.0)
@@ -92,15 +92,14 @@ def test_a_glance_knows_the_turn_and_the_model(templates: Templates, turn: int) 
     """Turn k: the outline's first corner is the model's corner k."""
     image, corners = _scene()
     quads = np.roll(corners, -turn, axis=0)[None].astype(np.float32)
-    for alike in (glance(image, quads, templates)[0], glance_past_cover(image, quads, templates)[0]):
-        assert int(alike.argmax()) == turn
+    assert int(glance(image, quads, templates)[0].argmax()) == turn
 
 
-def test_a_cover_costs_likeness_at_a_glance_but_little_past_it(templates: Templates) -> None:
+def test_a_cover_costs_likeness_at_a_glance_but_little_at_a_closer_look(templates: Templates) -> None:
     image, corners = _scene()
     picture, quads = _covered(image, corners), corners[None].astype(np.float32)
     whole = glance(picture, quads, templates)[0, 0, 0]
-    past = glance_past_cover(picture, quads, templates)[0, 0, 0]
+    _, (past,) = looked_closer(picture, quads, templates.each[0])
     assert whole < past - 0.05
     assert past > 0.85
 

@@ -3,11 +3,10 @@
 import numpy as np
 
 from tracker.edges import GreyImage
-from tracker.marker.looks.kernels import alike_past_cover, peek, products
+from tracker.marker.looks.kernels import peek, products
 from tracker.marker.looks.templates import (
     AROUND_CELLS,
     CELLS,
-    COVERS,
     LEAST_SD_GREY,
     LEAST_SD_RATIO,
     PEEK_CELLS,
@@ -19,6 +18,8 @@ from tracker.marker.looks.templates import (
 from tracker.marker.sampling.kernels import even_light, sample_quads
 from tracker.outlines import Quads
 
+# Quarters of a turn.
+TURNS = 4
 DARK, LIGHT = np.float32(64.0), np.float32(192.0)
 
 
@@ -33,30 +34,16 @@ def glance(image: GreyImage, quads: Quads, templates: Templates) -> Float32:
     return out
 
 
-def glance_past_cover(image: GreyImage, quads: Quads, templates: Templates) -> Float32:
-    """The same (q, m, 4) where something may have come over the square from any side.
-
-    What is left of it must look the more like the model the less it is: n cells with a correlation r are as
-    likely as n log(1 - r^2).
-    """
-    seen = _seen(image, quads)
-    out = np.empty((len(quads), len(templates), 4), np.float32)
-    for m, template in enumerate(templates.each):
-        blurs, turns, _ = template.turned.shape
-        masked = template.covered
-        alike = alike_past_cover(seen, masked.columns, masked.mean, masked.spread, COVERS)
-        out[:, m] = alike.reshape(len(quads), blurs, turns).max(axis=1)
-    return out
-
-
 def _seen(image: GreyImage, quads: Quads) -> Float32:
     seen = sample_quads(image, quads, CELLS, RING)
     even_light(seen, ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
     return np.asarray(seen, dtype=np.float32)
 
 
-def likely(even: GreyImage, quads: Quads, templates: Templates, *, most: int) -> Quads:
-    """Of many outlines (q, 4, 2) those that look most like a model at a first peek of 8x8 pixels.
+def likely(even: GreyImage, quads: Quads, templates: Templates, *, most: int) -> tuple[Quads, Float32]:
+    """Of many outlines (q, 4, 2) those that look most like a model at a peek of 8x8 pixels, and how much.
+
+    Likeness (q, m, 4) to each model at each turn, -1..1.
 
     Args:
         even: the image in even light (h, w), 128 where it is as bright as around, soft enough for a peek.
@@ -64,12 +51,12 @@ def likely(even: GreyImage, quads: Quads, templates: Templates, *, most: int) ->
         templates: of the models.
         most: how many to keep for each model.
     """
-    if len(quads) <= most:
-        return quads
     pictures = np.concatenate([template.peeked for template in templates.each])
     each = peek(even, quads, PEEK_CELLS, pictures, DARK, LIGHT)
-    alike = each.reshape(len(templates), -1, len(quads)).max(axis=1)
-    kept = np.zeros(len(quads), np.bool_)
-    for m in range(len(templates)):
-        kept[np.argpartition(-alike[m], most)[:most]] = True
-    return quads[kept]
+    alike = each.reshape(len(templates), TURNS, len(quads)).transpose(2, 0, 1)
+    kept = np.ones(len(quads), np.bool_)
+    if len(quads) > most:
+        kept[:] = False
+        for m in range(len(templates)):
+            kept[np.argpartition(-alike[:, m].max(axis=1), most)[:most]] = True
+    return quads[kept], np.asarray(alike[kept], np.float32)

@@ -112,31 +112,6 @@ def _compare(seen, columns, left, shared, sums, squares):
 
 
 @compiled
-def alike_past_cover(seen, columns, mean, spread, covers):
-    """Likeness (q, p) of what is seen (q, n) to pictures, under the cover that makes it likeliest."""
-    many, count = mean.shape
-    left = np.ascontiguousarray(covers.T)
-    sizes = left.sum(axis=0)
-    shared = np.empty(columns.shape[1], np.float32)
-    sums, squares = np.empty(count, np.float32), np.empty(count, np.float32)
-    out = np.zeros((len(seen), many), np.float32)
-    for q in range(len(seen)):
-        _compare(seen[q], columns, left, shared, sums, squares)
-        for p in range(many):
-            best = 0.0
-            for c in range(count):
-                over = shared[p * count + c] - mean[p, c] * sums[c]
-                if over <= 0.0:
-                    continue
-                own = max(squares[c] - sums[c] * sums[c] / sizes[c], 1e-9)
-                alike = min(over * over / (own * spread[p, c]), 0.9999)
-                # n cells with a correlation r are as likely as n log(1 - r^2).
-                best = max(best, -np.log(1.0 - alike) * sizes[c])
-            out[q, p] = np.sqrt(1.0 - np.exp(-best / seen.shape[1]))
-    return out
-
-
-@compiled
 def _likeliest(seen, columns, mean, spread, left, sizes, shared, sums, squares):
     """Likeness of what is seen to the pictures; the picture and the cover at which it is greatest."""
     count = len(sizes)
@@ -149,6 +124,8 @@ def _likeliest(seen, columns, mean, spread, left, sizes, shared, sums, squares):
             over = shared[p * count + c] - mean[p, c] * sums[c]
             if over > 0.0 and over * over > alike * spread[p, c]:
                 alike, like = over * over / spread[p, c], p
+        # n cells with a correlation r are as likely as n log(1 - r^2): what is left of a square must look the
+        # more like the model the less it is.
         fit = -np.log(1.0 - min(alike / own, 0.9999)) * sizes[c] / len(seen)
         if fit > best:
             best, picture, cover = fit, like, c

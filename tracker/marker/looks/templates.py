@@ -57,7 +57,6 @@ class Template:
     Attributes:
         turned: (b, 4, n), by a lens in focus and out of it, turned by 0..3 quarters: turn k is the picture
             of an occurrence whose first corner is corner k of the model.
-        covered: the same, (4 b, n), under the covers.
         peeked: (4, 64), turned, at the size of a peek.
         upright: (p, n) under the covers: the lens's three and those of motion in four directions.
         basis: (p, n, 10), what such a picture is made of: itself, 1, and what changes when the outline's
@@ -66,7 +65,6 @@ class Template:
     """
 
     turned: Float32
-    covered: Masked
     peeked: Float32
     upright: Masked
     basis: Float32
@@ -100,7 +98,6 @@ def _template_of(square: npt.NDArray[np.uint8]) -> Template:
     basis = np.array([_basis(wide, seen) for wide, seen in zip(blurred, upright, strict=True)])
     return Template(
         turned=np.ascontiguousarray(turned, np.float32),
-        covered=_masked(turned.reshape(-1, ROWS * ROWS)),
         peeked=np.array([_peek_picture(one) for one in turned[0]], np.float32),
         upright=_masked(upright),
         basis=np.ascontiguousarray(basis, np.float32),
