@@ -3,7 +3,6 @@
 import numpy as np
 
 from tracker.appearance.fit import Fitted, cost_of, fitted
-from tracker.appearance.light.fields.kernels import PLAIN
 from tracker.appearance.samples import Samples
 from tracker.geometry import Array
 from tracker.geometry.kernels import mirror, turn_between
@@ -22,8 +21,6 @@ def with_mirrored(seen: Samples, fits: list[Fitted], starts: list[Array]) -> lis
         fits: in the light that explains them.
         starts: rotations (3, 3) that were begun from.
     """
-    if not fits or all(one.light[0] == PLAIN for one in fits):
-        return fits
     scale = min(one.scale_grey for one in fits)
     best = min(fits, key=lambda one: cost_of(seen, one, scale))
     there = np.empty((3, 3))

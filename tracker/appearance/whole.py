@@ -35,8 +35,9 @@ WIDE_BLUR_RATIO = 4.0
 FEW_PIXELS, SOME_PIXELS = 200, 800
 # The other planar solution is let go when those few pixels speak against it by so much.
 OUT_OF_QUESTION_SD2 = 30.0
-# Errors within one of so many parts a side are taken to be alike: those of a wide blur are, over much of it.
-BLOCKS = 5
+# Errors within one of so many parts a side are taken to be alike: those of a wide blur, or of a shade that
+# something casts beside what it covers, are so over larger parts.
+BLOCKS, LARGE_BLOCKS = 7, 5
 # What a net of light cannot follow is in the pose: measured on rendered scenes, where the truth is known.
 UNEVEN_FACTOR = 1.4
 
@@ -122,10 +123,13 @@ def whole_fits(
         seen, done = _anew(chosen, starts, focus, noise_grey)
     if not done:
         return []
-    done = with_mirrored(seen, done, [start.rotation for start in starts])
+    if done[0].light[0] != PLAIN:
+        done = with_mirrored(seen, done, [start.rotation for start in starts])
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
-    records = [_record(seen, one, cost, known) for one, cost in zip(done, costs, strict=True)]
+    is_blurred = _wide(done[0].numbers, focus) is not None
+    blocks = LARGE_BLOCKS if is_blurred or covered_at is not None else BLOCKS
+    records = [_record(seen, one, cost, blocks, known) for one, cost in zip(done, costs, strict=True)]
     return [one for one in records if one is not None]
 
 
@@ -183,7 +187,9 @@ def _by(seen: Samples, near: list[Fitted]) -> list[Fitted]:
     return [one for one in (again(seen, one) for one in near) if one is not None]
 
 
-def _record(seen: Samples, one: Fitted, cost_sd2: float, known: KnownLight | None = None) -> WholeFit | None:
+def _record(
+    seen: Samples, one: Fitted, cost_sd2: float, blocks: int, known: KnownLight | None
+) -> WholeFit | None:
     """What the fit says of the pose; None where it says nothing. `known`: the light that it came from."""
     # What is known beforehand is in the matrix: it needs no ridge.
     rows, is_told = pose_rows(one.matrix, fields_first(one.light), band_of(one.light), 0.0)
@@ -198,7 +204,7 @@ def _record(seen: Samples, one: Fitted, cost_sd2: float, known: KnownLight | Non
         one.scale_grey,
         CUT,
         rows,
-        BLOCKS,
+        blocks,
     )
     alike = max(float(mean_ratio(alone, together)), 1.0)
     by_light = 1.0 if one.light[0] == PLAIN else UNEVEN_FACTOR
