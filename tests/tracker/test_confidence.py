@@ -7,7 +7,7 @@ import pytest
 
 from tests.tracker.pipeline.stepped import CAMERA, MODEL, image_of, pose_of
 from tests.tracker.scenes import Print, code_image, rendered
-from tracker import InvalidInput, MarkerModel, Seen, Tracker, Unseen, UnseenReason
+from tracker import InvalidInput, MarkerModel, Seen, Sighting, Tracker, Unseen, UnseenReason
 from tracker.geometry import point_covariance_mm2
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
 from tracker.pose import one_for_each_place
@@ -79,11 +79,14 @@ def test_one_square_is_claimed_for_the_marker_that_fits_it_better() -> None:
     seen = Tracker(camera=CAMERA, models=[MODEL]).search(image_of(pose_of(side_px=80)))["code"]
     assert isinstance(seen, Seen)
     worse = replace(seen, score_ratio=seen.score_ratio - 0.1)
+    hidden = replace(seen, score_ratio=1.0, target_score_ratio=1.0, is_in_noise=True)
     beside = replace(seen, corners_px=seen.corners_px + 100.0)
-    kept = one_for_each_place({"worse": worse, "better": seen, "beside": beside})
+    claimed: dict[str, Sighting] = {"hidden": hidden, "worse": worse, "better": seen, "beside": beside}
+    kept = one_for_each_place(claimed)
     assert kept["better"] is seen
     assert kept["beside"] is beside
     assert kept["worse"] == Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=worse.score_ratio)
+    assert isinstance(kept["hidden"], Unseen)
 
 
 def test_a_small_square_with_a_stroke_inside_is_not_taken_for_the_marker() -> None:

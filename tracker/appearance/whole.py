@@ -127,8 +127,7 @@ def whole_fits(
         done = with_mirrored(seen, done, [start.rotation for start in starts])
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
-    is_blurred = _wide(done[0].numbers, focus) is not None
-    blocks = LARGE_BLOCKS if is_blurred or covered_at is not None else BLOCKS
+    blocks = BLOCKS if covered_at is None and _wide(done[0].numbers, focus) is None else LARGE_BLOCKS
     records = [_record(seen, one, cost, blocks, known) for one, cost in zip(done, costs, strict=True)]
     return [one for one in records if one is not None]
 

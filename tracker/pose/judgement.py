@@ -151,13 +151,17 @@ def _explained(
         return None
     if explanation.explains:
         moved = _moved(scene, found, seen, explanation.corners_px + scene.corner_px)
+        moved = replace(moved, is_in_noise=explanation.beside_noise is not None)
         return moved, explanation.covers if explanation.is_covered else None
     if plain <= 0.0:
         return None
+    alike = min(explanation.likeness, explanation.inner_likeness)
     if scene.expected is not None:
-        return (seen, None) if explanation.likeness >= KNOWN_LIKENESS else None
+        return (seen, None) if alike >= KNOWN_LIKENESS else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO
-    return (seen, None) if wide and explanation.likeness >= NEAR_LIKENESS else None
+    # Bent paper needs no highlights, and they take what is another shape away with them.
+    is_bent = wide and not explanation.under_highlights
+    return (seen, None) if is_bent and alike >= NEAR_LIKENESS else None
 
 
 def _is_kept(scene: Scene, found: Occurrence) -> bool:

@@ -26,7 +26,8 @@ def one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:
 
 
 def worth_of(sighting: Sighting) -> float:
-    """What is seen is worth more than what is not, and a better score more than a worse one."""
+    """What is seen is worth more than what is not, in plain sight more than in noise; then by its scores."""
     if isinstance(sighting, Seen):
-        return 2.0 + sighting.score_ratio + sighting.target_score_ratio
+        scores = sighting.score_ratio + sighting.target_score_ratio
+        return 1.0 + 0.5 * scores if sighting.is_in_noise else 2.0 + scores
     return sighting.best_score_ratio

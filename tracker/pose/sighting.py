@@ -43,6 +43,7 @@ class Seen:
         lead_sd2: by how much this image and those before speak for this pose against the other planar
             solution, in squared residuals by their variance; infinite where no other fits.
         light: the uneven light that its pixels were explained in; None where it is even, or edges told alone.
+        is_in_noise: whether it is like the model only where noise, shadow and highlights do not hide it.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -56,6 +57,7 @@ class Seen:
     found_by: FoundBy
     lead_sd2: float = float("inf")
     light: KnownLight | None = None
+    is_in_noise: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,8 +4,9 @@ The model is laid over the pixels as it is and where it is first, and asked what
 light are fitted, one after another, as long as that may explain what is left.
 """
 
+from tracker.marker.explanation.acceptance import Explanation
 from tracker.marker.explanation.contradiction import Contradiction, contradiction_of
-from tracker.marker.explanation.explanation import Explanation, explanation_of
+from tracker.marker.explanation.explanation import explanation_of
 from tracker.marker.explanation.fit import likeness_part_by_part
 from tracker.marker.explanation.pictures import Pictures, pictures_of
 from tracker.marker.explanation.washed_out import is_washed_out

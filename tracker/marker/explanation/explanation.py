@@ -6,25 +6,29 @@ light is bright or dim over whole regions, never negative; a cover is one piece 
 What is left when these are fitted says far more than before of whether the inside is the model's.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from tracker.camera.blur.kernels import axes_of
 from tracker.edges import GreyImage
 from tracker.geometry import Array
+from tracker.marker.explanation.acceptance import (
+    LEAST_BESIDE_NOISE,
+    LEAST_UNEVEN_PX,
+    BesideNoise,
+    Explanation,
+)
 from tracker.marker.explanation.cover import (
-    LEAST_AREA_RATIO,
     PART_CONTRAST,
     Mask,
     covered,
     weights_beside_a_cover,
 )
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
-from tracker.marker.explanation.flips import MOST_FLIPPED_RATIO, most_flipped
+from tracker.marker.explanation.flips import most_flipped
 from tracker.marker.explanation.kernels import (
     FIELDS,
-    RING,
     SATURATED_GREY,
     SPREAD,
     WIDE,
@@ -46,154 +50,13 @@ COVER_ROUNDS = 2
 MOST_SMOOTH_TERMS = 7
 # By how many fields this turn of the model must explain more than the others do.
 LEAST_APART = 2.0
-# In empty scenes other squares from 16 px reach 0.91 with a fitted blur, in shadow too, and 0.84 under fitted
-# highlights, which take away from both; the marker itself has 0.96 and more, at 20 px under glare 0.93.
-# What is small has little to say, and what is covered less.
-LIKENESS_SIDES_PX, LEAST_LIKENESS = (18.0, 24.0, 34.0), (0.975, 0.95, 0.94)
-HIGHLIGHTS_LESS = 0.02
 # What is so like the model as a whole is worth the question whether it is a turn of it.
 # Less like its own turns than this, and in full sight, it cannot be mistaken for one of them.
 WORTH_TURNING, HALF_TURNED = 0.9, 0.6
-COVERED_MORE = 0.01
-COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
-# The outline is what all squares share: enough of what is within must be seen.
-MOST_INNER_HIDDEN_RATIO = 0.55
-# In uneven light, the noise that the outline shows taken out, other squares reach 0.92 where they have 0.7
-# with it, and wide ones 0.95 with 0.89 (9,000 looked at); of a wide square the noise hides less. Where the
-# square is small, nothing is said.
-LEAST_UNEVEN_PX, WORTH_UNEVEN = 18.0, 0.7
+# How like the model part by part a square is that uneven light is worth fitting to.
+WORTH_UNEVEN = 0.7
 UNEVEN_ROUNDS = 6
-IN_NOISE_SIDES_PX, LEAST_IN_NOISE, LEAST_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9), 0.94
-# Blurred over more of its side all round, or hidden more, a part of the shape passes for light.
-MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.08, 0.4
-MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO = 2.0, 0.06
 SD_OF_MEDIAN = 1.4826
-MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
-# A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
-MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
-# Edges of what is smeared are found at either end of its way, an sd and three quarters of it off the middle.
-MOST_MOVED_BLURS = 1.75
-# Blurred over so much of its side, one square is like another: like this one under highlights, and in every
-# other light unless nearly all is explained. In blurred empty scenes other squares in full sight reach 0.93,
-# covered ones 0.96 (10,000 looked at); smear leaves one direction sharp, and others 0.8.
-BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MOST_BLUR_SIDE_RATIO = 0.1, 0.05, 0.16
-LEAST_LIKENESS_BLURRED, LEAST_LIKENESS_SMEARED, LEAST_LIKENESS_BLURRED_COVERED = 0.955, 0.94, 0.98
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BesideNoise:
-    """How like the model a square is where noise does not hide it.
-
-    Attributes:
-        likeness, inner_likeness: as in `Explanation`, without the noise that the outline shows.
-        flipped_ratio: how far the most doubtful part of the shape is from the model, towards dark for bright.
-    """
-
-    likeness: float
-    inner_likeness: float
-    flipped_ratio: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Explanation:
-    """How far blur, light and cover explain the pixels of a square.
-
-    Attributes:
-        side_px: of the square in the image.
-        likeness: correlation of what is visible with the model, blur and light fitted, -1..1.
-        inner_likeness: the same where the model has its shape, the outline left out.
-        hidden_ratio: part of the square that is covered, 0..1.
-        inner_hidden_ratio: the same of where the model has its shape.
-        inside_ratio: area of the largest piece that contradicts and is not covered, by the square's.
-        corners_px: (4, 2), where they explain it best.
-        moved_px: how far the corners (4, 2) had to be moved to explain it best, the farthest.
-        blur_px: (2,), sd along the sharpest and the most blurred direction.
-        under_highlights: whether highlights had to be fitted.
-        is_turned: whether the model, turned by a quarter or more, explains as much.
-        beside_noise: in uneven light, what is left of both likenesses when the noise is taken out.
-        hidden: which fields of the square and its paper (n, n), from the top left, something covers.
-    """
-
-    side_px: float
-    likeness: float
-    inner_likeness: float
-    hidden_ratio: float
-    inner_hidden_ratio: float
-    inside_ratio: float
-    corners_px: Array
-    moved_px: float
-    blur_px: tuple[float, float]
-    hidden: Mask
-    under_highlights: bool = False
-    is_turned: bool = False
-    beside_noise: BesideNoise | None = None
-
-    @property
-    def is_covered(self) -> bool:
-        """Whether something covers more of the square than a fit leaves over by itself."""
-        return self.hidden_ratio > COVERED_RATIO
-
-    def covers(self, at_ratio: Array) -> Mask:
-        """Whether something covers these points (n, 2) of the marker's plane.
-
-        They are in sides from its centre, to the right and upwards of the printed face.
-        """
-        if not self.is_covered:
-            return np.zeros(len(at_ratio), np.bool_)
-        fields = np.floor((at_ratio * (1.0, -1.0) + 0.5) * FIELDS).astype(np.int64) + RING
-        inside = ((fields >= 0) & (fields < WIDE)).all(axis=1)
-        columns, rows = np.clip(fields, 0, WIDE - 1).T
-        return np.asarray(inside & self.hidden[rows, columns])
-
-    @property
-    def explains(self) -> bool:
-        """Whether nothing is left that would need another shape to explain it."""
-        covered = self.is_covered
-        px, ratio = (
-            (MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO)
-            if covered
-            else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
-        )
-        least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
-        if self.beside_noise is not None and not self._explains_beside_noise:
-            return False
-        if self.blur_px[1] > BLURRED_SIDE_RATIO * self.side_px:
-            if self.under_highlights:
-                return False
-            is_smeared = self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
-            least = LEAST_LIKENESS_SMEARED if is_smeared else LEAST_LIKENESS_BLURRED
-            least = LEAST_LIKENESS_BLURRED_COVERED if covered else least
-        return (
-            not self.is_turned
-            and (
-                self.beside_noise is not None
-                or min(self.likeness, self.inner_likeness)
-                >= least + COVERED_MORE * covered - HIGHLIGHTS_LESS * self.under_highlights
-            )
-            and self.inside_ratio < LEAST_AREA_RATIO
-            and self.hidden_ratio <= MOST_HIDDEN_RATIO
-            and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
-            and self.moved_px <= max(px, ratio * self.side_px, MOST_MOVED_BLURS * self.blur_px[1])
-            and self.blur_px[0] <= BLURRED_SIDE_RATIO * self.side_px
-            and self.blur_px[1] <= MOST_BLUR_SIDE_RATIO * self.side_px
-        )
-
-    @property
-    def _explains_beside_noise(self) -> bool:
-        """Whether in uneven light the shape stands out of the noise, and little but noise is left of it."""
-        without = self.beside_noise
-        moved_px = max(MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO * self.side_px)
-        least = float(np.interp(self.side_px, IN_NOISE_SIDES_PX, LEAST_IN_NOISE))
-        return (
-            without is not None
-            and self.side_px >= LEAST_UNEVEN_PX
-            and max(self.hidden_ratio, self.inner_hidden_ratio) <= MOST_UNEVEN_HIDDEN_RATIO
-            and self.moved_px <= moved_px
-            and self.blur_px[0] <= MOST_UNEVEN_BLUR_SIDE_RATIO * self.side_px
-            and min(self.likeness, self.inner_likeness) >= least
-            and min(without.likeness, without.inner_likeness) >= LEAST_BESIDE_NOISE
-            and without.flipped_ratio <= MOST_FLIPPED_RATIO
-        )
 
 
 def explanation_of(
