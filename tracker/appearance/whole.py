@@ -111,24 +111,22 @@ def whole_fits(
 
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
-    done: list[Fitted] = []
+    one: Fitted | None = None
     # It is the light of one pose: of two, it would speak for that one.
     if known is not None and len(starts) == 1:
         wide = _wide(known.numbers, focus)
         seen = chosen(focus if wide is None else wide)
         one = in_known_light(seen, starts[0].rotation, starts[0].translation_mm, known)
-        done = [] if one is None else [one]
+    done = [] if one is None else [one]
     if not done:
         known = None
         seen, done = _anew(chosen, starts, focus, noise_grey)
     if not done:
         return []
-    if done[0].light[0] != PLAIN:
-        done = with_mirrored(seen, done, [start.rotation for start in starts])
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
     blocks = BLOCKS if covered_at is None and _wide(done[0].numbers, focus) is None else LARGE_BLOCKS
-    records = [_record(seen, one, cost, blocks, known) for one, cost in zip(done, costs, strict=True)]
+    records = (_record(seen, one, cost, blocks, known) for one, cost in zip(done, costs, strict=True))
     return [one for one in records if one is not None]
 
 
@@ -154,7 +152,10 @@ def _anew(
     # Where even light leaves much, it has not been asked yet which of them is better.
     if not (much := leaves_much(near, noise_grey)):
         near = in_question(few, near, OUT_OF_QUESTION_SD2)
-    return seen, _at_all(seen, near, noise_grey, much)
+    done = _at_all(seen, near, noise_grey, much)
+    if done and done[0].light[0] != PLAIN:
+        done = with_mirrored(seen, done, [start.rotation for start in starts])
+    return seen, done
 
 
 def _wide(numbers: Array, focus_px2: Array) -> Array | None:

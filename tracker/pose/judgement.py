@@ -24,7 +24,8 @@ WORTH_EXPLAINING = 0.45
 EDGES_OFF_PX = 0.6
 # On bent paper a part of the shape may be beside where it is expected. What is found anew is believed so far
 # only where it is large and nearly whole; what was there before, and is not contradicted, sooner.
-WIDE_PX, WHOLE_COVERAGE_RATIO, NEAR_LIKENESS, KNOWN_LIKENESS = 36.0, 0.85, 0.93, 0.85
+WIDE_PX, WHOLE_COVERAGE_RATIO, KNOWN_LIKENESS = 36.0, 0.85, 0.85
+NEAR_LIKENESS, NEAR_INNER_LIKENESS = 0.93, 0.9
 # Under glare, what has hardly moved and has no edges but the marker's is kept.
 KEPT_TARGET_COVERAGE_RATIO, KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO = 0.9, 3.0, 0.1
 
@@ -155,13 +156,13 @@ def _explained(
         return moved, explanation.covers if explanation.is_covered else None
     if plain <= 0.0:
         return None
-    alike = min(explanation.likeness, explanation.inner_likeness)
+    alike, inner = explanation.likeness, explanation.inner_likeness
     if scene.expected is not None:
-        return (seen, None) if alike >= KNOWN_LIKENESS else None
+        return (seen, None) if min(alike, inner) >= KNOWN_LIKENESS else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO
     # Bent paper needs no highlights, and they take what is another shape away with them.
     is_bent = wide and not explanation.under_highlights
-    return (seen, None) if is_bent and alike >= NEAR_LIKENESS else None
+    return (seen, None) if is_bent and alike >= NEAR_LIKENESS and inner >= NEAR_INNER_LIKENESS else None
 
 
 def _is_kept(scene: Scene, found: Occurrence) -> bool:

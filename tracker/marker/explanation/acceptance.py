@@ -27,7 +27,8 @@ MOST_INNER_HIDDEN_RATIO = 0.55
 # Where the square is small, nothing is said.
 LEAST_UNEVEN_PX = 18.0
 IN_NOISE_SIDES_PX, LEAST_IN_NOISE, LEAST_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9), 0.955
-# Blurred over more of its side all round, or hidden more, a part of the shape passes for light.
+# Blurred over more of its side, or more of it hidden or too bright to tell, a part of the shape passes for
+# light.
 MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_SMEAR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.08, 0.105, 0.4
 MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO = 2.0, 0.06
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
@@ -41,9 +42,9 @@ MOST_MOVED_BLURS = 1.75
 # covered ones 0.96 (10,000 looked at); smear leaves one direction sharp, and others 0.8.
 BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MOST_BLUR_SIDE_RATIO = 0.1, 0.05, 0.16
 LEAST_LIKENESS_BLURRED, LEAST_LIKENESS_SMEARED, LEAST_LIKENESS_BLURRED_COVERED = 0.955, 0.92, 0.98
-# Covered or under highlights, half as blurred and sharp in no direction, squares with two spots in them have
-# reached 0.95, highlights taken off 0.93.
-LEAST_LIKENESS_SOFT = 0.965
+# Half as blurred, and sharp in no direction, squares with two spots in them have reached 0.95 where covered,
+# and 0.97 under highlights: there, none is believed.
+LEAST_LIKENESS_SOFT_COVERED = 0.965
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,6 +71,7 @@ class Explanation:
         inner_likeness: the same where the model has its shape, the outline left out.
         hidden_ratio: part of the square that is covered, 0..1.
         inner_hidden_ratio: the same of where the model has its shape.
+        inner_untold_ratio: the same, and what is too bright, or too near to a cover, to tell.
         inside_ratio: area of the largest piece that contradicts and is not covered, by the square's.
         corners_px: (4, 2), where they explain it best.
         moved_px: how far the corners (4, 2) had to be moved to explain it best, the farthest.
@@ -85,6 +87,7 @@ class Explanation:
     inner_likeness: float
     hidden_ratio: float
     inner_hidden_ratio: float
+    inner_untold_ratio: float
     inside_ratio: float
     corners_px: Array
     moved_px: float
@@ -125,13 +128,15 @@ class Explanation:
         if self.beside_noise is not None and not self._explains_beside_noise:
             return False
         is_sharp = self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
+        if self.under_highlights and not is_sharp and self.beside_noise is None:
+            return False
         if self.blur_px[1] > BLURRED_SIDE_RATIO * self.side_px:
             if self.under_highlights:
                 return False
             least = LEAST_LIKENESS_SMEARED if is_sharp else LEAST_LIKENESS_BLURRED
             least = LEAST_LIKENESS_BLURRED_COVERED if covered else least
-        elif not is_sharp and (covered or self.under_highlights):
-            least = max(least, LEAST_LIKENESS_SOFT)
+        elif covered and not is_sharp:
+            least = max(least, LEAST_LIKENESS_SOFT_COVERED)
         return (
             not self.is_turned
             and (
@@ -156,7 +161,7 @@ class Explanation:
         return (
             without is not None
             and self.side_px >= LEAST_UNEVEN_PX
-            and max(self.hidden_ratio, self.inner_hidden_ratio) <= MOST_UNEVEN_HIDDEN_RATIO
+            and max(self.hidden_ratio, self.inner_untold_ratio) <= MOST_UNEVEN_HIDDEN_RATIO
             and self.moved_px <= moved_px
             and self.blur_px[0] <= MOST_UNEVEN_BLUR_SIDE_RATIO * self.side_px
             and self.blur_px[1] <= MOST_UNEVEN_SMEAR_SIDE_RATIO * self.side_px

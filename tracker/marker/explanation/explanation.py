@@ -176,6 +176,7 @@ def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
         inner_likeness=likeness(fit.seen, fit.rest, telling & shape, fit.light, 0.0),
         hidden_ratio=1.0 - float(visible[inside_square()].mean()),
         inner_hidden_ratio=1.0 - float(visible[shape].mean()),
+        inner_untold_ratio=1.0 - float(telling[shape].mean()),
         inside_ratio=inside / FIELDS**2,
         corners_px=np.array([through(fit.to_px, a, b) for a, b in fit.corners]),
         moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
