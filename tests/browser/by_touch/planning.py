@@ -48,7 +48,10 @@ def moved_and_undone(tablet: Tablet) -> None:
     tablet.sees("move-channel")
     assert np.array(entry()) - before == pytest.approx([1.0, 0.0, 0.0], abs=1e-6)
     assert _plan(tablet)["active_channel"] is None
-    with tablet.page.expect_response(lambda answer: answer.request.method != "GET"):
+    # Its own answer: the page also says on its own, every few seconds, whether it can sound an alarm.
+    with tablet.page.expect_response(
+        lambda answer: answer.request.method == "PUT" and answer.url.endswith("/api/plan")
+    ):
         tablet.tap("undo")
     assert entry() == pytest.approx(before, abs=1e-9)
     tablet.tap("activate")

@@ -39,7 +39,7 @@ def check_on_a_landmark(tablet: Tablet) -> None:
     # A hand that had just left the landmark holds the tip on it again.
     while page.get_by_test_id("capture-refused").count() > 0:
         tablet.finds("tip-rests", "data-landmark", landmark)
-        with page.expect_response(lambda answer: answer.request.method == "POST"):
+        with page.expect_response(lambda answer: answer.url.endswith("/api/registration/check")):
             tablet.tap("check-again")
         page.locator("[data-testid=capturing], [data-testid=check-outcome]").wait_for()
         over.wait_for()
