@@ -1,5 +1,6 @@
 """One fit of pose, blur, camera response and light to some pixels, and where it ended."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tracker.appearance.kernels import robust_cost, whole_fit
@@ -96,6 +97,12 @@ def again(seen: Samples, near: Fitted) -> Fitted | None:
         scale_grey=near.scale_grey,
         settled=STRAIGHT_SD2,
     )
+
+
+def all_again(seen: Samples, near: Iterable[Fitted | None]) -> list[Fitted]:
+    """The same of some; those that failed, or fail now, are left out."""
+    fits = (None if one is None else again(seen, one) for one in near)
+    return [one for one in fits if one is not None]
 
 
 def cost_of(seen: Samples, one: Fitted, scale_grey: float) -> float:

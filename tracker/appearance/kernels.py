@@ -92,14 +92,17 @@ def _solved(a, g, damping, order, band, step, rotation, translation, lens, side_
 
 
 @compiled
-def _cost(rows, values, lit, numbers, light, own, scale, cut):
-    """The robust sum of squared residuals, in squared grey levels, with that of what is known beforehand."""
-    cost, unit, count = 0.0, 1.0 / (cut * scale) ** 2, len(numbers)
+def _cost(rows, values, lit, numbers, light, own, scale, cut, room):
+    """The robust sum of squared residuals, in squared grey levels, with that of what is known beforehand.
+
+    `room`: a matrix (n, n) and a vector (n,) that are written over.
+    """
+    cost, unit = 0.0, 1.0 / (cut * scale) ** 2
     for i in range(len(values)):
         r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], numbers[RESPONSE])
         z = r * r * own[i] * unit
         cost += z / (1.0 + z)
-    return cost / unit + hold(np.zeros((count, count)), np.zeros(count), numbers, scale, light)
+    return cost / unit + hold(room[0], room[1], numbers, scale, light)
 
 
 @compiled
@@ -132,7 +135,7 @@ def whole_fit(
     light_up(at, numbers, light, lit)
     cost, total = equations(rows, at, values, lit, numbers, light, own, scale, cut, a, g)
     old_rotation, old_translation, old = rotation.copy(), translation.copy(), numbers.copy()
-    damping, order, band = 1e-6, fields_first(light), band_of(light)
+    damping, order, band, room = 1e-6, fields_first(light), band_of(light), (a.copy(), g.copy())
     for _ in range(rounds):
         gain, share = _solved(a, g, damping, order, band, step, rotation, translation, lens, side_mm, most_px)
         if share == 0.0:
@@ -144,7 +147,7 @@ def whole_fit(
         new_cost = np.inf
         if facing and predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, True):
             light_up(at, numbers, light, lit)
-            new_cost = _cost(rows, values, lit, numbers, light, own, scale, cut)
+            new_cost = _cost(rows, values, lit, numbers, light, own, scale, cut, room)
         fallen = (cost - new_cost) / (scale * scale)
         if not fallen >= 0.0:
             rotation[:, :], translation[:], numbers[:] = old_rotation, old_translation, old
@@ -178,7 +181,8 @@ def robust_cost(rays, values, lens, rotation, translation, side_mm, tex, numbers
         return np.inf
     light_up(at, numbers, light, lit)
     trust(at, lens, rotation, translation, side_mm, numbers, light, scale, own)
-    return _cost(rows, values, lit, numbers, light, own, scale, cut) / (scale * scale)
+    room = (np.zeros((len(numbers), len(numbers))), np.zeros(len(numbers)))
+    return _cost(rows, values, lit, numbers, light, own, scale, cut, room) / (scale * scale)
 
 
 @compiled

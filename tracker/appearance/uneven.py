@@ -10,6 +10,7 @@ from tracker.appearance.fit import (
     STRAIGHT_SD2,
     Fitted,
     again,
+    all_again,
     cost_of,
     fitted,
     in_question,
@@ -40,8 +41,6 @@ LEAST_PATTERN_SD2 = 80.0
 FREE_PRICE_SD2 = 50.0
 # So many pixels, and so many steps, tell which light it is; one that then costs so much more is let go.
 TELLING_PIXELS, TELLING_ROUNDS, LET_GO_SD2 = 600, 2, 60.0
-
-
 # The light of an image serves so many more, as long as it leaves at most so many times as much: then it is
 # asked anew which light it is.
 MOST_IMAGES, MOST_MORE_LEFT = 10, 1.15
@@ -111,7 +110,7 @@ def _explained(seen: Samples, some: Samples, even: Fitted, noise_grey: float) ->
     """About this pose in the light that explains the pixels; None where nothing can be fitted."""
     begun = [_begun(some, even, kind) for kind in (SHADED, GLARING)]
     told = in_question(some, [one for one in begun if one is not None], LET_GO_SD2)
-    fits = [one for one in (again(seen, one) for one in told) if one is not None]
+    fits = all_again(seen, told)
     # What leaves no more than noise leaves nothing to explain.
     if not fits or min(one.scale_grey for one in fits) > noise_grey:
         fits += _by_all(seen, some, [_begun(some, even, FREE, rounds=ROUNDS)])
@@ -127,8 +126,7 @@ def _explained(seen: Samples, some: Samples, even: Fitted, noise_grey: float) ->
 
 def _by_all(seen: Samples, some: Samples, fits: list[Fitted | None]) -> list[Fitted]:
     """Fits to some of the pixels, by all of them; those that fail are left out."""
-    told = [one for one in fits if one is not None]
-    return told if some is seen else [one for one in (again(seen, one) for one in told) if one is not None]
+    return [one for one in fits if one is not None] if some is seen else all_again(seen, fits)
 
 
 def _begun(seen: Samples, even: Fitted, kind: int, *, rounds: int = TELLING_ROUNDS) -> Fitted | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.appearance.equations.kernels import EVEN
-from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, again, cost_of, fitted, in_question
+from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, all_again, cost_of, fitted, in_question
 from tracker.appearance.kernels import scores_spread
 from tracker.appearance.light.fields.kernels import PLAIN, band_of, fields_first, typical_contrast
 from tracker.appearance.light.kernels import BLUR, RESPONSE
@@ -146,7 +146,7 @@ def _anew(
     if (blur := _wide(sharp.numbers, focus_px2)) is not None:
         seen = chosen(blur)
         few = some_of(seen, FEW_PIXELS)
-        near = _by(few, near)
+        near = all_again(few, near)
         if not near:
             return seen, []
     # Where even light leaves much, it has not been asked yet which of them is better.
@@ -174,17 +174,12 @@ def _near(few: Samples, start: Rigid[Camera, Marker], blur_px2: Array) -> Fitted
 def _at_all(seen: Samples, near: list[Fitted], noise_grey: float, much: bool) -> list[Fitted]:
     """The same by all pixels, in the light that explains them; `much`: whether even light leaves much."""
     some = some_of(seen, SOME_PIXELS)
-    done = _by(some, near)
+    done = all_again(some, near)
     if not (much and done and is_uneven(some, done)):
-        done = done if some is seen else _by(seen, done)
+        done = done if some is seen else all_again(seen, done)
         if not done or not is_uneven(seen, done):
             return done
     return in_light_that_explains(seen, done, noise_grey)
-
-
-def _by(seen: Samples, near: list[Fitted]) -> list[Fitted]:
-    """The same by these pixels; those that fail are left out."""
-    return [one for one in (again(seen, one) for one in near) if one is not None]
 
 
 def _record(

@@ -6,6 +6,8 @@ from tracker.compiled import compiled
 
 # Of a unit diagonal: what is not told at all is not moved.
 RIDGE = 1e-9
+# Each number meets all others.
+NO_BAND = (0, 0)
 
 
 @compiled
@@ -152,8 +154,8 @@ def solve_banded(a, band, g, out):
 
 @compiled
 def solve_positive(a, g, out):
-    """The same where each number meets all others."""
-    return solve_banded(a, (0, 0), g, out)
+    """The same without a band."""
+    return solve_banded(a, NO_BAND, g, out)
 
 
 @compiled
@@ -252,10 +254,10 @@ def mean_ratio(a, b):
     """Mean ratio of a symmetric matrix `b` (n, n) to a positive one `a`, over all ways; 0 where it is not."""
     n = len(a)
     upper, d, out = np.empty((n, n)), np.empty(n), np.empty(n)
-    if not _factor(a, 0.0, (0, 0), upper, d):
+    if not _factor(a, 0.0, NO_BAND, upper, d):
         return 0.0
     total = 0.0
     for k in range(n):
-        _substitute(upper, d, (0, 0), b[k], out)
+        _substitute(upper, d, NO_BAND, b[k], out)
         total += out[k]
     return total / n

@@ -7,7 +7,7 @@ import numpy as np
 from tracker.camera import CameraModel
 from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
-from tracker.geometry.kernels import RIDGE, pose_rows
+from tracker.geometry.kernels import NO_BAND, RIDGE, pose_rows
 from tracker.marker import ActiveEdges, reach_px
 from tracker.marker.score import LEAST_RESPONSE_RATIO
 from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
@@ -22,7 +22,7 @@ LEAST_RESIDUAL_PX = 0.03
 # that are near to each other. Measured on rendered scenes, where the truth is known.
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
 MOST_MIRRORINGS = 5
-IN_ORDER, NO_BAND = np.arange(PARAMETERS), (0, 0)
+IN_ORDER = np.arange(PARAMETERS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -124,26 +124,10 @@ class Explanation:
             else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
         )
         smeared_px = float(np.sqrt(max(self.blur_px[1] ** 2 - self.blur_px[0] ** 2, 0.0)))
-        least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
-        if self.beside_noise is not None and not self._explains_beside_noise:
-            return False
-        is_sharp = self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
-        if self.under_highlights and not is_sharp and self.beside_noise is None:
-            return False
-        if self.blur_px[1] > BLURRED_SIDE_RATIO * self.side_px:
-            if self.under_highlights:
-                return False
-            least = LEAST_LIKENESS_SMEARED if is_sharp else LEAST_LIKENESS_BLURRED
-            least = LEAST_LIKENESS_BLURRED_COVERED if covered else least
-        elif covered and not is_sharp:
-            least = max(least, LEAST_LIKENESS_SOFT_COVERED)
         return (
             not self.is_turned
-            and (
-                self.beside_noise is not None
-                or min(self.likeness, self.inner_likeness)
-                >= least + COVERED_MORE * covered - HIGHLIGHTS_LESS * self.under_highlights
-            )
+            and (self._is_alike if self.beside_noise is None else self._is_alike_beside_noise)
+            and not (self.under_highlights and self._is_blurred)
             and self.inside_ratio < LEAST_AREA_RATIO
             and self.hidden_ratio <= MOST_HIDDEN_RATIO
             and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
@@ -153,7 +137,27 @@ class Explanation:
         )
 
     @property
-    def _explains_beside_noise(self) -> bool:
+    def _is_blurred(self) -> bool:
+        return self.blur_px[1] > BLURRED_SIDE_RATIO * self.side_px
+
+    @property
+    def _is_alike(self) -> bool:
+        """Whether in usual light it is more like the model than other shapes come."""
+        is_sharp = self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
+        if self.under_highlights and not is_sharp:
+            return False
+        least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
+        if self._is_blurred and self.is_covered:
+            least = LEAST_LIKENESS_BLURRED_COVERED
+        elif self._is_blurred:
+            least = LEAST_LIKENESS_SMEARED if is_sharp else LEAST_LIKENESS_BLURRED
+        elif self.is_covered and not is_sharp:
+            least = max(least, LEAST_LIKENESS_SOFT_COVERED)
+        least += COVERED_MORE * self.is_covered - HIGHLIGHTS_LESS * self.under_highlights
+        return min(self.likeness, self.inner_likeness) >= least
+
+    @property
+    def _is_alike_beside_noise(self) -> bool:
         """Whether in uneven light the shape stands out of the noise, and little but noise is left of it."""
         without = self.beside_noise
         moved_px = max(MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO * self.side_px)

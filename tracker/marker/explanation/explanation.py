@@ -168,7 +168,7 @@ def _told(fit: Fit, *, in_noise: bool = False) -> Explanation | None:
 def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
     hidden, inside = covered(fit.left, blur_fields=fit.blur_fields)
     visible = ~hidden & fit.visible
-    telling = visible & (fit.seen < SATURATED_GREY) & fit.clear
+    telling = fit.telling(visible)
     shape = shape_of(fit.picture)
     return Explanation(
         side_px=fit.side_px,

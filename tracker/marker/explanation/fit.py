@@ -14,6 +14,7 @@ from tracker.marker.explanation.kernels import (
     FIELDS,
     PLACE,
     RING,
+    SATURATED_GREY,
     SPREAD,
     WIDE,
     clear_of_beyond,
@@ -144,12 +145,11 @@ class Fit:
         self.blur = of_best
         return best
 
-    @property
-    def clear(self) -> Mask:
-        """Where blur brings in little of what lies beyond the marker's paper."""
+    def telling(self, visible: Mask) -> Mask:
+        """Which visible fields tell: not too bright, and clear of what blur brings in beyond the paper."""
         clear = np.empty((WIDE, WIDE), np.bool_)
         clear_of_beyond(self.blur, clear)
-        return clear
+        return np.asarray(visible & (self.seen < SATURATED_GREY) & clear)
 
     @property
     def blur_fields(self) -> float:

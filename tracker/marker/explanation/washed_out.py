@@ -38,7 +38,7 @@ def is_washed_out(image: GreyImage, square: GreyImage, corners_px: Array, *, sid
     if not fit.walk(LIGHT_ROUNDS):
         return False
     hidden, _ = covered(fit.left, blur_fields=fit.blur_fields)
-    telling, shape = ~hidden & (fit.seen < SATURATED_GREY) & fit.clear, shape_of(fit.picture)
+    telling, shape = fit.telling(~hidden), shape_of(fit.picture)
     return bool(
         float(telling[shape].mean()) >= LEAST_SEEN_RATIO
         and likeness(fit.seen, fit.rest, telling & inside, fit.light, 0.0) >= LEAST_ALIKE

@@ -25,19 +25,14 @@ DARK, LIGHT = np.float32(64.0), np.float32(192.0)
 
 def glance(image: GreyImage, quads: Quads, templates: Templates) -> Float32:
     """Likeness (q, m, 4) of what is inside each outline to each model at each turn, -1..1."""
-    seen = _seen(image, quads)
+    seen = np.asarray(sample_quads(image, quads, CELLS, RING), dtype=np.float32)
+    even_light(seen, ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
     out = np.empty((len(quads), len(templates), 4), np.float32)
     for m, template in enumerate(templates.each):
         blurs, turns, cells = template.turned.shape
         alike = products(seen, np.ascontiguousarray(template.turned.reshape(-1, cells).T))
         out[:, m] = alike.reshape(len(quads), blurs, turns).max(axis=1)
     return out
-
-
-def _seen(image: GreyImage, quads: Quads) -> Float32:
-    seen = sample_quads(image, quads, CELLS, RING)
-    even_light(seen, ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
-    return np.asarray(seen, dtype=np.float32)
 
 
 def likely(even: GreyImage, quads: Quads, templates: Templates, *, most: int) -> tuple[Quads, Float32]:

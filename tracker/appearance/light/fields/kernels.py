@@ -7,6 +7,7 @@ import numpy as np
 
 from tracker.appearance.light.kernels import LIGHT, PLANE
 from tracker.compiled import compiled
+from tracker.geometry.kernels import NO_BAND
 
 # Kinds of light, and what their numbers are from LIGHT on: of an even one dark and contrast, each with its
 # slopes; of a shaded one the field of the contrast, what dark is of it, and what is dark without light; of a
@@ -65,7 +66,7 @@ def band_of(light):
     """How many of the fields' numbers there are, and how far apart in that order those are that meet."""
     kind, nodes = light
     if kind == PLAIN:
-        return 0, 0
+        return NO_BAND
     fields = 2 if kind == FREE else 1
     return fields * nodes * nodes, fields * (2 * nodes + 3)
 
