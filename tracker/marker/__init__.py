@@ -19,7 +19,7 @@ from tracker.marker.score import (
     reach_px,
     target_coverage_ratio,
 )
-from tracker.marker.search import Candidate, candidate_rounds
+from tracker.marker.search import Candidate, candidate_rounds, thorough_rounds
 
 __all__ = [
     "ActiveEdges",
@@ -41,4 +41,5 @@ __all__ = [
     "refuse_alike",
     "target_coverage_ratio",
     "templates_of",
+    "thorough_rounds",
 ]

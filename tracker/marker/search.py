@@ -2,16 +2,15 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
 from tracker.marker.explanation import likeness_part_by_part
+from tracker.marker.levels import LEAST_LEVEL_PX, WINDOW_PX, Level, Levels, first_level, softened
 from tracker.marker.looks import (
     STEPS,
     Template,
@@ -26,34 +25,53 @@ from tracker.regions import (
     Regions,
     border_segments,
     dark_mask,
-    even_image,
     noise_grey,
     quads_of,
     regions_of_mask,
 )
 
-# An image over a megapixel is first looked at at half its size.
-MOST_PIXELS_AT_ONCE = 1_000_000
-LEAST_LEVEL_PX = 12
 # At a closer look a marker in sight has 0.8 to 1.
 LEAST_LIKENESS = 0.76
-MOST_LOOKED_AT, MOST_CANDIDATES = 8, 4
+MOST_CANDIDATES = 4
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
-WINDOW_PX = 21
 LEAST_PIECE_PX = 4.0
 NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
-# Of many models each has its share, so that they cost little more than one.
-MOST_PEEKED, LEAST_PEEKED = 180, 40
 # A corner says little of where the others are: two steps tell which outlines are worth all of them.
-FIRST_STEPS, MOST_CLOSER = 2, 12
+FIRST_STEPS = 2
+# So many models share; more cost more.
+MOST_SHARES = 4
 # Of four sides, where they are is known better than of two.
 MOST_CLOSER_OF_FOUR = 8
 # Where one outline is as like as this, those that are so far behind are not it.
 SURE_LIKENESS, FAR_BEHIND = 0.94, 0.08
-# An outline is looked at closely at the level where it is no wider than this: a cell is a pixel or two.
-CLOSER_SIDE_PX = 32.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effort:
+    """How many outlines are kept for each model, look after look.
+
+    Attributes:
+        peeked: of those of which a corner is seen, after a peek: outlines, and outlines in one of their
+            turns. Of many models each has its share, so that they cost little more than one.
+        closer: after two steps.
+        part_by_part: after all of them.
+    """
+
+    peeked: int
+    closer: int
+    part_by_part: int
+
+    def peeked_of(self, models: int) -> int:
+        """The share of each of so many models."""
+        return self.peeked // min(models, MOST_SHARES)
+
+
+# Where shadow, highlights, smear and noise come together, the look part by part alone tells the marker from
+# other shapes, and two steps rank it up to eightieth.
+USUAL = Effort(peeked=180, closer=12, part_by_part=8)
+THOROUGH = Effort(peeked=500, closer=80, part_by_part=60)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,54 +87,6 @@ class Candidate:
     likeness: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Level:
-    """The image at a half, a quarter of its size, or as it is.
-
-    Attributes:
-        image: (h, w).
-        scale: how many pixels of the whole image one of its pixels is wide.
-        noise_grey: sd of its noise.
-    """
-
-    image: GreyImage
-    scale: int
-    noise_grey: float
-
-    @cached_property
-    def soft(self) -> GreyImage:
-        """The image in even light and a little soft: for a peek."""
-        even = even_image(self.image, window_px=WINDOW_PX, noise_grey=self.noise_grey)
-        return np.asarray(cv2.blur(even, (3, 3)), dtype=np.uint8)
-
-    def full_px(self, quads: Quads) -> Quads:
-        """Points of this level in px of the whole image."""
-        return np.asarray(quads * np.float32(self.scale) + np.float32(0.5 * (self.scale - 1)), np.float32)
-
-    def own_px(self, quads: Quads) -> Quads:
-        """Points of the whole image in px of this level."""
-        return np.asarray((quads - np.float32(0.5 * (self.scale - 1))) / np.float32(self.scale), np.float32)
-
-
-class Levels:
-    """The image at falling sizes, each made when it is asked for."""
-
-    def __init__(self, first: Level) -> None:
-        self._made = [first]
-
-    def __getitem__(self, k: int) -> Level:
-        while len(self._made) <= k:
-            self._made.append(halved(self._made[-1]))
-        return self._made[k]
-
-    def for_side(self, side_px: float) -> int:
-        """At which level a side of so many px of the whole image is looked at closely."""
-        k, least = 0, 2 * LEAST_LEVEL_PX
-        while side_px > CLOSER_SIDE_PX * self[k].scale and min(self[k].image.shape) >= least:
-            k += 1
-        return k
-
-
 def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[list[Candidate]]]:
     """For each model (m) of the templates its next candidates, the likeliest first, at rising cost.
 
@@ -129,19 +99,37 @@ def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[li
     """
     if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
         return
-    given = [np.empty((0, 4, 2), np.float32) for _ in templates.each]
     levels = Levels(first_level(image))
-    for level, quads, likeness, is_peek in _looks(image, levels, templates):
+    yield from _rounds(image, levels, templates, _looks(image, levels, templates), USUAL)
+
+
+def thorough_rounds(image: GreyImage, templates: Templates) -> Iterator[list[list[Candidate]]]:
+    """Candidates as `candidate_rounds` gives them, of far more outlines, at far more cost.
+
+    Where a shadow, highlights, smear and noise come together.
+    """
+    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
+        return
+    levels = Levels(first_level(image))
+    looks = _thorough_looks(levels[0], templates)
+    yield from _rounds(image, levels, templates, looks, THOROUGH)
+
+
+def _rounds(
+    image: GreyImage, levels: Levels, templates: Templates, looks: Iterator["Look"], effort: Effort
+) -> Iterator[list[list[Candidate]]]:
+    """For each model its candidates of look after look; what was given once is not given again."""
+    given = [np.empty((0, 4, 2), np.float32) for _ in templates.each]
+    for level, quads, likeness, is_peek in looks:
         fresh: list[list[Candidate]] = []
         for m, template in enumerate(templates.each):
-            turned = _top(level.full_px(quads), likeness[:, m], is_peek=is_peek)
+            most = effort.peeked_of(len(templates)) if is_peek else MOST_CLOSER_OF_FOUR
+            turned = _top(level.full_px(quads), likeness[:, m], most, is_sure=not is_peek)
             if is_peek:
-                turned = _worth_all_steps(levels, turned, template)
+                turned = _worth_all_steps(levels, turned, template, effort.closer)
             closer, alike = _closer(levels, turned, template)
-            order = np.argsort(-alike, kind="stable")
-            best = distinct(
-                closer, alike, order, given[m], MOST_LOOKED_AT, LEAST_LIKENESS, SAME_OUTLINE_SIDE_RATIO
-            )
+            order, most = np.argsort(-alike, kind="stable"), effort.part_by_part
+            best = distinct(closer, alike, order, given[m], most, LEAST_LIKENESS, SAME_OUTLINE_SIDE_RATIO)
             candidates = [_candidate(closer[k], alike[k]) for k in best]
             kept = _by_two_looks(image, candidates, template)[:MOST_CANDIDATES]
             given[m] = np.concatenate([given[m], *(one.corners_px[None].astype(np.float32) for one in kept)])
@@ -180,36 +168,31 @@ class Look(NamedTuple):
 
 def _looks(image: GreyImage, levels: Levels, templates: Templates) -> Iterator[Look]:
     """Look after look, at rising cost."""
-    level = levels[0]
+    level, most = levels[0], USUAL.peeked_of(len(templates))
     regions = _regions(level)
     yield _of_four_sides(level, regions, templates)
-    yield _at_corners(level, border_segments(regions), templates)
+    yield _at_corners(level, border_segments(regions), templates, most)
     if min(level.image.shape) >= 2 * LEAST_LEVEL_PX:
         half = levels[1]
         regions = _regions(half)
         yield _of_four_sides(half, regions, templates)
-        yield _at_corners(half, _edge_segments(half.image, LEAST_PIECE_PX), templates)
-    yield _at_corners(level, _edge_segments(level.image, LEAST_PIECE_PX), templates)
+        yield _at_corners(half, _edge_segments(half.image, LEAST_PIECE_PX), templates, most)
+    yield _at_corners(level, _edge_segments(level.image, LEAST_PIECE_PX), templates, most)
     if level.scale > 1:
         # What is small in a large image.
         whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
         yield _of_four_sides(whole, _regions(whole), templates)
 
 
-def first_level(image: GreyImage) -> Level:
-    """The image at the size at which it is looked at first."""
-    level = Level(image=image, scale=1, noise_grey=0.0)
-    if image.size > MOST_PIXELS_AT_ONCE:
-        return halved(level)
-    return Level(image=image, scale=1, noise_grey=noise_grey(image))
-
-
-def halved(level: Level) -> Level:
-    """The same at half the size: a pixel is the mean of four."""
-    height, width = level.image.shape
-    even = level.image[: height // 2 * 2, : width // 2 * 2]
-    half = np.asarray(cv2.resize(even, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-    return Level(image=half, scale=2 * level.scale, noise_grey=noise_grey(half))
+def _thorough_looks(level: Level, templates: Templates) -> Iterator[Look]:
+    """Outlines of which a corner is seen, in noise too."""
+    soft = softened(level)
+    for seen, segments in (
+        (level, border_segments(_regions(level))),
+        (level, _edge_segments(level.image, LEAST_PIECE_PX)),
+        (soft, border_segments(_regions(soft))),
+    ):
+        yield _at_corners(seen, segments, templates, THOROUGH.peeked_of(len(templates)))
 
 
 def _regions(level: Level) -> Regions:
@@ -229,30 +212,31 @@ def _edge_segments(image: GreyImage, least_px: float) -> npt.NDArray[np.float32]
     return np.concatenate([pieces, joined_segments(pieces)])
 
 
-def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Templates) -> Look:
+def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Templates, most: int) -> Look:
     """Outlines of which a corner is seen, and of the rest as much as is not covered."""
     step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
     corners = corner_quads_of(level.image, segments, least_step_grey=step)
-    most = max(MOST_PEEKED // len(templates), LEAST_PEEKED)
     return Look(level, *likely(level.soft, corners, templates, most=most), is_peek=True)
 
 
-def _top(quads: Quads, likeness: npt.NDArray[np.float32], *, is_peek: bool) -> Quads:
-    """The likeliest outlines and turns (q, 4), each with the model's own first corner first."""
+def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int, *, is_sure: bool) -> Quads:
+    """The likeliest outlines and turns (q, 4), each with the model's own first corner first.
+
+    `is_sure`: whether a likeness tells enough to let go what is far behind the likeliest.
+    """
     flat = likeness.ravel()
-    most = len(quads) if is_peek else MOST_CLOSER_OF_FOUR
     best = np.argpartition(-flat, most)[:most] if len(flat) > most else np.arange(len(flat))
-    if not is_peek and len(best) and flat[best].max() > SURE_LIKENESS:
+    if is_sure and len(best) and flat[best].max() > SURE_LIKENESS:
         best = best[flat[best] > flat[best].max() - FAR_BEHIND]
     q, turn = np.divmod(best, 4)
     corner = (np.arange(4) - turn[:, None]) % 4
     return np.ascontiguousarray(quads[q[:, None], corner])
 
 
-def _worth_all_steps(levels: Levels, quads: Quads, template: Template) -> Quads:
+def _worth_all_steps(levels: Levels, quads: Quads, template: Template, most: int) -> Quads:
     """The outlines that are likest after the first steps, moved by them."""
     moved, alike = _closer(levels, quads, template, steps=FIRST_STEPS)
-    return moved[np.argsort(-alike, kind="stable")[:MOST_CLOSER]]
+    return moved[np.argsort(-alike, kind="stable")[:most]]
 
 
 def _closer(

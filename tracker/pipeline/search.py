@@ -1,10 +1,10 @@
 """The search of one image, round after round of candidates at rising cost."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from tracker.marker import Candidate, MarkerModel, Templates, candidate_rounds
+from tracker.marker import Candidate, MarkerModel, Templates, candidate_rounds, thorough_rounds
 from tracker.pipeline.fitter import Fitter, is_certain
-from tracker.pose import Pixels, Sighting, Unseen, UnseenReason, worth_of
+from tracker.pose import Pixels, Seen, Sighting, Unseen, UnseenReason, worth_of
 
 
 class Search:
@@ -25,7 +25,7 @@ class Search:
         self.best: dict[str, Sighting] = {
             model.name: Unseen(reason=UnseenReason.NO_CANDIDATE) for model in models
         }
-        self._pixels, self._models = pixels, models
+        self._pixels, self._models, self._templates = pixels, models, templates
         self._fitter = fitter
         self._rounds = candidate_rounds(pixels.image, templates)
         # Models whose candidates of this round have not been looked at.
@@ -44,9 +44,25 @@ class Search:
             self.best[model.name] = max(self.best[model.name], found, key=worth_of)
         return True
 
-    def to_the_end(self) -> dict[str, Sighting]:
-        """Make the rest of it, as long as it can find something better; what it says of each marker."""
-        while self.go_on():
-            if all(is_certain(sighting) for sighting in self.best.values()):
-                break
+    def to_the_end(self, *, thorough: bool = False) -> dict[str, Sighting]:
+        """Make the rest of it, as long as it can find something better; what it says of each marker.
+
+        `thorough`: whether what is not seen is looked for once more, at far more cost.
+        """
+        self._go_on_until(is_certain)
+        unseen = [k for k, model in enumerate(self._models) if not _is_seen(self.best[model.name])]
+        if thorough and unseen:
+            self._models = [self._models[k] for k in unseen]
+            self._rounds = thorough_rounds(self._pixels.image, self._templates[unseen])
+            self._go_on_until(_is_seen)
         return self.best
+
+    def _go_on_until(self, enough: Callable[[Sighting], bool]) -> None:
+        while self.go_on():
+            if all(enough(self.best[model.name]) for model in self._models):
+                break
+        self._waiting = []
+
+
+def _is_seen(sighting: Sighting) -> bool:
+    return isinstance(sighting, Seen)

@@ -117,10 +117,14 @@ class Tracker:
     def search(self, image: npt.NDArray[np.uint8]) -> dict[str, Sighting]:
         """What this image says of each marker: the whole image, no prior, stateless.
 
+        A marker that is not found is looked for once more, in poor light: that takes as long again. A step
+        leaves that out, as another image comes.
+
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
-        seen = one_for_each_place(self._search_of(self._pixels(image), self.models).to_the_end())
+        said = self._search_of(self._pixels(image), self.models).to_the_end(thorough=True)
+        seen = one_for_each_place(said)
         self.stage_ms = self._stages.taken_ms
         return seen
 

@@ -1,9 +1,16 @@
 """Candidates: where in an image a marker could be, found without knowing anything before."""
 
+from collections.abc import Iterator
+
 import cv2
 import numpy as np
 import pytest
 
+from tests.benchmarks.scenes.conditions import conditions_of
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.placing import random_scene
+from tests.benchmarks.scenes.rigs import RIGS
+from tests.benchmarks.scenes.scene import image_of
 from tests.tracker.scenes import (
     OTHER,
     Image8,
@@ -18,7 +25,7 @@ from tests.tracker.scenes import (
 )
 from tracker.edges import kernels as edges_loops
 from tracker.geometry import Array
-from tracker.marker import Candidate, MarkerModel, candidate_rounds, templates_of
+from tracker.marker import Candidate, MarkerModel, candidate_rounds, templates_of, thorough_rounds
 from tracker.marker import kernels as marker_loops
 from tracker.marker.looks import kernels as looks_loops
 from tracker.marker.sampling import kernels as sampling_loops
@@ -122,6 +129,24 @@ def test_several_models_have_each_their_own_first() -> None:
     first = next(candidate_rounds(image, templates_of((MODEL, code_model(OTHER, name="other")))))
     for candidates, pose in zip(first, poses, strict=True):
         assert _off_px(candidates[0], corners_px_of(CAMERA, pose)) < 1.5
+
+
+def test_thorough_rounds_give_markers_that_the_usual_ones_miss_in_poor_light() -> None:
+    """Shadow, highlight, smear, noise and a cover at once, in the benchmark's hardest scenes."""
+    missed, given = 0, 0
+    for seed in range(700, 712):
+        face = FACES[seed % len(FACES)]
+        scene = random_scene(RIGS["A"], face, conditions_of(RIGS["A"])["hard2"], seed=seed)
+        image, templates = image_of(scene), templates_of((face.model,))
+        if not _is_among(candidate_rounds(image, templates), scene.corners_px):
+            missed += 1
+            given += _is_among(thorough_rounds(image, templates), scene.corners_px)
+    assert missed >= 5, "else these scenes say nothing"
+    assert given >= 3
+
+
+def _is_among(rounds: Iterator[list[list[Candidate]]], corners: Array) -> bool:
+    return any(_off_px(candidate, corners) < 3.5 for one in rounds for candidate in one[0])
 
 
 def test_an_image_gives_the_same_candidates_each_time() -> None:

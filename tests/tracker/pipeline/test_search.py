@@ -1,5 +1,7 @@
 """What a search says of one image: found, told apart, refused."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
@@ -16,7 +18,8 @@ from tests.tracker.scenes import (
     rendered,
     seen,
 )
-from tracker import MarkerModel, Tracker, Unseen, UnseenReason
+from tracker import MarkerModel, Seen, Tracker, Unseen, UnseenReason
+from tracker.marker import Candidate, Templates, thorough_rounds
 from tracker.rehearsal.emblem import drill_emblem
 
 
@@ -111,6 +114,26 @@ def test_of_a_marker_among_its_look_alikes_only_it_is_taken() -> None:
         ]
         sighting = seen(tracker_of().search(rendered(CAMERA, prints, seed=k))["code"])
         assert off_px(sighting, prints[0].pose) < 0.4
+
+
+def test_what_a_search_does_not_find_it_looks_for_once_more_and_a_step_leaves_that_to_the_next_image(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[int] = []
+
+    def counted(image: Image8, templates: Templates) -> Iterator[list[list[Candidate]]]:
+        asked.append(len(templates))
+        return thorough_rounds(image, templates)
+
+    monkeypatch.setattr("tracker.pipeline.search.thorough_rounds", counted)
+    models = [MODEL, code_model(OTHER, name="other"), code_model(NEIGHBOURS[4], name="absent")]
+    tracker = Tracker(camera=CAMERA, models=models)
+    image = image_of(pose_of())
+    tracker.step(image, captured_at_s=0.0)
+    tracker_of().search(image)
+    assert asked == []
+    assert isinstance(tracker.search(image)["code"], Seen)
+    assert asked == [2], "for those alone that are not seen"
 
 
 def test_the_mirror_image_is_not_taken() -> None:
