@@ -219,6 +219,21 @@ def smeared(image: Image8, way_px: float, from_deg: float) -> Image8:
     return np.asarray(np.rint(np.mean(moved, axis=0)), dtype=np.uint8)
 
 
+def poorly_lit(
+    plain: Image8, middle_px: tuple[float, float], side_px: float, random: np.random.Generator
+) -> Image8:
+    """Half of the light, a shadow's edge across a square, a highlight on it, a smear of 3 px, and noise."""
+    height, width = plain.shape
+    ways = random.uniform(0.0, 360.0, 3)
+    v, u = np.mgrid[0:height, 0:width].astype(np.float64) - np.array(middle_px)[::-1, None, None]
+    across = u * np.cos(ways[0]) + v * np.sin(ways[0]) - random.uniform(-0.2, 0.2) * side_px
+    lit = smeared(plain, 3.0, ways[2]) * (1.0 - 0.6 / (1.0 + np.exp(-across / (0.12 * side_px))))
+    x, y = u - 0.3 * side_px * np.cos(ways[1]), v - 0.3 * side_px * np.sin(ways[1])
+    lit = lit + 160.0 * np.exp(-0.5 * (x * x + y * y) / (0.25 * side_px) ** 2)
+    noisy = 0.4 * lit + random.normal(0.0, 5.0, lit.shape)
+    return np.asarray(np.clip(np.rint(noisy), 0, 255), dtype=np.uint8)
+
+
 def seen(sighting: Sighting) -> Seen:
     """The sighting, which must be one."""
     assert isinstance(sighting, Seen), sighting

@@ -56,6 +56,8 @@ WORTH_TURNING, HALF_TURNED = 0.9, 0.6
 # How like the model part by part a square is that uneven light is worth fitting to.
 WORTH_UNEVEN = 0.7
 UNEVEN_ROUNDS = 6
+# Turns of light and place: the first is too rough to be told from, the last is for what is nearly explained.
+UNEVEN_TURNS, FIRST_TOLD_TURN, WORTH_ANOTHER_TURN = 3, 2, 0.85
 SD_OF_MEDIAN = 1.4826
 
 
@@ -107,12 +109,17 @@ def _in_uneven_light(fit: Fit) -> Explanation | None:
     """By a shadow's edge and highlights at once, if the square is like the model part by part."""
     if fit.look_part_by_part() < WORTH_UNEVEN:
         return None
-    # Where it is, and what lies on it, tell of each other.
-    if not (light_up(fit, weights_beside_a_cover(fit.seen, fit.picture)) and fit.walk(UNEVEN_ROUNDS)):
-        return None
-    if not (light_up(fit, fit.weight) and fit.walk(UNEVEN_ROUNDS)):
-        return None
-    return _told(fit, in_noise=True)
+    weight, found = weights_beside_a_cover(fit.seen, fit.picture), None
+    # Where it is, what light falls on it and what lies on it tell of each other.
+    for turn in range(UNEVEN_TURNS):
+        if not (light_up(fit, weight) and fit.walk(UNEVEN_ROUNDS)):
+            return found
+        if turn + 1 >= FIRST_TOLD_TURN:
+            found = _told(fit, in_noise=True)
+            if found is None or found.explains or found.likeness < WORTH_ANOTHER_TURN:
+                return found
+        weight, fit.visible = fit.weight, np.ones((WIDE, WIDE), np.bool_)
+    return found
 
 
 def _another_turn_is_nearer(fit: Fit) -> bool:
