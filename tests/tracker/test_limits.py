@@ -68,10 +68,10 @@ GAMMA_TIP_MM = {"A": Level(1.0, 1.0), "B": Level(0.08, 0.08)}
 # By step, after the condition has set in.
 KEPT = {
     ("A", "cover10"): Level(0.99, 0.99),
-    ("A", "cover30"): Level(0.87, 0.99),
+    ("A", "cover30"): Level(0.99, 0.99),
     ("A", "glare1.6"): Level(0.99, 0.99),
     ("A", "shadow0.8"): Level(0.99, 0.99),
-    ("B", "cover30"): Level(0.83, 0.99),
+    ("B", "cover30"): Level(0.99, 0.99),
     ("B", "glare1.6"): Level(0.99, 0.99),
 }
 SEQUENCES = 6

@@ -150,7 +150,7 @@ def _explained(
         return seen, None
     if explanation is None or explanation.is_turned:
         return None
-    if explanation.explains:
+    if explanation.explains or (explanation.explains_known and _is_where_expected(scene, found)):
         moved = _moved(scene, found, seen, explanation.corners_px + scene.corner_px)
         moved = replace(moved, is_in_noise=explanation.beside_noise is not None)
         return moved, explanation.covers if explanation.is_covered else None
@@ -167,15 +167,19 @@ def _explained(
 
 def _is_kept(scene: Scene, found: Occurrence) -> bool:
     """Whether this is where the marker was expected, washed out by glare, and nothing of it contradicts."""
-    if scene.expected is None or found.agreement.target_coverage_ratio < KEPT_TARGET_COVERAGE_RATIO:
-        return False
-    expected = corners_px_at(scene.camera, scene.model, scene.expected)
-    side_px = side_px_of(found.corners_px)
-    off = float(np.abs(found.corners_px - expected).max())
-    if off > max(KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO * side_px):
+    enough = found.agreement.target_coverage_ratio >= KEPT_TARGET_COVERAGE_RATIO
+    if not (enough and _is_where_expected(scene, found)):
         return False
     corners = found.corners_px - scene.corner_px
-    return is_washed_out(scene.window, scene.model.square, corners, side_px=side_px)
+    return is_washed_out(scene.window, scene.model.square, corners, side_px=side_px_of(found.corners_px))
+
+
+def _is_where_expected(scene: Scene, found: Occurrence) -> bool:
+    if scene.expected is None:
+        return False
+    expected = corners_px_at(scene.camera, scene.model, scene.expected)
+    off = float(np.abs(found.corners_px - expected).max())
+    return off <= max(KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO * side_px_of(found.corners_px))
 
 
 def _moved(scene: Scene, found: Occurrence, seen: Seen, corners_px: Array) -> Seen:

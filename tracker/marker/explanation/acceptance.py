@@ -22,6 +22,8 @@ COVERED_MORE = 0.01
 COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
 MOST_INNER_HIDDEN_RATIO = 0.55
+# Of what was there a moment ago, so much more may be hidden, and so much lie on it apart from the border.
+KNOWN_LIKENESS, MOST_KNOWN_HIDDEN_RATIO, MOST_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
 # In uneven light, the noise that the outline shows taken out, other squares reach 0.92 where they have 0.7
 # with it, and wide ones 0.95 with 0.89 (9,000 looked at), once 0.943; of a wide square the noise hides less.
 # Where the square is small, nothing is said.
@@ -121,13 +123,6 @@ class Explanation:
     @property
     def explains(self) -> bool:
         """Whether nothing is left that would need another shape to explain it."""
-        covered = self.is_covered
-        px, ratio = (
-            (MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO)
-            if covered
-            else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
-        )
-        smeared_px = float(np.sqrt(max(self.blur_px[1] ** 2 - self.blur_px[0] ** 2, 0.0)))
         return (
             not self.is_turned
             and (self._is_alike if self.beside_noise is None else self._is_alike_beside_noise)
@@ -135,10 +130,33 @@ class Explanation:
             and self.inside_ratio < LEAST_AREA_RATIO
             and self.hidden_ratio <= MOST_HIDDEN_RATIO
             and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
-            and self.moved_px <= max(px, ratio * self.side_px, MOST_MOVED_BLURS * smeared_px)
+            and self.moved_px <= self._most_moved_px
             and self.blur_px[0] <= BLURRED_SIDE_RATIO * self.side_px
             and self.blur_px[1] <= MOST_BLUR_SIDE_RATIO * self.side_px
         )
+
+    @property
+    def explains_known(self) -> bool:
+        """Whether it is what was there a moment ago: more of it may be hidden than of what is found anew."""
+        return (
+            not self.is_turned
+            and not self.under_highlights
+            and not self._is_blurred
+            and min(self.likeness, self.inner_likeness) >= KNOWN_LIKENESS
+            and self.inside_ratio < MOST_KNOWN_AREA_RATIO
+            and max(self.hidden_ratio, self.inner_hidden_ratio) <= MOST_KNOWN_HIDDEN_RATIO
+            and self.moved_px <= self._most_moved_px
+        )
+
+    @property
+    def _most_moved_px(self) -> float:
+        px, ratio = (
+            (MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO)
+            if self.is_covered
+            else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
+        )
+        smeared_px = float(np.sqrt(max(self.blur_px[1] ** 2 - self.blur_px[0] ** 2, 0.0)))
+        return max(px, ratio * self.side_px, MOST_MOVED_BLURS * smeared_px)
 
     @property
     def _is_blurred(self) -> bool:
