@@ -17,6 +17,7 @@ from tests.benchmarks.limits.judging import COVERED, Judged, Outcome, claim_of, 
 from tests.benchmarks.scenes.conditions import conditions_of
 from tests.benchmarks.scenes.faces import FACES
 from tests.benchmarks.scenes.hand import hand_scenes
+from tests.benchmarks.scenes.placing import random_scene
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.scenes.scene import image_of
 
@@ -77,6 +78,7 @@ KEPT = {
 SEQUENCES = 6
 # By step, a hand at 300 mm/s.
 FOUND_IN_FAST_HAND, IMAGES_OF_A_HAND = Level(0.99, 0.99), 20
+COVERED_AMONG_OTHERS = 12
 # Poses at base that are nearer to the wrong one of the two planar solutions.
 MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
 # Of the errors inside their stated 95 % ellipsoid, in base, noise and motion together: least.
@@ -140,6 +142,16 @@ def test_a_marker_that_was_found_is_kept(rig: str, condition: str) -> None:
     assert [one for one in images if one.outcome is Outcome.WRONG] == []
     found = sum(one.outcome is Outcome.RIGHT for one in images)
     assert found >= KEPT[rig, condition].asserted * len(images)
+
+
+def test_a_marker_under_a_finger_is_found_where_others_are_looked_for_too() -> None:
+    found = []
+    for number in range(COVERED_AMONG_OTHERS):
+        face = FACES[number % len(FACES)]
+        scene = random_scene(RIGS["A"], face, conditions_of(RIGS["A"])["cover20"], seed=800 + number)
+        sightings = tracker_of(RIGS["A"], FACES).step(image_of(scene), captured_at_s=0.0)
+        found.append(judged(scene, claim_of(sightings[face.name])).outcome is Outcome.RIGHT)
+    assert sum(found) >= COVERED_AMONG_OTHERS - 1
 
 
 def test_a_fast_hand_is_followed() -> None:

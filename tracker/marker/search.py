@@ -53,8 +53,8 @@ class Effort:
     """How many outlines are kept for each model, look after look.
 
     Attributes:
-        peeked: of those of which a corner is seen, after a peek: outlines, and outlines in one of their
-            turns. Of many models each has its share, so that they cost little more than one.
+        peeked: of those of which a corner is seen, after a peek. Of many models each has its share, so that
+            they cost little more than one.
         closer: after two steps.
         part_by_part: after all of them.
     """
@@ -123,7 +123,8 @@ def _rounds(
     for level, quads, likeness, is_peek in looks:
         fresh: list[list[Candidate]] = []
         for m, template in enumerate(templates.each):
-            most = effort.peeked_of(len(templates)) if is_peek else MOST_CLOSER_OF_FOUR
+            # What another model was the likelier for may still be this one: a peek tells little.
+            most = len(quads) if is_peek else MOST_CLOSER_OF_FOUR
             turned = _top(level.full_px(quads), likeness[:, m], most, is_sure=not is_peek)
             if is_peek:
                 turned = _worth_all_steps(levels, turned, template, effort.closer)
