@@ -40,6 +40,7 @@ NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
 # A corner says little of where the others are: two steps tell which outlines are worth all of them.
 FIRST_STEPS = 2
+MOST_BEYOND_SIDES = 0.1
 # So many models share; more cost more.
 MOST_SHARES = 4
 # Of four sides, where they are is known better than of two.
@@ -193,7 +194,20 @@ def _thorough_looks(level: Level, templates: Templates) -> Iterator[Look]:
         (level, _edge_segments(level.image, LEAST_PIECE_PX)),
         (soft, border_segments(_regions(soft))),
     ):
-        yield _at_corners(seen, segments, templates, THOROUGH.peeked_of(len(templates)))
+        look = _at_corners(seen, segments, templates, THOROUGH.peeked_of(len(templates)))
+        within = _are_within(look.quads, seen.image)
+        yield look._replace(quads=look.quads[within], likeness=look.likeness[within])
+
+
+def _are_within(quads: Quads, image: GreyImage) -> npt.NDArray[np.bool_]:
+    """Which outlines (q, 4, 2) lie in the image, but for as much as they may be off.
+
+    Of so many, some that the border cuts are as like the marker in what is left of them as itself.
+    """
+    sides = np.linalg.norm(np.diff(quads, axis=1), axis=2).mean(axis=1)
+    height, width = image.shape
+    beyond = np.maximum(-quads, quads - np.array([width - 1, height - 1], np.float32)).max(axis=(1, 2))
+    return np.asarray(beyond <= MOST_BEYOND_SIDES * sides)
 
 
 def _regions(level: Level) -> Regions:

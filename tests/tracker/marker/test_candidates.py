@@ -145,6 +145,15 @@ def test_thorough_rounds_give_markers_that_the_usual_ones_miss_in_poor_light() -
     assert given >= 3
 
 
+def test_thorough_rounds_give_nothing_that_the_border_cuts() -> None:
+    image, corners = _scene(60, roll_deg=20)
+    cut = np.ascontiguousarray(image[: int(corners[:, 1].mean())])
+    templates = templates_of((MODEL,))
+    for one in thorough_rounds(cut, templates):
+        assert all(candidate.corners_px[:, 1].max() < len(cut) + 0.4 * 60 for candidate in one[0])
+    assert _is_among(thorough_rounds(image, templates), corners)
+
+
 def _is_among(rounds: Iterator[list[list[Candidate]]], corners: Array) -> bool:
     return any(_off_px(candidate, corners) < 3.5 for one in rounds for candidate in one[0])
 
