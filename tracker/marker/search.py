@@ -1,6 +1,6 @@
 """Where in an image the markers could be: dark squares whose inside looks like them at a glance."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -40,6 +40,7 @@ NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
 LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
 # A corner says little of where the others are: two steps tell which outlines are worth all of them.
 FIRST_STEPS = 2
+# By so much of its side an outline of which a corner is seen may be off.
 MOST_BEYOND_SIDES = 0.1
 # So many models share; more cost more.
 MOST_SHARES = 4
@@ -98,10 +99,7 @@ def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[li
         image: grey (h, w).
         templates: as `templates_of` makes them.
     """
-    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
-        return
-    levels = Levels(first_level(image))
-    yield from _rounds(image, levels, templates, _looks(image, levels, templates), USUAL)
+    return _rounds(image, templates, _looks, USUAL)
 
 
 def thorough_rounds(image: GreyImage, templates: Templates) -> Iterator[list[list[Candidate]]]:
@@ -109,19 +107,21 @@ def thorough_rounds(image: GreyImage, templates: Templates) -> Iterator[list[lis
 
     Where a shadow, highlights, smear and noise come together.
     """
-    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
-        return
-    levels = Levels(first_level(image))
-    looks = _thorough_looks(levels[0], templates)
-    yield from _rounds(image, levels, templates, looks, THOROUGH)
+    return _rounds(image, templates, _thorough_looks, THOROUGH)
 
 
 def _rounds(
-    image: GreyImage, levels: Levels, templates: Templates, looks: Iterator["Look"], effort: Effort
+    image: GreyImage,
+    templates: Templates,
+    looks: Callable[[GreyImage, Levels, Templates], Iterator["Look"]],
+    effort: Effort,
 ) -> Iterator[list[list[Candidate]]]:
     """For each model its candidates of look after look; what was given once is not given again."""
+    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
+        return
+    levels = Levels(first_level(image))
     given = [np.empty((0, 4, 2), np.float32) for _ in templates.each]
-    for level, quads, likeness, is_peek in looks:
+    for level, quads, likeness, is_peek in looks(image, levels, templates):
         fresh: list[list[Candidate]] = []
         for m, template in enumerate(templates.each):
             # What another model was the likelier for may still be this one: a peek tells little.
@@ -130,8 +130,15 @@ def _rounds(
             if is_peek:
                 turned = _worth_all_steps(levels, turned, template, effort.closer)
             closer, alike = _closer(levels, turned, template)
-            order, most = np.argsort(-alike, kind="stable"), effort.part_by_part
-            best = distinct(closer, alike, order, given[m], most, LEAST_LIKENESS, SAME_OUTLINE_SIDE_RATIO)
+            best = distinct(
+                closer,
+                alike,
+                np.argsort(-alike, kind="stable"),
+                given[m],
+                effort.part_by_part,
+                LEAST_LIKENESS,
+                SAME_OUTLINE_SIDE_RATIO,
+            )
             candidates = [_candidate(closer[k], alike[k]) for k in best]
             kept = _by_two_looks(image, candidates, template)[:MOST_CANDIDATES]
             given[m] = np.concatenate([given[m], *(one.corners_px[None].astype(np.float32) for one in kept)])
@@ -153,8 +160,8 @@ def _by_two_looks(image: GreyImage, candidates: list[Candidate], template: Templ
     first, *others = candidates
 
     def part_by_part(one: Candidate) -> float:
-        side = float(np.linalg.norm(np.diff(one.corners_px, axis=0), axis=1).mean())
-        return likeness_part_by_part(image, template.pictures, one.corners_px, side_px=side)
+        side_px = float(_sides_px(one.corners_px[None])[0])
+        return likeness_part_by_part(image, template.pictures, one.corners_px, side_px=side_px)
 
     return [first, *sorted(others, key=part_by_part, reverse=True)]
 
@@ -186,9 +193,9 @@ def _looks(image: GreyImage, levels: Levels, templates: Templates) -> Iterator[L
         yield _of_four_sides(whole, _regions(whole), templates)
 
 
-def _thorough_looks(level: Level, templates: Templates) -> Iterator[Look]:
+def _thorough_looks(_image: GreyImage, levels: Levels, templates: Templates) -> Iterator[Look]:
     """Outlines of which a corner is seen, in noise too."""
-    soft = softened(level)
+    level, soft = levels[0], softened(levels[0])
     for seen, segments in (
         (level, border_segments(_regions(level))),
         (level, _edge_segments(level.image, LEAST_PIECE_PX)),
@@ -204,10 +211,9 @@ def _are_within(quads: Quads, image: GreyImage) -> npt.NDArray[np.bool_]:
 
     Of so many, some that the border cuts are as like the marker in what is left of them as itself.
     """
-    sides = np.linalg.norm(np.diff(quads, axis=1), axis=2).mean(axis=1)
     height, width = image.shape
     beyond = np.maximum(-quads, quads - np.array([width - 1, height - 1], np.float32)).max(axis=(1, 2))
-    return np.asarray(beyond <= MOST_BEYOND_SIDES * sides)
+    return np.asarray(beyond <= MOST_BEYOND_SIDES * _sides_px(quads))
 
 
 def _regions(level: Level) -> Regions:
@@ -258,8 +264,7 @@ def _closer(
     levels: Levels, quads: Quads, template: Template, *, steps: int = STEPS
 ) -> tuple[Quads, npt.NDArray[np.float32]]:
     """Outlines moved to where they fit, all in px of the whole image, and how like the model each is."""
-    sides = np.linalg.norm(np.diff(quads, axis=1), axis=2).mean(axis=1)
-    which = np.array([levels.for_side(float(side)) for side in sides], dtype=int)
+    which = np.array([levels.for_side(float(side)) for side in _sides_px(quads)], dtype=int)
     found, alike = quads.copy(), np.zeros(len(quads), np.float32)
     for k in np.unique(which):
         own = which == k
@@ -268,3 +273,8 @@ def _closer(
         )
         found[own] = levels[k].full_px(moved)
     return found, alike
+
+
+def _sides_px(quads: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+    """About how wide each outline (q, 4, 2) is: the mean of three of its sides."""
+    return np.asarray(np.linalg.norm(np.diff(quads, axis=1), axis=2).mean(axis=1))

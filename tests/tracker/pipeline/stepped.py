@@ -21,6 +21,8 @@ from tracker.geometry import Camera, Marker, Rigid
 
 CAMERA = camera_of((480, 360), focal_px=550.0)
 MODEL = code_model()
+# All but the middle one, which has no other side.
+OUTER_FIELDS = [field for field in range(9) if field != 4]
 
 
 def pose_of(
@@ -43,6 +45,12 @@ def tracker_of(*, clock: Callable[[], float] | None = None) -> Tracker:
 
 def off_px(sighting: Seen, pose: Rigid[Camera, Marker]) -> float:
     return float(np.abs(sighting.corners_px - corners_px_of(CAMERA, pose)).max())
+
+
+def away_from_deg(field: int) -> float:
+    """Where the other side of the face is, seen from a field of the code; the face stands upright."""
+    row, column = divmod(field, 3)
+    return float(np.degrees(np.arctan2(1 - row, 1 - column)))
 
 
 def assert_same(a: Seen, b: Seen) -> None:

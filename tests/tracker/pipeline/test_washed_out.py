@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 
-from tests.tracker.pipeline.stepped import image_of, off_px, pose_of, tracker_of
+from tests.tracker.pipeline.stepped import OUTER_FIELDS, away_from_deg, image_of, off_px, pose_of, tracker_of
 from tests.tracker.scenes import CODE, NEIGHBOURS, Fields, Image8, seen
 from tracker import Seen, Unseen
 from tracker.geometry import Camera, Marker, Rigid
 
 SIDE_PX = 60.0
 CENTRE_PX = (240.0, 180.0)
-# Under each glare.
-MIDDLE_FIELD = 4
 HELD: Rigid[Camera, Marker] = pose_of(CENTRE_PX, SIDE_PX)
 
 
@@ -39,12 +37,9 @@ def test_a_marker_is_kept_where_it_was_when_glare_hides_a_half_of_it(from_deg: f
     assert off_px(found, HELD) < 0.6
 
 
-@pytest.mark.parametrize("field", [field for field in range(9) if field != MIDDLE_FIELD])
+@pytest.mark.parametrize("field", OUTER_FIELDS)
 def test_a_look_alike_is_not_kept_for_the_glare_on_its_other_side(field: int) -> None:
-    row, column = divmod(field, 3)
-    # Away from the field that differs, as it is seen: the face stands upright.
-    away_deg = float(np.degrees(np.arctan2(1 - row, 1 - column)))
-    assert isinstance(_in_glare(NEIGHBOURS[field], away_deg), Unseen)
+    assert isinstance(_in_glare(NEIGHBOURS[field], away_from_deg(field)), Unseen)
 
 
 def test_a_blank_sheet_in_glare_is_not_kept() -> None:

@@ -23,7 +23,7 @@ COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
 MOST_INNER_HIDDEN_RATIO = 0.55
 # Of what was there a moment ago, so much more may be hidden, and so much lie on it apart from the border.
-KNOWN_LIKENESS, MOST_KNOWN_HIDDEN_RATIO, MOST_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
+LEAST_KNOWN_LIKENESS, MOST_KNOWN_HIDDEN_RATIO, MOST_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
 # In uneven light, the noise that the outline shows taken out, other squares reach 0.92 where they have 0.7
 # with it, and wide ones 0.95 with 0.89 (9,000 looked at), once 0.943; of a wide square the noise hides less.
 # Where the square is small, nothing is said.
@@ -142,7 +142,7 @@ class Explanation:
             not self.is_turned
             and not self.under_highlights
             and not self._is_blurred
-            and min(self.likeness, self.inner_likeness) >= KNOWN_LIKENESS
+            and min(self.likeness, self.inner_likeness) >= LEAST_KNOWN_LIKENESS
             and self.inside_ratio < MOST_KNOWN_AREA_RATIO
             and max(self.hidden_ratio, self.inner_hidden_ratio) <= MOST_KNOWN_HIDDEN_RATIO
             and self.moved_px <= self._most_moved_px

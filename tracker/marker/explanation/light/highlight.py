@@ -47,16 +47,18 @@ def highlight_in(rest: Array, explained: Array, weight: Array) -> Array | None:
     along = explains(own(_bells()))
     # A highlight adds light.
     which = int(np.argmax(along))
-    best, most = _shapes()[which], float(along[which])
+    shape, most = _shapes()[which], float(along[which])
     if not (most > 0.0 and most**2 > LEAST_RATIO * float(left @ left)):
         return None
+    best = _with_slopes(shape)
     for _ in range(ROUNDS):
-        shape = _moved(best, own(_with_slopes(best)), left)
-        better = float(explains(own(_with_slopes(shape)[:, :1]))[0])
+        shape = _moved(shape, own(best), left)
+        there = _with_slopes(shape)
+        better = float(explains(own(there[:, :1]))[0])
         if not better > most:
             break
-        best, most = shape, better
-    return _with_slopes(best)[:, 0]
+        best, most = there, better
+    return best[:, 0]
 
 
 def _moved(shape: Array, own: Array, left: Array) -> Array:
