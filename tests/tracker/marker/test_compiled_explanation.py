@@ -9,24 +9,33 @@ import pytest
 from tests.tracker.scenes import code_model
 from tracker.geometry import Array
 from tracker.marker.explanation.cover.kernels import weights_of_a_part, wrong_pieces
-from tracker.marker.explanation.kernels import FIELDS, PAD, WIDE, picture_at
+from tracker.marker.explanation.fields.kernels import FIELDS, PAD, WIDE, fields_ahead, lens_blur, picture_at
 from tracker.marker.explanation.light.kernels import shadow_edge
 from tracker.marker.explanation.pictures import pictures_of
+from tracker.marker.sampling.kernels import square_to_quad
 from tracker.warm_up import warm_up
 
 FINE = 16  # texels a field
+FACING = np.eye(2)  # fields per px
 
 
-def _blurred(blur: tuple[float, float, float]) -> Array:
-    """The model on paper, finely, by its spectrum: blurred by a Gaussian, and smeared evenly along a line."""
+def _blurred(blur: tuple[float, float, float], *, smears: bool = True) -> Array:
+    """The model on paper, finely, by its spectrum: blurred by a Gaussian, and smeared evenly along a line.
+
+    Where nothing `smears`, the Gaussian is longer along that line.
+    """
     size = (WIDE + 2 * PAD) * FINE
     small = cv2.resize(code_model().square, (FIELDS * FINE, FIELDS * FINE), interpolation=cv2.INTER_AREA)
     fields = np.pad(small / 255.0, (size - FIELDS * FINE) // 2, constant_values=1.0)
     ku, kv = np.meshgrid(*(2 * np.pi * np.fft.fftfreq(size, 1.0 / FINE),) * 2)
     values, vectors = np.linalg.eigh(np.array([[blur[0], blur[2]], [blur[2], blur[1]]]))
     along = ku * vectors[0, 1] + kv * vectors[1, 1]
-    way = np.sqrt(12.0 * (values[1] - values[0]))
-    shrunk = np.exp(-0.5 * values[0] * (ku**2 + kv**2)) * np.sinc(along * way / (2.0 * np.pi))
+    more = values[1] - values[0]
+    shrunk = np.exp(-0.5 * values[0] * (ku**2 + kv**2))
+    if smears:
+        shrunk *= np.sinc(along * np.sqrt(12.0 * more) / (2.0 * np.pi))
+    else:
+        shrunk *= np.exp(-0.5 * more * along**2)
     return np.asarray(np.fft.ifft2(np.fft.fft2(fields) * shrunk).real)
 
 
@@ -40,12 +49,19 @@ def _at_fields(fine: Array) -> Array:
 
 @pytest.mark.parametrize(
     ("blur", "within"),
-    [((0.2, 0.2, 0.0), 0.02), ((1.5, 1.7, 0.05), 0.01), ((3.0, 0.6, 0.0), 0.03), ((2.0, 2.0, 1.4), 0.03)],
+    [
+        ((0.2, 0.2, 0.0), 0.02),
+        ((1.5, 1.7, 0.05), 0.01),
+        ((3.0, 0.6, 0.0), 0.03),
+        ((2.0, 2.0, 1.4), 0.03),
+        # A way of 11 fields, nearly half of the square.
+        ((10.0, 0.5, 0.0), 0.04),
+    ],
 )
 def test_the_picture_is_the_blurred_model(blur: tuple[float, float, float], within: float) -> None:
     pictures = pictures_of(code_model().square)
     shown = np.empty((6, WIDE, WIDE), np.float32)
-    picture_at(pictures.layers, pictures.blurs_fields, np.array(blur), shown)
+    picture_at(pictures.layers, pictures.blurs_fields, np.array(blur), FACING, shown)
     fine = _blurred(blur)
     np.testing.assert_allclose(shown[0], _at_fields(fine), atol=within)
     slopes = (np.gradient(fine, 1.0 / FINE, axis=1), np.gradient(fine, 1.0 / FINE, axis=0))
@@ -53,6 +69,30 @@ def test_the_picture_is_the_blurred_model(blur: tuple[float, float, float], with
         np.testing.assert_allclose(shown[number], _at_fields(slope), atol=0.08)
     bend = np.gradient(slopes[0], 1.0 / FINE, axis=0)
     assert np.corrcoef(shown[5].ravel(), _at_fields(bend).ravel())[0, 1] > 0.98
+
+
+def test_the_blur_of_a_lens_is_a_bell_however_the_marker_is_tilted() -> None:
+    pictures = pictures_of(code_model().square)
+    shown, blur = np.empty((6, WIDE, WIDE), np.float32), np.empty(3)
+    # Seen at 60 degrees, the image's pixels are twice as high as wide on the marker.
+    tilted = np.array([[1.0, 0.0], [0.0, 2.0]])
+    lens_blur(tilted, 1.3, blur)
+    picture_at(pictures.layers, pictures.blurs_fields, blur, tilted, shown)
+    own = tuple(float(v) for v in blur)
+    bell, box = (_at_fields(_blurred((own[0], own[1], own[2]), smears=smears)) for smears in (False, True))
+    np.testing.assert_allclose(shown[0], bell, atol=0.02)
+    assert float(np.abs(shown[0] - box).max()) > 0.04
+
+
+def test_the_middle_of_a_square_tells_how_many_fields_a_pixel_is() -> None:
+    quad = np.array([[100.0, 50.0], [148.0, 50.0], [148.0, 74.0], [100.0, 74.0]])
+    to_px, ahead = np.empty(8), np.empty((2, 2))
+    square_to_quad(quad, to_px)
+    unit = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    fields_ahead(to_px, unit, ahead)
+    np.testing.assert_allclose(ahead, [[FIELDS / 48.0, 0.0], [0.0, FIELDS / 24.0]], atol=1e-9)
+    fields_ahead(to_px, 0.25 + 0.5 * unit, ahead)
+    np.testing.assert_allclose(ahead, [[FIELDS / 24.0, 0.0], [0.0, FIELDS / 12.0]], atol=1e-9)
 
 
 def test_pieces_over_the_border_are_told_from_those_inside() -> None:
@@ -70,7 +110,7 @@ def test_pieces_over_the_border_are_told_from_those_inside() -> None:
 def test_the_light_of_the_uncovered_part_finds_the_cover() -> None:
     pictures = pictures_of(code_model().square)
     shown = np.empty((6, WIDE, WIDE), np.float32)
-    picture_at(pictures.layers, pictures.blurs_fields, np.array([0.5, 0.5, 0.0]), shown)
+    picture_at(pictures.layers, pictures.blurs_fields, np.array([0.5, 0.5, 0.0]), FACING, shown)
     seen = 30.0 + 150.0 * shown[0].astype(np.float64)
     seen[:, 20:] = 95.0
     weight = np.empty((WIDE, WIDE))
@@ -84,7 +124,7 @@ def test_the_light_of_the_uncovered_part_finds_the_cover() -> None:
 def test_the_edge_of_a_shadow_is_found_where_it_is(angle_deg: float, place: float) -> None:
     pictures = pictures_of(code_model().square)
     shown = np.empty((6, WIDE, WIDE), np.float32)
-    picture_at(pictures.layers, pictures.blurs_fields, np.array([0.5, 0.5, 0.0]), shown)
+    picture_at(pictures.layers, pictures.blurs_fields, np.array([0.5, 0.5, 0.0]), FACING, shown)
     v, u = (np.mgrid[0:WIDE, 0:WIDE] - (WIDE - 1) / 2.0) * (2.0 / FIELDS)
     angle = np.radians(angle_deg)
     lit = 1.0 - 0.7 / (1.0 + np.exp(-(u * np.cos(angle) + v * np.sin(angle) - place) / 0.06))

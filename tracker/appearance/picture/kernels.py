@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
-from tracker.appearance.taps.kernels import MOST_TAPS, in_sides, taps_of
+from tracker.appearance.taps.kernels import MOST_TAPS, taps_of
 from tracker.appearance.texels.kernels import add_picture
+from tracker.camera.blur.kernels import mapped
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
 from tracker.marker.model import PAPER_RATIO
@@ -43,7 +44,7 @@ def paper_seen(at, lens, rotation, translation, side_mm, blur, share):
     share[:] = 1.0
     if not footprint(rotation, translation, lens, side_mm, ahead):
         return
-    m00, _, m11 = in_sides(ahead, blur)
+    m00, m11, _ = mapped(ahead, blur)
     # In half sides, as `at` is.
     sx, sy = 2.0 * np.sqrt(max(m00, 1e-12)), 2.0 * np.sqrt(max(m11, 1e-12))
     edge = 1.0 + 2.0 * PAPER_RATIO

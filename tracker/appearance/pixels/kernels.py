@@ -3,9 +3,8 @@
 import numpy as np
 
 from tracker.appearance.picture.kernels import footprint
-from tracker.appearance.taps.kernels import in_sides
 from tracker.appearance.texture import STEEPNESS
-from tracker.camera.blur.kernels import level_of
+from tracker.camera.blur.kernels import level_of, mapped
 from tracker.camera.kernels import project_with_derivative
 from tracker.compiled import compiled
 
@@ -172,7 +171,7 @@ def collect(
     ahead = np.empty((2, 2))
     if c1 - c0 < 2 or r1 - r0 < 2 or not footprint(rotation, translation, lens, side_mm, ahead):
         return 0
-    m00, _, m11 = in_sides(ahead, blur)
+    m00, m11, _ = mapped(ahead, blur)
     level = level_of(max(m00, m11), blurs)
     size, texel = sizes[level], widths[level]
     least, n, flat = slope_ratio * STEEPNESS, 0, 0

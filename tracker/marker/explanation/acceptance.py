@@ -10,8 +10,8 @@ import numpy as np
 
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import LEAST_AREA_RATIO, Mask
+from tracker.marker.explanation.fields.kernels import FIELDS, RING, WIDE
 from tracker.marker.explanation.flips import MOST_FLIPPED_RATIO
-from tracker.marker.explanation.kernels import FIELDS, RING, WIDE
 
 # In empty scenes other squares from 16 px reach 0.91 with a fitted blur, in shadow too, and 0.84 under fitted
 # highlights, which take away from both; the marker itself has 0.96 and more, at 20 px under glare 0.93.
@@ -35,7 +35,7 @@ IN_NOISE_SIDES_PX, LEAST_IN_NOISE, LEAST_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9)
 BOTH_SIDES_PX, LEAST_BOTH = (20.0, 26.0), (1.94, 1.895)
 # Blurred over more of its side, or more of it hidden or too bright to tell, a part of the shape passes for
 # light.
-MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_SMEAR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.08, 0.105, 0.4
+MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_SMEAR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.07, 0.105, 0.4
 MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO = 2.0, 0.06
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
@@ -43,11 +43,17 @@ MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
 # Edges of what is smeared are found at either end of its way, an sd and three quarters of it off the middle;
 # a blur that is the same to all sides moves none.
 MOST_MOVED_BLURS = 1.75
+# Two sides that face each other tell less of where it is along them; wherever a smeared one is found there in
+# full sight, nothing else comes near to it.
+MOST_MOVED_SMEARS = 2.6
 # Blurred over so much of its side, one square is like another: like this one under highlights, and in every
-# other light unless nearly all is explained. In blurred empty scenes other squares in full sight reach 0.948,
-# covered ones 0.96 (10,000 looked at); smear leaves one direction sharp, and others 0.8.
-BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MOST_BLUR_SIDE_RATIO = 0.1, 0.05, 0.16
-LEAST_LIKENESS_BLURRED, LEAST_LIKENESS_SMEARED, LEAST_LIKENESS_BLURRED_COVERED = 0.955, 0.92, 0.98
+# other light unless nearly all is explained. In blurred scenes other squares of 16 px in full sight reach
+# 0.973, of 24 px 0.943, covered ones 0.98; smear leaves one direction sharp, and others 0.88 (1,500 scenes,
+# five markers known; markers that are changed in a part reach 0.97 in either).
+BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MOST_BLUR_SIDE_RATIO, MOST_SMEAR_SIDE_RATIO = 0.1, 0.05, 0.16, 0.2
+LEAST_LIKENESS_BLURRED, LEAST_LIKENESS_SMEARED, LEAST_LIKENESS_BLURRED_COVERED = 0.975, 0.935, 0.98
+# Of what is small, so much more than where it is sharp.
+BLURRED_MORE = 0.01
 # Half as blurred, and sharp in no direction, squares with two spots in them have reached 0.95 where covered,
 # and 0.97 under highlights: there, none is believed.
 LEAST_LIKENESS_SOFT_COVERED = 0.965
@@ -132,7 +138,7 @@ class Explanation:
             and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
             and self.moved_px <= self._most_moved_px
             and self.blur_px[0] <= BLURRED_SIDE_RATIO * self.side_px
-            and self.blur_px[1] <= MOST_BLUR_SIDE_RATIO * self.side_px
+            and self.blur_px[1] <= self._most_blur_ratio * self.side_px
         )
 
     @property
@@ -156,7 +162,18 @@ class Explanation:
             else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
         )
         smeared_px = float(np.sqrt(max(self.blur_px[1] ** 2 - self.blur_px[0] ** 2, 0.0)))
-        return max(px, ratio * self.side_px, MOST_MOVED_BLURS * smeared_px)
+        in_sight = self._is_smeared and not self.is_covered
+        smears = MOST_MOVED_SMEARS if in_sight else MOST_MOVED_BLURS
+        return max(px, ratio * self.side_px, smears * smeared_px)
+
+    @property
+    def _most_blur_ratio(self) -> float:
+        return MOST_SMEAR_SIDE_RATIO if self._is_smeared and not self.is_covered else MOST_BLUR_SIDE_RATIO
+
+    @property
+    def _is_smeared(self) -> bool:
+        """Whether it is blurred in one direction, and sharp in the other."""
+        return self._is_blurred and self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
 
     @property
     def _is_blurred(self) -> bool:
@@ -171,8 +188,10 @@ class Explanation:
         least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
         if self._is_blurred and self.is_covered:
             least = LEAST_LIKENESS_BLURRED_COVERED
+        elif self._is_smeared:
+            least = LEAST_LIKENESS_SMEARED
         elif self._is_blurred:
-            least = LEAST_LIKENESS_SMEARED if is_sharp else LEAST_LIKENESS_BLURRED
+            least = max(least + BLURRED_MORE, LEAST_LIKENESS_BLURRED)
         elif self.is_covered and not is_sharp:
             least = max(least, LEAST_LIKENESS_SOFT_COVERED)
         least += COVERED_MORE * self.is_covered - HIGHLIGHTS_LESS * self.under_highlights

@@ -14,8 +14,8 @@ from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import LEAST_AREA_RATIO
 from tracker.marker.explanation.cover.kernels import contradicting
-from tracker.marker.explanation.fit import field_px_of, first_blur_of, inside_square
-from tracker.marker.explanation.kernels import FIELDS
+from tracker.marker.explanation.fields.kernels import FIELDS
+from tracker.marker.explanation.fit import FIRST_BLUR_PX, field_px_of, inside_square
 from tracker.marker.explanation.light import smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 
@@ -58,14 +58,14 @@ def contradiction_of(
 
     `corners_px` are pixels of `image`: top-left, top-right, bottom-right, bottom-left of the printed face.
     """
-    pictures, field_px = pictures_of(square), field_px_of(side_px)
+    pictures = pictures_of(square)
     largest, covered, alike = contradicting(
         image,
         np.ascontiguousarray(corners_px, dtype=np.float64),
         pictures.layers,
         pictures.blurs_fields,
-        first_blur_of(field_px),
-        field_px,
+        FIRST_BLUR_PX,
+        field_px_of(side_px),
         smooth_light(2),
         inside_square(),
         LIGHT_ROUNDS,

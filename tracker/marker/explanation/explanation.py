@@ -25,16 +25,10 @@ from tracker.marker.explanation.cover import (
     covered,
     weights_beside_a_cover,
 )
+from tracker.marker.explanation.fields.kernels import FIELDS, SPREAD, WIDE, picture_at
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.flips import most_flipped
-from tracker.marker.explanation.kernels import (
-    FIELDS,
-    SATURATED_GREY,
-    SPREAD,
-    WIDE,
-    likeness,
-    picture_at,
-)
+from tracker.marker.explanation.kernels import SATURATED_GREY, likeness
 from tracker.marker.explanation.light import contrasts, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.poor_light import light_up
@@ -128,10 +122,11 @@ def _another_turn_is_nearer(fit: Fit) -> bool:
     visible, fit.visible = fit.visible, np.ones((WIDE, WIDE), np.bool_)
     shown, weight = fit.shown.copy(), fit.weight.copy()
     held = fit.held.copy()
-    costs = []
+    costs, blur, ahead = [], fit.blur, fit.ahead
     for turns in range(4):
-        swapped = np.array([fit.blur[1], fit.blur[0], -fit.blur[2]]) if turns % 2 else fit.blur
-        picture_at(layers, blurs, swapped, fit.shown)
+        # The picture is turned back afterwards.
+        picture_at(layers, blurs, blur, ahead, fit.shown)
+        blur, ahead = np.array([blur[1], blur[0], -blur[2]]), np.array([ahead[1], -ahead[0]])
         fit.shown[0] = np.rot90(fit.shown[0], turns).copy()
         seen = fit.walk(LIGHT_ROUNDS, weight.copy(), free=0)
         off = fit.rest / (PART_CONTRAST * np.maximum(fit.gain, 0.25 * float(np.median(fit.gain))))

@@ -9,19 +9,16 @@ import numpy.typing as npt
 from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import Left, Mask
-from tracker.marker.explanation.kernels import (
-    BLUR,
+from tracker.marker.explanation.fields.kernels import (
     FIELDS,
-    PLACE,
     RING,
-    SATURATED_GREY,
-    SPREAD,
     WIDE,
-    clear_of_beyond,
+    fields_ahead,
+    lens_blur,
     picture_at,
     sample_fields,
-    walk,
 )
+from tracker.marker.explanation.kernels import BLUR, PLACE, SATURATED_GREY, clear_of_beyond, walk
 from tracker.marker.explanation.light import contrasts, grid, smooth_light
 from tracker.marker.explanation.pictures import Pictures
 from tracker.marker.sampling.kernels import even_light, square_to_quad
@@ -101,9 +98,17 @@ class Fit:
 
     def look(self, blur_px: float = FIRST_BLUR_PX) -> None:
         """See what is there, before anything is fitted, and the model out of focus by so much."""
-        self.blur = np.array([1.0, 1.0, 0.0]) * first_blur_of(self.field_px, blur_px)
+        self.blur, ahead = np.empty(3), self.ahead
+        lens_blur(ahead, blur_px, self.blur)
         self.seen = sample_fields(self.image, self.to_px, self.corners)
-        picture_at(self.pictures.layers, self.pictures.blurs_fields, self.blur, self.shown)
+        picture_at(self.pictures.layers, self.pictures.blurs_fields, self.blur, ahead, self.shown)
+
+    @property
+    def ahead(self) -> Array:
+        """By how many fields (2, 2) a pixel's step right and down goes."""
+        ahead = np.empty((2, 2))
+        fields_ahead(self.to_px, self.corners, ahead)
+        return ahead
 
     @property
     def place(self) -> Place:
@@ -175,11 +180,6 @@ def likeness_part_by_part(
 def field_px_of(side_px: float) -> float:
     """How wide a field of a square is, in px."""
     return max(side_px, LEAST_SIDE_PX) / FIELDS
-
-
-def first_blur_of(field_px: float, blur_px: float = FIRST_BLUR_PX) -> float:
-    """The variance of a blur, and of the spread of a field's samples, in fields."""
-    return (blur_px / field_px) ** 2 + SPREAD
 
 
 @cache

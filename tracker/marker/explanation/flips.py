@@ -12,8 +12,8 @@ import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import Mask
+from tracker.marker.explanation.fields.kernels import FIELDS, WIDE
 from tracker.marker.explanation.fit import Fit
-from tracker.marker.explanation.kernels import FIELDS, WIDE
 from tracker.marker.explanation.light import grid
 
 # A part is a sixth of the side wide, as a disc of the same area; parts are asked every so many fields.

@@ -1,20 +1,21 @@
-"""The compiled loops of the explanation: what a model looks like, and the fit of place, blur and light."""
+"""The compiled loops of the explanation: the fit of place, blur and light."""
 
 import numpy as np
 
-from tracker.camera.blur.kernels import axes_of, keep_within, level_of
+from tracker.camera.blur.kernels import keep_within
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
+from tracker.marker.explanation.fields.kernels import (
+    FIELDS,
+    SPREAD,
+    WIDE,
+    fields_ahead,
+    picture_at,
+    sample_fields,
+    u_of,
+)
 from tracker.marker.model import PAPER_RATIO
-from tracker.marker.sampling.kernels import sample_square, through
 
-FIELDS, RING = 24, 3  # fields a side of the square, and of its white paper around it
-WIDE = FIELDS + 2 * RING
-PAD = 7  # fields beyond, which blur brings in
-SAMPLES = 2
-# Four samples spread over a field blur it by this variance, in fields.
-SPREAD = 1.0 / 16.0
-MOST_TAPS = 15
 PLACE, BLUR = 6, 3
 SATURATED_GREY = 250.0
 OUTLIER_CONTRAST = 0.2
@@ -26,93 +27,6 @@ LEAST_COUNT = 40
 # What lies beyond the paper, so many sd of the blur away, is a thirtieth of a field.
 FAR_SDS = 1.85
 LEAST_WEIGHT = 1e-3
-
-
-@compiled
-def u_of(c):
-    """Where a column (or a row) of fields lies: its middle, -1..1 over the square."""
-    return (c - 0.5 * (WIDE - 1)) * (2.0 / FIELDS)
-
-
-@compiled
-def _taps(blur, blurs, weights):
-    """How a blur (3,), variances in fields, is made of one picture and `weights` (n, n) of half fields.
-
-    Returns the number of the picture, and what is left of the variance to first order (3,).
-    """
-    weights[:, :] = 0.0
-    middle = len(weights) // 2
-    larger, smaller, ex, ey = axes_of(blur[0], blur[1], blur[2])
-    smaller = max(smaller, 1e-6)
-    level = level_of(smaller, blurs)
-    has = blurs[level] ** 2
-    more = larger - smaller
-    across = smaller - has
-    along = across + more
-    if more <= 0.3 * has:
-        weights[middle, middle] = 1.0
-    else:
-        # Motion smears evenly over its way: a box, whose variance is a twelfth.
-        reach = np.sqrt(3.0 * more)
-        count = min(int(np.ceil(2.0 * reach / (1.2 * blurs[level]))) + 1, MOST_TAPS)
-        count = max(count, 2)
-        gap = 2.0 * reach / count
-        scale = np.sqrt(more / (gap * gap * (count * count - 1.0) / 12.0))
-        for k in range(count):
-            off = (k - 0.5 * (count - 1)) * gap * scale
-            x = min(max(2.0 * off * ex, -middle + 0.001), middle - 1.001) + middle
-            y = min(max(2.0 * off * ey, -middle + 0.001), middle - 1.001) + middle
-            c, r = int(x), int(y)
-            fx, fy = x - c, y - r
-            weights[r, c] += (1.0 - fx) * (1.0 - fy) / count
-            weights[r, c + 1] += fx * (1.0 - fy) / count
-            weights[r + 1, c] += (1.0 - fx) * fy / count
-            weights[r + 1, c + 1] += fx * fy / count
-        along = across
-    return (
-        level,
-        along * ex * ex + across * ey * ey,
-        along * ey * ey + across * ex * ex,
-        (along - across) * ex * ey,
-    )
-
-
-@compiled
-def picture_at(layers, blurs, blur, out):
-    """The blurred model, its slopes and its curvatures into `out` (6, WIDE, WIDE)."""
-    weights = np.empty((2 * PAD + 1, 2 * PAD + 1))
-    level, vu, vv, uv = _taps(blur, blurs, weights)
-    middle = PAD
-    out[:, :, :] = np.float32(0.0)
-    for i in range(2 * PAD + 1):
-        for j in range(2 * PAD + 1):
-            if weights[i, j] == 0.0:
-                continue
-            weight = np.float32(weights[i, j])
-            down, right = 2 * PAD + i - middle, 2 * PAD + j - middle
-            phase = 2 * (down % 2) + right % 2
-            r0, c0 = down // 2, right // 2
-            for k in range(6):
-                for r in range(WIDE):
-                    to, source = out[k, r], layers[level, phase, k, r0 + r]
-                    for c in range(WIDE):
-                        to[c] += weight * source[c0 + c]
-    vu, vv, uv = np.float32(0.5 * vu), np.float32(0.5 * vv), np.float32(uv)
-    for r in range(WIDE):
-        for c in range(WIDE):
-            out[0, r, c] += vu * out[3, r, c] + vv * out[4, r, c] + uv * out[5, r, c]
-
-
-@compiled
-def sample_fields(image, h, corners):
-    """Fields (WIDE, WIDE) of a square and its paper; its corners (4, 2) are in the unit square of h (8,)."""
-    mu, mv = corners[:, 0].mean(), corners[:, 1].mean()
-    px = np.empty((4, 2))
-    for k in range(4):
-        a = mu + (corners[k, 0] - mu) * (WIDE / FIELDS)
-        b = mv + (corners[k, 1] - mv) * (WIDE / FIELDS)
-        px[k, 0], px[k, 1] = through(h, a, b)
-    return sample_square(image, px, WIDE, SAMPLES)
 
 
 @compiled
@@ -231,7 +145,7 @@ def walk(
     size = n + m + free
     a, g, solution = np.empty((size, size)), np.empty(size), np.empty(size)
     predicted, values = np.zeros((WIDE, WIDE)), np.empty((WIDE, WIDE))
-    clear = np.empty((WIDE, WIDE), np.bool_)
+    clear, ahead = np.empty((WIDE, WIDE), np.bool_), np.empty((2, 2))
     clear_of_beyond(blur, clear)
     for r in range(WIDE):
         for c in range(WIDE):
@@ -242,7 +156,8 @@ def walk(
     for turn in range(rounds):
         if free > 0:
             seen[:, :] = sample_fields(image, h, corners)
-            picture_at(layers, blurs, blur, shown)
+            fields_ahead(h, corners, ahead)
+            picture_at(layers, blurs, blur, ahead, shown)
         for r in range(WIDE):
             for c in range(WIDE):
                 one = seen[r, c]

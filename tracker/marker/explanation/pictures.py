@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from tracker.edges import GreyImage
 from tracker.geometry import Array
-from tracker.marker.explanation.kernels import FIELDS, PAD, WIDE
+from tracker.marker.explanation.fields.kernels import FIELDS, PAD, WIDE
 
 # Texels a field of what the pictures are made from.
 TEXELS = 4

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.marker.explanation.cover.kernels import grown, weights_of_a_part, wrong_pieces
-from tracker.marker.explanation.kernels import FIELDS, RING
+from tracker.marker.explanation.fields.kernels import FIELDS, RING
 
 Mask = npt.NDArray[np.bool_]
 HIDDEN_CONTRAST, CLEAR_CONTRAST = 0.35, 0.2

@@ -4,17 +4,17 @@ import numpy as np
 
 from tracker.compiled import compiled
 from tracker.geometry.kernels import solve_positive
-from tracker.marker.explanation.kernels import (
+from tracker.marker.explanation.fields.kernels import (
     FIELDS,
     RING,
-    SATURATED_GREY,
     WIDE,
-    likeness,
+    fields_ahead,
+    lens_blur,
     picture_at,
     sample_fields,
     u_of,
-    walk,
 )
+from tracker.marker.explanation.kernels import SATURATED_GREY, likeness, walk
 from tracker.marker.sampling.kernels import square_to_quad
 
 
@@ -171,19 +171,22 @@ def weights_of_a_part(seen, picture, angles, places, limit, weight):
 
 
 @compiled
-def contradicting(image, corners_px, layers, blurs, blur, field_px, light, inside, rounds, limit):
+def contradicting(image, corners_px, layers, blurs, blur_px, field_px, light, inside, rounds, limit):
     """Fields of the largest piece in a square that contradicts a model; the part that is covered; likeness.
 
-    The model's `layers`, as `Pictures` has them, are out of focus by `blur` (variance in fields). Fitted is
-    the `light` (WIDE^2, n) alone, in so many rounds. `inside` (WIDE, WIDE): which fields are the square's.
+    The model's `layers`, as `Pictures` has them, are out of focus by `blur_px`, an sd. Fitted is the
+    `light` (WIDE^2, n) alone, in so many rounds. `inside` (WIDE, WIDE): which fields are the square's.
     Covered is the part of it that pieces over its border hide, off by more than `limit` of the contrast. The
     likeness, -1..1, is that of the rest; -1 where there is nothing of the model.
     """
-    to_px, corners, blur_here = np.empty(8), np.zeros((4, 2)), np.array([blur, blur, 0.0])
+    to_px, corners, blur_here = np.empty(8), np.zeros((4, 2)), np.empty(3)
     square_to_quad(corners_px, to_px)
     corners[1, 0] = corners[2, 0] = corners[2, 1] = corners[3, 1] = 1.0
     seen, shown = sample_fields(image, to_px, corners), np.empty((6, WIDE, WIDE), np.float32)
-    picture_at(layers, blurs, blur_here, shown)
+    ahead = np.empty((2, 2))
+    fields_ahead(to_px, corners, ahead)
+    lens_blur(ahead, blur_px, blur_here)
+    picture_at(layers, blurs, blur_here, ahead, shown)
     visible, even = inside.copy(), np.ones((WIDE * WIDE, 1))
     held, weight = np.ones((WIDE, WIDE)), np.ones((WIDE, WIDE))
     rest, lit = np.empty((WIDE, WIDE)), np.empty((WIDE, WIDE))

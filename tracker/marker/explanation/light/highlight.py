@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
-from tracker.marker.explanation.kernels import WIDE
+from tracker.marker.explanation.fields.kernels import WIDE
 from tracker.marker.explanation.light.light import grid
 
 # A bell's middle is anywhere about the square; its sds along and across are in half sides. Those of a sparse

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracker.compiled import compiled
-from tracker.marker.explanation.kernels import WIDE, u_of
+from tracker.marker.explanation.fields.kernels import WIDE, u_of
 
 STRIDE = 3  # a field of every nine is enough to find an edge by
 BASE = 9

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
-from tracker.marker.explanation.kernels import WIDE, u_of
+from tracker.marker.explanation.fields.kernels import WIDE, u_of
 from tracker.marker.explanation.light.kernels import shadow_edge, shadow_of
 
 SHADOW_ANGLES, SHADOW_PLACES, SHADOW_SOFT = 12, 9, 0.1
