@@ -20,7 +20,7 @@ from tracker.marker.looks import (
     looked_closer,
 )
 from tracker.marker.looks.kernels import distinct
-from tracker.outlines import Quads, corner_quads_of
+from tracker.outlines import Quads, corner_quads_of, pair_quads_of
 from tracker.regions import (
     Regions,
     border_segments,
@@ -46,6 +46,8 @@ MOST_BEYOND_SIDES = 0.1
 MOST_SHARES = 4
 # Of four sides, where they are is known better than of two.
 MOST_CLOSER_OF_FOUR = 8
+# A peek ranks the true one of these first in nearly all images.
+MOST_SMEARED = 40
 # Where one outline is as like as this, those that are so far behind are not it.
 SURE_LIKENESS, FAR_BEHIND = 0.94, 0.08
 
@@ -186,7 +188,9 @@ def _looks(image: GreyImage, levels: Levels, templates: Templates) -> Iterator[L
         regions = _regions(half)
         yield _of_four_sides(half, regions, templates)
         yield _at_corners(half, _edge_segments(half.image, LEAST_PIECE_PX), templates, most)
-    yield _at_corners(level, _edge_segments(level.image, LEAST_PIECE_PX), templates, most)
+    edges = _edge_segments(level.image, LEAST_PIECE_PX)
+    yield _at_corners(level, edges, templates, most)
+    yield _smeared(level, edges, templates)
     if level.scale > 1:
         # What is small in a large image.
         whole = Level(image=image, scale=1, noise_grey=noise_grey(image))
@@ -238,6 +242,12 @@ def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Temp
     step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
     corners = corner_quads_of(level.image, segments, least_step_grey=step)
     return Look(level, *likely(level.soft, corners, templates, most=most), is_peek=True)
+
+
+def _smeared(level: Level, segments: npt.NDArray[np.float32], templates: Templates) -> Look:
+    """Outlines of which two sides are seen: motion along them smears the others."""
+    quads = pair_quads_of(segments)
+    return Look(level, *likely(level.soft, quads, templates, most=MOST_SMEARED, smeared=True), is_peek=True)
 
 
 def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int, *, is_sure: bool) -> Quads:

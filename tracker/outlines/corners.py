@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.edges import GreyImage
-from tracker.outlines.kernels import corner_quads, successors_of
+from tracker.outlines.kernels import corner_quads, pair_quads, successors_of
 
 Quads: TypeAlias = npt.NDArray[np.float32]
 
@@ -16,6 +16,9 @@ LEAST_SQUASH_RATIO = 0.4
 BESIDE_PX = 2.0
 # A length that is off by a tenth is near enough to be known at a glance.
 LENGTH_GROWTH = 1.25
+# What of a smeared side is seen may be a quarter too short, or too long.
+MOST_PAIR_RATIO = 2.0
+PAIR_LENGTHS, PAIR_SHIFTS = np.array([0.8, 1.0, 1.25]), np.array([-0.12, 0.0, 0.12])
 
 
 def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, least_step_grey: float) -> Quads:
@@ -36,5 +39,16 @@ def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, leas
         BESIDE_PX,
         least_step_grey,
         LENGTH_GROWTH,
+    )
+    return np.asarray(quads, dtype=np.float32)
+
+
+def pair_quads_of(segments: npt.NDArray[np.float32]) -> Quads:
+    """Candidate outlines of which two sides that face each other are seen, and motion smears the others.
+
+    Outlines (q, 4, 2) in px, parallelograms, clockwise on the screen; the first side is along a seen one.
+    """
+    quads = pair_quads(
+        segments, LEAST_CORNER_SIDE_PX, LEAST_SQUASH_RATIO, MOST_PAIR_RATIO, PAIR_LENGTHS, PAIR_SHIFTS
     )
     return np.asarray(quads, dtype=np.float32)

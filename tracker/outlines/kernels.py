@@ -9,6 +9,10 @@ MOST_SUCCESSORS = 8
 MOST_CORNER_QUADS = 12000
 CELL_PX = 16
 MOST_GAP_PX = 30.0
+MOST_PAIR_QUADS = 40000
+# Sides that face each other run in opposite directions, but for a sixth of a radian that perspective adds.
+DIRECTIONS, MOST_PAIR_COSINE = 36, 0.985
+MOST_APART_LENGTHS = 3.0
 
 
 @compiled
@@ -164,4 +168,92 @@ def corner_quads(image, segments, successors, counts, least_side, least_squash, 
                         break
                     length *= growth
                     step += 1
+    return quads[:q].copy()
+
+
+@compiled
+def _add_across(quad, p, along, across, length, beyond):
+    """An outline: a side of this length about the point p, and one `across` from it and so far beyond."""
+    x, y = 0.5 * length * along[0], 0.5 * length * along[1]
+    u, v = p[0] + across[0] + beyond * along[0], p[1] + across[1] + beyond * along[1]
+    quad[0, 0], quad[0, 1], quad[1, 0], quad[1, 1] = p[0] - x, p[1] - y, p[0] + x, p[1] + y
+    quad[2, 0], quad[2, 1], quad[3, 0], quad[3, 1] = u + x, v + y, u - x, v - y
+
+
+@compiled
+def _by_direction(along):
+    """Segments by their direction (n, 2): the first one of each of some bins, and for each the next one."""
+    head, after = np.full(DIRECTIONS, -1, np.int32), np.empty(len(along), np.int32)
+    own = np.empty(len(along), np.int32)
+    for i in range(len(along)):
+        turn = np.arctan2(along[i, 1], along[i, 0]) / (2.0 * np.pi)
+        own[i] = int(np.floor(turn * DIRECTIONS)) % DIRECTIONS
+        after[i] = head[own[i]]
+        head[own[i]] = i
+    return own, head, after
+
+
+@compiled
+def _facing(length, along, middle, i, j, least_side, most_ratio, d):
+    """How far apart two sides are, and by how much the second is beyond the first along `d`, which it fills.
+
+    They run in opposite directions, each with the other on its right, where it is dark; 0 where they do not
+    face each other.
+    """
+    longer, weight = max(length[i], length[j]), length[i] + length[j]
+    if longer < least_side or longer > most_ratio * min(length[i], length[j]):
+        return 0.0, 0.0
+    if along[i, 0] * along[j, 0] + along[i, 1] * along[j, 1] > -MOST_PAIR_COSINE:
+        return 0.0, 0.0
+    for k in range(2):
+        d[k] = (length[i] * along[i, k] - length[j] * along[j, k]) / weight
+    x, y = middle[j, 0] - middle[i, 0], middle[j, 1] - middle[i, 1]
+    apart, beyond = d[0] * y - d[1] * x, d[0] * x + d[1] * y
+    if apart < least_side or abs(beyond) > apart or apart > MOST_APART_LENGTHS * longer:
+        return 0.0, 0.0
+    return apart, beyond
+
+
+@compiled
+def pair_quads(segments, least_side, least_squash, most_ratio, lengths, shifts):
+    """Outlines (q, 4, 2) of two sides that face each other, one at most so many times as long as the other.
+
+    Where they end is tried: `lengths`, by the longer one's, and `shifts` along them, by that length. The
+    first side is along one of the two.
+    """
+    n, q = len(segments), 0
+    quads = np.empty((MOST_PAIR_QUADS, 4, 2), np.float32)
+    length, along, middle = np.empty(n), np.empty((n, 2)), np.empty((n, 2))
+    for i in range(n):
+        length[i] = _length(segments[i])
+        for k in range(2):
+            along[i, k] = (segments[i, 2 + k] - segments[i, k]) / length[i]
+            middle[i, k] = 0.5 * (segments[i, 2 + k] + segments[i, k])
+    own, head, after = _by_direction(along)
+    d, across, p = np.empty(2), np.empty(2), np.empty(2)
+    for i in range(n):
+        for near in range(-1, 2):
+            j = head[(own[i] + DIRECTIONS // 2 + near) % DIRECTIONS]
+            while j >= 0:
+                other, j = j, after[j]
+                # Each pair once.
+                if other < i:
+                    continue
+                apart, beyond = _facing(length, along, middle, i, other, least_side, most_ratio, d)
+                if apart == 0.0:
+                    continue
+                across[0], across[1] = -d[1] * apart, d[0] * apart
+                for m in range(2 * len(lengths)):
+                    # What is seen of both may end alike, or where tilt lets them end.
+                    side, slant = lengths[m // 2] * max(length[i], length[other]), (m % 2) * beyond
+                    squares = side * side + apart * apart + slant * slant
+                    if not could_be_tilted(squares, (side * apart) ** 2, least_squash):
+                        continue
+                    for k in range(len(shifts)):
+                        if q == MOST_PAIR_QUADS:
+                            return quads
+                        off = shifts[k] * side + 0.5 * (beyond - slant)
+                        p[0], p[1] = middle[i, 0] + off * d[0], middle[i, 1] + off * d[1]
+                        _add_across(quads[q], p, d, across, side, slant)
+                        q += 1
     return quads[:q].copy()

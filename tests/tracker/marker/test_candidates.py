@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.scenes.conditions import conditions_of
-from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.faces import FACES, Face
 from tests.benchmarks.scenes.placing import random_scene
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.scenes.scene import image_of
@@ -95,6 +95,21 @@ def test_a_lens_out_of_focus_does_not_hide_it(side_px: float, blur_px: float) ->
     for roll_deg in range(0, 360, 60):
         image, corners = _scene(side_px, roll_deg=roll_deg, blur_px=blur_px, seed=roll_deg)
         assert _found_in(image, corners, side_px) is not None, roll_deg
+
+
+def test_motion_along_two_sides_does_not_hide_a_thin_frame() -> None:
+    """The other two sides are smeared away, and with them all four corners."""
+    thin = Face(
+        name="thin",
+        white=(np.array([(0.08, 0.08), (0.92, 0.08), (0.92, 0.92), (0.08, 0.92)]),),
+        black=(np.array([(0.25, 0.2), (0.75, 0.2), (0.75, 0.5), (0.5, 0.8), (0.25, 0.8)]),),
+    )
+    templates, found = templates_of([thin.model]), 0
+    for seed in range(12):
+        scene = random_scene(RIGS["A"], thin, conditions_of(RIGS["A"])["motion8"], seed=seed)
+        given = [one for each in candidate_rounds(image_of(scene), templates) for one in each[0]]
+        found += any(_off_px(one, scene.corners_px) < 0.15 * 27 for one in given)
+    assert found >= 11
 
 
 def test_what_an_image_over_a_megapixel_shows_is_told_in_its_own_pixels() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tracker.geometry import Array
-from tracker.marker.explanation.kernels import WIDE
+from tracker.marker.explanation.fields.kernels import WIDE
 from tracker.marker.explanation.light import grid, highlight_in, smooth_light
 
 

@@ -35,7 +35,9 @@ def glance(image: GreyImage, quads: Quads, templates: Templates) -> Float32:
     return out
 
 
-def likely(even: GreyImage, quads: Quads, templates: Templates, *, most: int) -> tuple[Quads, Float32]:
+def likely(
+    even: GreyImage, quads: Quads, templates: Templates, *, most: int, smeared: bool = False
+) -> tuple[Quads, Float32]:
     """Of many outlines (q, 4, 2) those that look most like a model at a peek of 8x8 pixels, and how much.
 
     Likeness (q, m, 4) to each model at each turn, -1..1.
@@ -45,8 +47,9 @@ def likely(even: GreyImage, quads: Quads, templates: Templates, *, most: int) ->
         quads: the outlines, parallelograms.
         templates: of the models.
         most: how many to keep for each model.
+        smeared: whether motion smears them, along their first side.
     """
-    pictures = np.concatenate([template.peeked for template in templates.each])
+    pictures = np.concatenate([one.smeared if smeared else one.peeked for one in templates.each])
     each = peek(even, quads, PEEK_CELLS, pictures, DARK, LIGHT)
     alike = each.reshape(len(templates), TURNS, len(quads)).transpose(2, 0, 1)
     kept = np.ones(len(quads), np.bool_)

@@ -58,6 +58,7 @@ class Template:
         turned: (b, 4, n), by a lens in focus and out of it, turned by 0..3 quarters: turn k is the picture
             of an occurrence whose first corner is corner k of the model.
         peeked: (4, 64), turned, at the size of a peek.
+        smeared: (4, 64), the same smeared along the first side of the outline.
         upright: (p, n) under the covers: the lens's three and those of motion in four directions.
         basis: (p, n, 10), what such a picture is made of: itself, 1, and what changes when the outline's
             corners are off to the right and downwards, for each corner in turn, per side.
@@ -66,6 +67,7 @@ class Template:
 
     turned: Float32
     peeked: Float32
+    smeared: Float32
     upright: Masked
     basis: Float32
     pictures: Pictures
@@ -99,6 +101,7 @@ def _template_of(square: npt.NDArray[np.uint8]) -> Template:
     return Template(
         turned=np.ascontiguousarray(turned, np.float32),
         peeked=np.array([_peek_picture(one) for one in turned[0]], np.float32),
+        smeared=np.array([_peek_picture(_smeared(upright, turn)) for turn in range(4)], np.float32),
         upright=_masked(upright),
         basis=np.ascontiguousarray(basis, np.float32),
         pictures=pictures_of(square),
@@ -153,6 +156,13 @@ def _basis(wide: Array, seen: Float32) -> Array:
 def _masked(pictures: Float32) -> Masked:
     columns, mean, spread = masked_pictures(np.ascontiguousarray(pictures, np.float32), COVERS)
     return Masked(columns=columns, mean=mean, spread=spread)
+
+
+def _smeared(upright: Float32, turn: int) -> Float32:
+    """The picture (n,) smeared along what is the first side after so many quarter turns."""
+    along = 0.0 if turn % 2 == 0 else 90.0
+    picture = upright[len(BLURS_SIDES) + MOTIONS_DEG.index(along)]
+    return np.asarray(np.rot90(picture.reshape(ROWS, ROWS), turn).ravel())
 
 
 def _peek_picture(turned: Float32) -> Array:
