@@ -22,8 +22,8 @@ HOOK = Face(
 # Each of these was taken for a marker once: for a covered one, for one under highlights, for one in noise.
 ONCE_TAKEN = (100138, 332, 100551, 100957, 1455, 1456)
 OTHERS = range(60)
-# These while too much noise was taken out.
-ONCE_TAKEN_IN_POOR_LIGHT = (152, 227, 674, 1005, 5261, 6154)
+# These while too much noise was taken out, or too much blur believed.
+ONCE_TAKEN_IN_POOR_LIGHT = (152, 227, 674, 1005, 5261, 6154, 20183, 40312, 41306)
 
 
 def _face(rng: np.random.Generator) -> Image8:

@@ -29,9 +29,9 @@ LEAST_KNOWN_LIKENESS, MOST_KNOWN_HIDDEN_RATIO, MOST_KNOWN_AREA_RATIO = 0.9, 0.55
 # Where the square is small, nothing is said.
 LEAST_UNEVEN_PX = 18.0
 IN_NOISE_SIDES_PX, LEAST_IN_NOISE, LEAST_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9), 0.955
-# The more noise is taken out, the less else may be left. In shadow, highlights, smear and noise at once framed
+# The more noise is taken out, the less else may be left. In shadow, highlights, smear and noise, framed
 # squares with a bent spot have reached 0.93 with noise and 0.96 without it, small ones 0.93 and 0.99 (3,300
-# looked at); nearly all of these had to be taken for blurred over more of their side than the next limit.
+# looked at); nearly all had to be taken for blurred over more of their side than the next limit allows.
 BOTH_SIDES_PX, LEAST_BOTH = (20.0, 26.0), (1.93, 1.875)
 # Blurred over more of its side, or more of it hidden or too bright to tell, a part of the shape passes for
 # light.
