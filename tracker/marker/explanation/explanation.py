@@ -42,8 +42,9 @@ WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
 # Light without highlights has a quadratic and a step.
 MOST_SMOOTH_TERMS = 7
-# By how many fields this turn of the model must explain more than the others do.
-LEAST_APART = 2.0
+# By how many fields this turn of the model must explain more than the others do. A highlight that was fitted
+# to a wrong one explains up to 5 more of it than of the right one, where the shape is nearly its own turn.
+LEAST_APART = 8.0
 # What is so like the model as a whole is worth the question whether it is a turn of it.
 # Less like its own turns than this, and in full sight, it cannot be mistaken for one of them.
 WORTH_TURNING, HALF_TURNED = 0.9, 0.6
