@@ -1,6 +1,6 @@
 """From about where a marker could be to what is said of it: gradient, fit, score and judgement."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -13,8 +13,6 @@ from tracker.pose import (
     Pixels,
     Scene,
     Sighting,
-    Unseen,
-    UnseenReason,
     corners_px_at,
     judged,
     occurrence_near,
@@ -77,21 +75,20 @@ class Fitter:
         self.stages.end("judgement")
         return sighting
 
-    def best_of(self, pixels: Pixels, model: MarkerModel, candidates: Sequence[Candidate]) -> Sighting:
-        """The best that some candidates, the likeliest first, turn out to be."""
-        best: Sighting = Unseen(reason=UnseenReason.NO_CANDIDATE)
+    def each_of(
+        self, pixels: Pixels, model: MarkerModel, candidates: Sequence[Candidate]
+    ) -> Iterator[Sighting]:
+        """What some candidates, the likeliest first, turn out to be, one after the other."""
         fits = 0
         for candidate in candidates:
             start = pose_from_corners(self._camera, candidate.corners_px, side_mm=model.side_mm)
             sighting = None if start is None else self.near(pixels, model, start, found_by="search")
             if sighting is None:
                 continue
-            best = max(best, sighting, key=worth_of)
+            yield sighting
             fits += 1
-            # One that leaves nothing open ends it.
-            if fits >= MOST_FITS or is_certain(best):
+            if fits >= MOST_FITS:
                 break
-        return best
 
 
 def is_certain(sighting: Sighting) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from tracker.marker import Candidate, MarkerModel, Templates, candidate_rounds, thorough_rounds
 from tracker.pipeline.fitter import Fitter, is_certain
-from tracker.pose import Pixels, Seen, Sighting, Unseen, UnseenReason, worth_of
+from tracker.pose import Pixels, Seen, Sighting, Unseen, UnseenReason, are_turned, worth_of
 
 
 class Search:
@@ -30,6 +30,8 @@ class Search:
         self._rounds = candidate_rounds(pixels.image, templates)
         # Models whose candidates of this round have not been looked at.
         self._waiting: list[tuple[MarkerModel, list[Candidate]]] = []
+        # Names of those that are in the image, and two ways up of which explain as much as the other.
+        self._undecided: set[str] = set()
 
     def go_on(self) -> bool:
         """Make a part of it: a round's candidates, or a look at those of one model; False at the end."""
@@ -39,10 +41,26 @@ class Search:
             self._waiting = [pair for pair in zip(self._models, candidates or [], strict=False) if pair[1]]
             return candidates is not None
         model, own = self._waiting.pop(0)
-        if not is_certain(self.best[model.name]):
-            found = self._fitter.best_of(self._pixels, model, own)
-            self.best[model.name] = max(self.best[model.name], found, key=worth_of)
+        if not self._is_over(model, is_certain):
+            for found in self._fitter.each_of(self._pixels, model, own):
+                self._take(model.name, found)
+                # One that leaves nothing open ends it.
+                if self._is_over(model, is_certain):
+                    break
         return True
+
+    def _take(self, name: str, found: Sighting) -> None:
+        """Keep the better one; none, where what was found says that the marker is another way up."""
+        best, worse = sorted((self.best[name], found), key=worth_of, reverse=True)
+        if are_turned(best, worse) and not is_certain(best):
+            self._undecided.add(name)
+            score = max(one.score_ratio for one in (best, worse) if isinstance(one, Seen))
+            best = Unseen(reason=UnseenReason.SHAPE_DIFFERS, best_score_ratio=score)
+        self.best[name] = best
+
+    def _is_over(self, model: MarkerModel, enough: Callable[[Sighting], bool]) -> bool:
+        """Whether nothing more need be looked for, or would help."""
+        return model.name in self._undecided or enough(self.best[model.name])
 
     def to_the_end(self, *, thorough: bool = False) -> dict[str, Sighting]:
         """Make the rest of it, as long as it can find something better; what it says of each marker.
@@ -50,7 +68,7 @@ class Search:
         `thorough`: whether what is not seen is looked for once more, at far more cost.
         """
         self._go_on_until(is_certain)
-        unseen = [k for k, model in enumerate(self._models) if not _is_seen(self.best[model.name])]
+        unseen = [k for k, model in enumerate(self._models) if not self._is_over(model, _is_seen)]
         if thorough and unseen:
             self._models = [self._models[k] for k in unseen]
             self._rounds = thorough_rounds(self._pixels.image, self._templates[unseen])
@@ -59,7 +77,7 @@ class Search:
 
     def _go_on_until(self, enough: Callable[[Sighting], bool]) -> None:
         while self.go_on():
-            if all(enough(self.best[model.name]) for model in self._models):
+            if all(self._is_over(model, enough) for model in self._models):
                 break
         self._waiting = []
 

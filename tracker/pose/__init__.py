@@ -2,7 +2,7 @@
 
 from tracker.pose.judgement import Scene, judged
 from tracker.pose.occurrence import Occurrence, corners_px_at, occurrence_near, side_px_of, with_target
-from tracker.pose.places import one_for_each_place, worth_of
+from tracker.pose.places import are_turned, one_for_each_place, worth_of
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.prior import Prior
 from tracker.pose.refinement import Fit, refined_pose
@@ -27,6 +27,7 @@ __all__ = [
     "ToolModel",
     "Unseen",
     "UnseenReason",
+    "are_turned",
     "corners_px_at",
     "judged",
     "occurrence_near",

@@ -1,9 +1,21 @@
-"""What sightings are worth beside each other: one marker for each place."""
+"""What sightings are worth beside each other: one marker for each place, and one way up for each marker."""
 
 import numpy as np
 
 from tracker.pose.occurrence import side_px_of
 from tracker.pose.sighting import Seen, Sighting, Unseen, UnseenReason
+
+# In sides: what is nearer is at one place; a corner of a marker that is turned by a quarter is one off.
+ONE_PLACE_SIDES, TURNED_SIDES = 0.25, 0.5
+
+
+def are_turned(one: Sighting, other: Sighting) -> bool:
+    """Whether both see the marker at one place, and each another way up."""
+    if not (isinstance(one, Seen) and isinstance(other, Seen)):
+        return False
+    side, apart = side_px_of(one.corners_px), one.corners_px - other.corners_px
+    is_one_place = float(np.linalg.norm(apart.mean(axis=0))) < ONE_PLACE_SIDES * side
+    return is_one_place and float(np.abs(apart).max()) > TURNED_SIDES * side
 
 
 def one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:

@@ -61,17 +61,17 @@ def test_what_is_out_of_view_costs_a_part_of_a_search_in_less_than_half_of_the_i
             rounds[-1] += 1
             yield candidates
 
-    looked = Fitter.best_of
+    looked = Fitter.each_of
 
     def counted_look(
         fitter: Fitter, pixels: Pixels, model: MarkerModel, candidates: list[Candidate]
-    ) -> Seen | Unseen:
+    ) -> Iterator[Seen | Unseen]:
         looks[-1] += 1
         return looked(fitter, pixels, model, candidates)
 
     tracker = _tracker()
     monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", counted)
-    monkeypatch.setattr(Fitter, "best_of", counted_look)
+    monkeypatch.setattr(Fitter, "each_of", counted_look)
     for k in range(14):
         sightings = tracker.step(_two(None, seed=k), captured_at_s=k / 30)
         assert isinstance(sightings["other"], Unseen)

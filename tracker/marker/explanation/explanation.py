@@ -20,12 +20,11 @@ from tracker.marker.explanation.acceptance import (
     Explanation,
 )
 from tracker.marker.explanation.cover import (
-    PART_CONTRAST,
     Mask,
     covered,
     weights_beside_a_cover,
 )
-from tracker.marker.explanation.fields.kernels import FIELDS, SPREAD, WIDE, picture_at
+from tracker.marker.explanation.fields.kernels import FIELDS, SPREAD, WIDE
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.flips import most_flipped
 from tracker.marker.explanation.kernels import SATURATED_GREY, likeness
@@ -33,18 +32,14 @@ from tracker.marker.explanation.light import contrasts, highlights, shadow_in, s
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.poor_light import light_up
 from tracker.marker.explanation.shape import any_shape_of, shape_of
+from tracker.marker.explanation.turns import another_turn_is_nearer, under_highlights
 from tracker.marker.explanation.washed_out import LEAST_GLARING_RATIO
 from tracker.marker.sampling.kernels import through
 
-FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN, LIGHT_ROUNDS = 3, 6, 4, 3
+FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN = 3, 6, 4
 LEAST_HOPE = 0.55
 WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
-# Light without highlights has a quadratic and a step.
-MOST_SMOOTH_TERMS = 7
-# By how many fields this turn of the model must explain more than the others do. A highlight that was fitted
-# to a wrong one explains up to 5 more of it than of the right one, where the shape is nearly its own turn.
-LEAST_APART = 8.0
 # What is so like the model as a whole is worth the question whether it is a turn of it.
 # Less like its own turns than this, and in full sight, it cannot be mistaken for one of them.
 WORTH_TURNING, HALF_TURNED = 0.9, 0.6
@@ -117,25 +112,6 @@ def _in_uneven_light(fit: Fit) -> Explanation | None:
     return found
 
 
-def _another_turn_is_nearer(fit: Fit) -> bool:
-    """Whether the model, turned by a quarter or more where it is, leaves less of what is seen."""
-    layers, blurs = fit.pictures.layers, fit.pictures.blurs_fields
-    visible, fit.visible = fit.visible, np.ones((WIDE, WIDE), np.bool_)
-    shown, weight = fit.shown.copy(), fit.weight.copy()
-    held = fit.held.copy()
-    costs, blur, ahead = [], fit.blur, fit.ahead
-    for turns in range(4):
-        # The picture is turned back afterwards.
-        picture_at(layers, blurs, blur, ahead, fit.shown)
-        blur, ahead = np.array([blur[1], blur[0], -blur[2]]), np.array([ahead[1], -ahead[0]])
-        fit.shown[0] = np.rot90(fit.shown[0], turns).copy()
-        seen = fit.walk(LIGHT_ROUNDS, weight.copy(), free=0)
-        off = fit.rest / (PART_CONTRAST * np.maximum(fit.gain, 0.25 * float(np.median(fit.gain))))
-        costs.append(float(np.minimum(off**2, 1.0)[inside_square()].sum()) if seen else np.inf)
-    fit.visible, fit.shown, fit.weight, fit.held = visible, shown, weight, held
-    return costs[0] > min(costs[1:]) - LEAST_APART
-
-
 def _in_shadow(fit: Fit) -> bool:
     """Let there be a shadow's edge, if one explains much."""
     shadow = shadow_in(fit.seen, fit.picture, fit.visible)
@@ -165,7 +141,7 @@ def _told(fit: Fit, *, in_noise: bool = False) -> Explanation | None:
     worth = found.explains if in_noise else found.likeness >= WORTH_TURNING
     if not worth or not (found.is_covered or fit.pictures.turned_likeness > HALF_TURNED):
         return found
-    return replace(found, is_turned=_another_turn_is_nearer(fit))
+    return replace(found, is_turned=another_turn_is_nearer(fit))
 
 
 def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
@@ -183,7 +159,7 @@ def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
         inside_ratio=inside / FIELDS**2,
         corners_px=np.array([through(fit.to_px, a, b) for a, b in fit.corners]),
         moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
-        under_highlights=fit.light.shape[1] > MOST_SMOOTH_TERMS,
+        under_highlights=under_highlights(fit),
         blur_px=_blur_px(fit.blur, fit.field_px),
         beside_noise=_beside_noise(fit, telling, shape) if in_noise else None,
         hidden=~visible,

@@ -1,0 +1,69 @@
+"""A marker that is nearly its own quarter turn, where a highlight hides what tells its turns apart."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.benchmarks.limits.finders import tracker_of
+from tests.benchmarks.limits.judging import Outcome, claim_of, judged
+from tests.benchmarks.scenes.conditions import BASE, conditions_of
+from tests.benchmarks.scenes.faces import Face, circle
+from tests.benchmarks.scenes.placing import random_scene
+from tests.benchmarks.scenes.rigs import RIGS
+from tests.benchmarks.scenes.scene import image_of
+from tests.tracker.scenes import seen
+from tracker.pipeline.fitter import Fitter
+from tracker.pose import Unseen, UnseenReason, are_turned
+
+RINGS = Face(
+    name="rings",
+    white=(circle(0.5, 0.5, 0.40), circle(0.5, 0.5, 0.12)),
+    black=(circle(0.54, 0.47, 0.27),),
+)
+MOONS = Face(
+    name="moons",
+    white=(circle(0.5, 0.5, 0.40), circle(0.53, 0.5, 0.20)),
+    black=(circle(0.52, 0.49, 0.30),),
+)
+
+
+# Each was claimed with another corner first.
+ONCE_TURNED = (*((RINGS, seed) for seed in (22, 61, 111, 144)), *((MOONS, seed) for seed in (102, 138, 1053)))
+
+
+@pytest.mark.parametrize(("face", "seed"), ONCE_TURNED)
+def test_a_highlight_does_not_turn_a_marker_that_is_nearly_its_own_turn(face: Face, seed: int) -> None:
+    tracker = tracker_of(RIGS["A"], [face])
+    glared, plain = (
+        random_scene(RIGS["A"], face, condition, seed=seed)
+        for condition in (conditions_of(RIGS["A"])["glare1.6"], BASE)
+    )
+    claims = [claim_of(tracker.search(image_of(scene))[face.name]) for scene in (glared, plain)]
+    assert judged(glared, claims[0]).outcome is not Outcome.WRONG
+    assert judged(plain, claims[1]).outcome is Outcome.RIGHT
+
+
+def test_where_two_ways_up_explain_it_none_is_claimed(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, tracker = random_scene(RIGS["A"], RINGS, seed=1), tracker_of(RIGS["A"], [RINGS])
+    image = image_of(scene)
+    certain = seen(tracker.search(image)["rings"])
+    one = replace(certain, score_ratio=0.6, target_score_ratio=0.9)
+    other = replace(one, corners_px=np.roll(one.corners_px, 1, axis=0), score_ratio=0.7)
+    for both in ((one, other), (other, one)):
+        monkeypatch.setattr(Fitter, "each_of", lambda *_, both=both: iter(both))
+        sighting = tracker.search(image)["rings"]
+        assert isinstance(sighting, Unseen)
+        assert (sighting.reason, sighting.best_score_ratio) == (UnseenReason.SHAPE_DIFFERS, 0.7)
+    monkeypatch.setattr(Fitter, "each_of", lambda *_: iter((other, certain)))
+    assert tracker.search(image)["rings"] is certain
+
+
+def test_two_are_turned_at_one_place_only() -> None:
+    scene = random_scene(RIGS["A"], RINGS, seed=1)
+    one = seen(tracker_of(RIGS["A"], [RINGS]).search(image_of(scene))["rings"])
+    for quarters in (1, 2, 3):
+        assert are_turned(one, replace(one, corners_px=np.roll(one.corners_px, quarters, axis=0)))
+    assert not are_turned(one, replace(one, corners_px=one.corners_px + 2.0))
+    assert not are_turned(one, replace(one, corners_px=np.roll(one.corners_px, 1, axis=0) + 20.0))
+    assert not are_turned(one, Unseen(reason=UnseenReason.NO_CANDIDATE))

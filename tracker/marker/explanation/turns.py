@@ -1,0 +1,71 @@
+"""Is it the model as it is, or turned by a quarter or more? Where covers and highlights hide what tells."""
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.marker.explanation.cover import PART_CONTRAST, weights_beside_a_cover
+from tracker.marker.explanation.fields.kernels import WIDE, picture_at
+from tracker.marker.explanation.fit import Fit, inside_square
+from tracker.marker.sampling.kernels import through
+
+# By how many fields this turn of the model must explain more than the others do. A highlight that was fitted
+# to a wrong one explains up to 5 more of it than of the right one, where the shape is nearly its own turn.
+LEAST_APART = 8.0
+LIGHT_ROUNDS, ROUNDS = 3, 6
+# Light without highlights has a quadratic and a step.
+MOST_SMOOTH_TERMS = 7
+
+
+def under_highlights(fit: Fit) -> bool:
+    """Whether the light of a fit has highlights."""
+    return bool(fit.light.shape[1] > MOST_SMOOTH_TERMS)
+
+
+def another_turn_is_nearer(fit: Fit) -> bool:
+    """Whether the model, turned by a quarter or more, explains as much of what is seen, or nearly.
+
+    Highlights make room for many shapes: there, each turn looks for a place, a blur and a light of its own.
+    """
+    own = _left(fit)
+    if _is_nearer_where_it_is(fit):
+        return True
+    return under_highlights(fit) and min(_left_by_own_walk(fit, turns) for turns in (1, 2, 3)) < own
+
+
+def _left(fit: Fit) -> float:
+    """How many fields of the square a fit leaves unexplained."""
+    off = fit.rest / (PART_CONTRAST * np.maximum(fit.gain, 0.25 * float(np.median(fit.gain))))
+    return float(np.minimum(off**2, 1.0)[inside_square()].sum())
+
+
+def _is_nearer_where_it_is(fit: Fit) -> bool:
+    """Whether another turn leaves less where this one is, or not enough more."""
+    layers, blurs = fit.pictures.layers, fit.pictures.blurs_fields
+    visible, fit.visible = fit.visible, np.ones((WIDE, WIDE), np.bool_)
+    shown, weight = fit.shown.copy(), fit.weight.copy()
+    held = fit.held.copy()
+    left, blur, ahead = [], fit.blur, fit.ahead
+    for turns in range(4):
+        # The picture is turned back afterwards.
+        picture_at(layers, blurs, blur, ahead, fit.shown)
+        blur, ahead = np.array([blur[1], blur[0], -blur[2]]), np.array([ahead[1], -ahead[0]])
+        fit.shown[0] = np.rot90(fit.shown[0], turns).copy()
+        left.append(_left(fit) if fit.walk(LIGHT_ROUNDS, weight.copy(), free=0) else np.inf)
+    fit.visible, fit.shown, fit.weight, fit.held = visible, shown, weight, held
+    return left[0] > min(left[1:]) - LEAST_APART
+
+
+def _left_by_own_walk(fit: Fit, turns: int) -> float:
+    """What the model leaves, so many quarters turned to the left, after a walk from where this fit is."""
+    corners_px = np.array([through(fit.to_px, a, b) for a, b in fit.corners])
+    other = Fit(fit.image, fit.pictures, np.roll(corners_px, -turns, axis=0), fit.side_px)
+    other.light, other.gains = _turned(fit.light, turns), _turned(fit.gains, turns)
+    other.look()
+    walked = other.walk(ROUNDS, weights_beside_a_cover(other.seen, other.picture))
+    return _left(other) if walked else np.inf
+
+
+def _turned(light: Array, turns: int) -> Array:
+    """What light may add (fields, n), on fields that are turned by so many quarters."""
+    turned = np.rot90(light.reshape(WIDE, WIDE, -1), turns)
+    return np.ascontiguousarray(turned.reshape(WIDE * WIDE, -1))
