@@ -5,17 +5,17 @@ import numpy as np
 from tracker.pose.occurrence import side_px_of
 from tracker.pose.sighting import Seen, Sighting, Unseen, UnseenReason
 
-# In sides: what is nearer is at one place; a corner of a marker that is turned by a quarter is one off.
-ONE_PLACE_SIDES, TURNED_SIDES = 0.25, 0.5
+# In sides: corners that are nearer are at one place.
+ONE_PLACE_SIDES = 0.1
 
 
 def are_turned(one: Sighting, other: Sighting) -> bool:
-    """Whether both see the marker at one place, and each another way up."""
+    """Whether both see the marker in one square, and each another way up."""
     if not (isinstance(one, Seen) and isinstance(other, Seen)):
         return False
-    side, apart = side_px_of(one.corners_px), one.corners_px - other.corners_px
-    is_one_place = float(np.linalg.norm(apart.mean(axis=0))) < ONE_PLACE_SIDES * side
-    return is_one_place and float(np.abs(apart).max()) > TURNED_SIDES * side
+    turned = (np.abs(np.roll(other.corners_px, quarters, axis=0) - one.corners_px) for quarters in (1, 2, 3))
+    near = ONE_PLACE_SIDES * side_px_of(one.corners_px)
+    return any(float(apart.max()) < near for apart in turned)
 
 
 def one_for_each_place(sightings: dict[str, Sighting]) -> dict[str, Sighting]:

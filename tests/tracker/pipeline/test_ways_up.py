@@ -59,11 +59,14 @@ def test_where_two_ways_up_explain_it_none_is_claimed(monkeypatch: pytest.Monkey
     assert tracker.search(image)["rings"] is certain
 
 
-def test_two_are_turned_at_one_place_only() -> None:
+def test_two_are_turned_in_one_square_only() -> None:
     scene = random_scene(RIGS["A"], RINGS, seed=1)
     one = seen(tracker_of(RIGS["A"], [RINGS]).search(image_of(scene))["rings"])
     for quarters in (1, 2, 3):
         assert are_turned(one, replace(one, corners_px=np.roll(one.corners_px, quarters, axis=0)))
     assert not are_turned(one, replace(one, corners_px=one.corners_px + 2.0))
+    middle = one.corners_px.mean(axis=0)
+    wider = middle + 1.4 * (np.roll(one.corners_px, 1, axis=0) - middle)
+    assert not are_turned(one, replace(one, corners_px=wider)), "what is in another square says nothing of it"
     assert not are_turned(one, replace(one, corners_px=np.roll(one.corners_px, 1, axis=0) + 20.0))
     assert not are_turned(one, Unseen(reason=UnseenReason.NO_CANDIDATE))
