@@ -19,6 +19,8 @@ LENGTH_GROWTH = 1.25
 # What of a smeared side is seen may be a quarter too short, or too long.
 MOST_PAIR_RATIO = 2.0
 PAIR_LENGTHS, PAIR_SHIFTS = np.array([0.8, 1.0, 1.25]), np.array([-0.12, 0.0, 0.12])
+# Of stripes and noise, the longest: each is held against all that run the other way.
+MOST_PAIRED = 5000
 
 
 def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, least_step_grey: float) -> Quads:
@@ -48,6 +50,9 @@ def pair_quads_of(segments: npt.NDArray[np.float32]) -> Quads:
 
     Outlines (q, 4, 2) in px, parallelograms, clockwise on the screen; the first side is along a seen one.
     """
+    if len(segments) > MOST_PAIRED:
+        long = np.argsort(-np.hypot(*(segments[:, 2:] - segments[:, :2]).T), kind="stable")[:MOST_PAIRED]
+        segments = np.ascontiguousarray(segments[long])
     quads = pair_quads(
         segments, LEAST_CORNER_SIDE_PX, LEAST_SQUASH_RATIO, MOST_PAIR_RATIO, PAIR_LENGTHS, PAIR_SHIFTS
     )

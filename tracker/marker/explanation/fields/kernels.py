@@ -91,8 +91,10 @@ def _smear_in(blur, ahead):
 def _lay(weights, x, y, weight):
     """Add a tap, in half fields from the middle, to the four next to it; the variance (x, y) that adds."""
     middle = len(weights) // 2
-    x = min(max(x, -middle + 0.001), middle - 1.001) + middle
-    y = min(max(y, -middle + 0.001), middle - 1.001) + middle
+    most = middle - 1.001
+    # What is no number must not become a place beside the array.
+    x = middle + (x if abs(x) <= most else np.copysign(most, x))
+    y = middle + (y if abs(y) <= most else np.copysign(most, y))
     c, r = int(x), int(y)
     fx, fy = x - c, y - r
     weights[r, c] += (1.0 - fx) * (1.0 - fy) * weight
