@@ -72,7 +72,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--rigs", default=default.rigs, help="cameras of the limits, as A or AB")
     parser.add_argument("--conditions", type=_names, default=(), help="of the limits, as base,cover10")
     parser.add_argument(
-        "--n", type=int, default=default.images, help="scenes of each condition of the limits"
+        "--n", type=_count, default=default.images, help="scenes of each condition of the limits"
     )
     parser.add_argument("--seed", type=int, default=default.seed, help="of the first scene of the limits")
     parser.add_argument("--runs", type=int, default=default.runs, help="calibrations of each kind of tool")
@@ -104,6 +104,12 @@ def _write(name: str, content: str, measured: Measured) -> None:
     write_plots(measured.plots)
     if measured.figures:
         write_figures(name, measured.figures)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} scenes, needed 1 or more")
+    return int(text)
 
 
 def _names(text: str) -> tuple[str, ...]:

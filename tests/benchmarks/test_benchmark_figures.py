@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from tests.benchmarks.__main__ import _compared
+from tests.benchmarks.__main__ import _compared, _parser
 from tests.benchmarks.dot_plots import FOLDER, Panel, Series, svg, write_plots
 from tests.benchmarks.figures import (
     Figure,
@@ -165,3 +165,10 @@ def test_plots_are_files_of_their_names(tmp_path: Path) -> None:
 
 def test_the_written_plots_are_small() -> None:
     assert sum(path.stat().st_size for path in FOLDER.glob("*.svg")) < 100_000
+
+
+@pytest.mark.parametrize("count", ["0", "-3", "many"])
+def test_no_scenes_are_no_measurement(count: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        _parser().parse_args(["limits", "--n", count])
+    assert f"{count} scenes, needed 1 or more" in capsys.readouterr().err

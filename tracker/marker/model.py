@@ -143,7 +143,7 @@ def refuse_alike(models: Sequence[MarkerModel]) -> None:
                 "MARKERS_ALIKE",
                 f"markers '{names[a]}' and '{names[b]}' look the same, however they are turned: "
                 f"correlation {alike:.3f}, allowed {MOST_SYMMETRY}",
-                "Use shapes that differ, so that one cannot be taken for the other.",
+                "Use shapes that differ, so that none is taken for another: another seed designs another.",
                 {"names": [names[a], names[b]], "correlation": alike},
             )
 

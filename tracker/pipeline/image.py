@@ -21,6 +21,13 @@ def grey_of(image: npt.NDArray[np.uint8], *, size_wh_px: tuple[int, int]) -> Gre
     Raises:
         InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera's.
     """
+    if not isinstance(image, np.ndarray):
+        # What `cv2.imread` gives of a file that is not there.
+        raise InvalidInput(
+            "IMAGE_INVALID",
+            f"an image is {type(image).__name__}, needed an array uint8 (h, w) or (h, w, 3)",
+            "Look whether the file that it was read from is there.",
+        )
     if image.dtype != np.uint8 or not (image.ndim == 2 or (image.ndim == 3 and image.shape[2] == 3)):
         raise InvalidInput(
             "IMAGE_INVALID",

@@ -88,6 +88,7 @@ def test_a_bright_field_too_many_says_that_the_shape_differs() -> None:
         pytest.param(np.zeros((360, 480), np.uint16), "IMAGE_INVALID", id="16 bits"),
         pytest.param(np.zeros((360, 480, 4), np.uint8), "IMAGE_INVALID", id="four channels"),
         pytest.param(np.zeros(480, np.uint8), "IMAGE_INVALID", id="one row without the other dimension"),
+        pytest.param(None, "IMAGE_INVALID", id="what is read of a file that is not there"),
     ],
 )
 def test_an_image_of_another_size_or_kind_is_refused(image: npt.NDArray[np.uint8], code: str) -> None:
