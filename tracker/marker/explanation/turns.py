@@ -1,6 +1,7 @@
-"""Is it the model as it is, or turned by a quarter or more? Where covers and highlights hide what tells."""
+"""Is it the model, or that turned or mirrored? Asked where covers and highlights hide what tells."""
 
 import numpy as np
+import numpy.typing as npt
 
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import PART_CONTRAST, weights_beside_a_cover
@@ -11,6 +12,8 @@ from tracker.marker.sampling.kernels import through
 # By how many fields this turn of the model must explain more than the others do. A highlight that was fitted
 # to a wrong one explains up to 5 more of it than of the right one, where the shape is nearly its own turn.
 LEAST_APART = 8.0
+# A marker may well be nearly its own mirror image.
+MOST_ALIKE = 0.9
 LIGHT_ROUNDS, ROUNDS = 3, 6
 # Light without highlights has a quadratic and a step.
 MOST_SMOOTH_TERMS = 7
@@ -39,20 +42,31 @@ def _left(fit: Fit) -> float:
 
 
 def _is_nearer_where_it_is(fit: Fit) -> bool:
-    """Whether another turn leaves less where this one is, or not enough more."""
-    layers, blurs = fit.pictures.layers, fit.pictures.blurs_fields
+    """Whether another turn leaves less where this one is, or not enough more; or a mirror image less."""
     visible, fit.visible = fit.visible, np.ones((WIDE, WIDE), np.bool_)
-    shown, weight = fit.shown.copy(), fit.weight.copy()
-    held = fit.held.copy()
-    left, blur, ahead = [], fit.blur, fit.ahead
-    for turns in range(4):
-        # The picture is turned back afterwards.
-        picture_at(layers, blurs, blur, ahead, fit.shown)
-        blur, ahead = np.array([blur[1], blur[0], -blur[2]]), np.array([ahead[1], -ahead[0]])
-        fit.shown[0] = np.rot90(fit.shown[0], turns).copy()
-        left.append(_left(fit) if fit.walk(LIGHT_ROUNDS, weight.copy(), free=0) else np.inf)
+    shown, weight, held = fit.shown.copy(), fit.weight.copy(), fit.held.copy()
+    own, *others = (_left_as(fit, turns, weight, is_mirrored=False) for turns in range(4))
+    mirrored = [_left_as(fit, turns, weight, is_mirrored=True, unlike=shown[0]) for turns in range(4)]
     fit.visible, fit.shown, fit.weight, fit.held = visible, shown, weight, held
-    return left[0] > min(left[1:]) - LEAST_APART
+    return own > min(others) - LEAST_APART or own > min(mirrored)
+
+
+def _left_as(
+    fit: Fit, turns: int, weight: Array, *, is_mirrored: bool, unlike: npt.NDArray[np.float32] | None = None
+) -> float:
+    """What the model, turned and perhaps mirrored, leaves where this fit is; all, if it is like `unlike`."""
+    sign = -1.0 if is_mirrored else 1.0
+    blur, ahead = fit.blur * (1.0, 1.0, sign), fit.ahead * np.array([[sign], [1.0]])
+    for _ in range(turns):
+        # The picture is turned back afterwards.
+        blur, ahead = np.array([blur[1], blur[0], -blur[2]]), np.array([ahead[1], -ahead[0]])
+    picture_at(fit.pictures.layers, fit.pictures.blurs_fields, blur, ahead, fit.shown)
+    picture = np.rot90(fit.shown[0], turns)
+    fit.shown[0] = (picture[:, ::-1] if is_mirrored else picture).copy()
+    inside = inside_square()
+    if unlike is not None and np.corrcoef(fit.shown[0][inside], unlike[inside])[0, 1] > MOST_ALIKE:
+        return np.inf
+    return _left(fit) if fit.walk(LIGHT_ROUNDS, weight.copy(), free=0) else np.inf
 
 
 def _left_by_own_walk(fit: Fit, turns: int) -> float:
