@@ -89,7 +89,7 @@ class Explanation:
         moved_px: how far the corners (4, 2) had to be moved to explain it best, the farthest.
         blur_px: (2,), sd along the sharpest and the most blurred direction.
         under_highlights: whether highlights had to be fitted.
-        is_turned: whether the model, turned by a quarter or more, explains as much.
+        is_turned: whether the model, turned by a quarter or more, explains as much, or mirrored more.
         beside_noise: in uneven light, what is left of both likenesses when the noise is taken out.
         hidden: which fields of the square and its paper (n, n), from the top left, something covers.
     """

@@ -32,7 +32,7 @@ from tracker.marker.explanation.light import contrasts, highlights, shadow_in, s
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.poor_light import light_up
 from tracker.marker.explanation.shape import any_shape_of, shape_of
-from tracker.marker.explanation.turns import another_turn_is_nearer, under_highlights
+from tracker.marker.explanation.turns import another_turn_is_nearer
 from tracker.marker.explanation.washed_out import LEAST_GLARING_RATIO
 from tracker.marker.sampling.kernels import through
 
@@ -159,7 +159,7 @@ def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
         inside_ratio=inside / FIELDS**2,
         corners_px=np.array([through(fit.to_px, a, b) for a, b in fit.corners]),
         moved_px=float(np.abs(fit.corners - UNIT).max()) * fit.side_px,
-        under_highlights=under_highlights(fit),
+        under_highlights=fit.is_under_highlights,
         blur_px=_blur_px(fit.blur, fit.field_px),
         beside_noise=_beside_noise(fit, telling, shape) if in_noise else None,
         hidden=~visible,

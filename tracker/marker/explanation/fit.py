@@ -26,6 +26,8 @@ from tracker.marker.sampling.kernels import even_light, square_to_quad
 # Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
 FIRST_BLUR_PX, WIDE_BLUR_SIDES = 0.8, 0.05
 LEAST_SIDE_PX = 8.0
+# Light without highlights has a quadratic and a step.
+MOST_SMOOTH_TERMS = 7
 # What is compared with what is around it: a sixth of a side away sees the border and the paper at once.
 AROUND_FIELDS, PICTURE_GREY = 4, 100.0
 SQUARE = np.s_[RING:-RING, RING:-RING]
@@ -102,6 +104,11 @@ class Fit:
         lens_blur(ahead, blur_px, self.blur)
         self.seen = sample_fields(self.image, self.to_px, self.corners)
         picture_at(self.pictures.layers, self.pictures.blurs_fields, self.blur, ahead, self.shown)
+
+    @property
+    def is_under_highlights(self) -> bool:
+        """Whether highlights are a part of its light."""
+        return bool(self.light.shape[1] > MOST_SMOOTH_TERMS)
 
     @property
     def ahead(self) -> Array:

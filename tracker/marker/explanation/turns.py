@@ -15,24 +15,17 @@ LEAST_APART = 8.0
 # A marker may well be nearly its own mirror image.
 MOST_ALIKE = 0.9
 LIGHT_ROUNDS, ROUNDS = 3, 6
-# Light without highlights has a quadratic and a step.
-MOST_SMOOTH_TERMS = 7
-
-
-def under_highlights(fit: Fit) -> bool:
-    """Whether the light of a fit has highlights."""
-    return bool(fit.light.shape[1] > MOST_SMOOTH_TERMS)
 
 
 def another_turn_is_nearer(fit: Fit) -> bool:
-    """Whether the model, turned by a quarter or more, explains as much of what is seen, or nearly.
+    """Whether the model, turned by a quarter or more, explains nearly as much, or its mirror image more.
 
     Highlights make room for many shapes: there, each turn looks for a place, a blur and a light of its own.
     """
     own = _left(fit)
     if _is_nearer_where_it_is(fit):
         return True
-    return under_highlights(fit) and min(_left_by_own_walk(fit, turns) for turns in (1, 2, 3)) < own
+    return fit.is_under_highlights and any(_left_by_own_walk(fit, turns) < own for turns in (1, 2, 3))
 
 
 def _left(fit: Fit) -> float:
@@ -45,27 +38,28 @@ def _is_nearer_where_it_is(fit: Fit) -> bool:
     """Whether another turn leaves less where this one is, or not enough more; or a mirror image less."""
     visible, fit.visible = fit.visible, np.ones((WIDE, WIDE), np.bool_)
     shown, weight, held = fit.shown.copy(), fit.weight.copy(), fit.held.copy()
-    own, *others = (_left_as(fit, turns, weight, is_mirrored=False) for turns in range(4))
-    mirrored = [_left_as(fit, turns, weight, is_mirrored=True, unlike=shown[0]) for turns in range(4)]
+    own, *others = (_left_as(fit, turns, weight) for turns in range(4))
+    mirrored = [_left_as(fit, turns, weight, mirror_of=shown[0]) for turns in range(4)]
     fit.visible, fit.shown, fit.weight, fit.held = visible, shown, weight, held
     return own > min(others) - LEAST_APART or own > min(mirrored)
 
 
 def _left_as(
-    fit: Fit, turns: int, weight: Array, *, is_mirrored: bool, unlike: npt.NDArray[np.float32] | None = None
+    fit: Fit, turns: int, weight: Array, *, mirror_of: npt.NDArray[np.float32] | None = None
 ) -> float:
-    """What the model, turned and perhaps mirrored, leaves where this fit is; all, if it is like `unlike`."""
-    sign = -1.0 if is_mirrored else 1.0
+    """What the model leaves here when turned, or mirrored too; all, if that is like what it mirrors."""
+    sign = 1.0 if mirror_of is None else -1.0
     blur, ahead = fit.blur * (1.0, 1.0, sign), fit.ahead * np.array([[sign], [1.0]])
     for _ in range(turns):
         # The picture is turned back afterwards.
         blur, ahead = np.array([blur[1], blur[0], -blur[2]]), np.array([ahead[1], -ahead[0]])
     picture_at(fit.pictures.layers, fit.pictures.blurs_fields, blur, ahead, fit.shown)
-    picture = np.rot90(fit.shown[0], turns)
-    fit.shown[0] = (picture[:, ::-1] if is_mirrored else picture).copy()
-    inside = inside_square()
-    if unlike is not None and np.corrcoef(fit.shown[0][inside], unlike[inside])[0, 1] > MOST_ALIKE:
-        return np.inf
+    fit.shown[0] = np.rot90(fit.shown[0], turns).copy()
+    if mirror_of is not None:
+        fit.shown[0] = fit.shown[0][:, ::-1].copy()
+        inside = inside_square()
+        if np.corrcoef(fit.shown[0][inside], mirror_of[inside])[0, 1] > MOST_ALIKE:
+            return np.inf
     return _left(fit) if fit.walk(LIGHT_ROUNDS, weight.copy(), free=0) else np.inf
 
 
