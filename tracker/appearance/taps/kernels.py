@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracker.camera.blur.kernels import MOST_OF_BELL, axes_of, bell_over, level_of, mapped, smear_of
+from tracker.camera.blur.kernels import MOST_OF_BELL, bell_on, mapped, smear_of
 from tracker.compiled import compiled
 
 # Up to so much more of a bell's variance along one direction, by that of the picture, no taps are needed.
@@ -10,6 +10,7 @@ LITTLE_MORE = 0.1
 # Taps stand so many sd of the picture's blur apart: farther, and they are seen one by one.
 TAP_GAP_SDS = 1.25
 MOST_OF_LINE = 41
+LEAST_SIDES2 = 1e-8
 MOST_TAPS = MOST_OF_BELL * MOST_OF_LINE
 
 
@@ -27,14 +28,10 @@ def taps_of(ahead, blur, blurs, taps):
     bell[1] -= smear * sy * sy
     bell[2] -= smear * sx * sy
     m00, m11, m01 = mapped(ahead, bell)
-    larger, smaller, ex, ey = axes_of(m00, m11, m01)
-    smaller = max(smaller, 1e-8)
-    level = level_of(smaller, blurs)
-    has = blurs[level] ** 2
     offsets, weights = np.empty(MOST_OF_BELL), np.empty(MOST_OF_BELL)
-    bells = bell_over(larger - smaller, has, LITTLE_MORE, TAP_GAP_SDS, offsets, weights)
-    across = smaller - has
-    along = larger - has if bells == 1 else across
+    level, bells, ex, ey, along, across = bell_on(
+        m00, m11, m01, blurs, LEAST_SIDES2, LITTLE_MORE, TAP_GAP_SDS, offsets, weights
+    )
     # What a pixel along the smear is on the plane.
     px, py = ahead[0, 0] * sx + ahead[0, 1] * sy, ahead[1, 0] * sx + ahead[1, 1] * sy
     lines, gap = 1, 0.0

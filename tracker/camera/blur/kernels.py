@@ -87,3 +87,20 @@ def bell_over(more, has, little, gap_sds, offsets, weights):
         offsets[k] *= scale
         weights[k] /= total
     return count
+
+
+@compiled
+def bell_on(vu, vv, uv, blurs, least, little, gap_sds, offsets, weights):
+    """How a bell of these variances is made of one of some pictures, blurred by these sds (k,), ascending.
+
+    Its smaller variance is no less than `least`; the rest is as of `bell_over`, along the larger one. Returns
+    the picture's number, how many taps, their unit direction (x, y), and the variances along and across it
+    that are left to first order.
+    """
+    larger, smaller, x, y = axes_of(vu, vv, uv)
+    smaller = max(smaller, least)
+    level = level_of(smaller, blurs)
+    has = blurs[level] ** 2
+    taps = bell_over(larger - smaller, has, little, gap_sds, offsets, weights)
+    across = smaller - has
+    return level, taps, x, y, larger - has if taps == 1 else across, across

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracker.camera.blur.kernels import MOST_OF_BELL, axes_of, bell_over, level_of, mapped, smear_of
+from tracker.camera.blur.kernels import MOST_OF_BELL, bell_on, mapped, smear_of
 from tracker.compiled import compiled
 from tracker.marker.sampling.kernels import sample_square, through
 
@@ -17,6 +17,7 @@ LITTLE_MORE = 0.3
 # Taps stand so many sd of the picture's blur apart: farther, and they are seen one by one.
 TAP_GAP_SDS = 1.2
 MOST_OF_LINE = 25
+LEAST_FIELDS2 = 1e-6
 
 
 @compiled
@@ -114,14 +115,10 @@ def _taps(blur, ahead, blurs, weights):
     weights[:, :] = 0.0
     smear, sx, sy = _smear_in(blur, ahead)
     vu, vv, uv = blur[0] - smear * sx * sx, blur[1] - smear * sy * sy, blur[2] - smear * sx * sy
-    larger, smaller, ex, ey = axes_of(vu, vv, uv)
-    smaller = max(smaller, 1e-6)
-    level = level_of(smaller, blurs)
-    has = blurs[level] ** 2
     offsets, shares = np.empty(MOST_OF_BELL), np.empty(MOST_OF_BELL)
-    bells = bell_over(larger - smaller, has, LITTLE_MORE, TAP_GAP_SDS, offsets, shares)
-    across = smaller - has
-    along = larger - has if bells == 1 else across
+    level, bells, ex, ey, along, across = bell_on(
+        vu, vv, uv, blurs, LEAST_FIELDS2, LITTLE_MORE, TAP_GAP_SDS, offsets, shares
+    )
     # Motion smears evenly over its way: a box, whose variance is a twelfth.
     lines, gap = 1, 0.0
     if smear > 0.0:
