@@ -45,8 +45,7 @@ class Gradient:
 
 def gradient_of(image: GreyImage, *, left_px: int = 0, top_px: int = 0) -> Gradient:
     """The gradient of a grey image (h, w), or of a window of it that starts at (left_px, top_px)."""
-    x = cv2.Sobel(image, cv2.CV_16S, 1, 0)
-    y = cv2.Sobel(image, cv2.CV_16S, 0, 1)
+    x, y = cv2.spatialGradient(image)
     gx, gy = np.asarray(x, dtype=np.int16), np.asarray(y, dtype=np.int16)
     return Gradient(x=gx, y=gy, left_px=left_px, top_px=top_px, threshold=noise_threshold(gx, gy))
 

@@ -1,5 +1,7 @@
 """Rotations as 3x3 matrices and as rotation vectors (axis times angle in radians)."""
 
+from math import atan2, hypot
+
 import numpy as np
 import numpy.typing as npt
 
@@ -32,11 +34,13 @@ def rotation_from_vector(vector_rad: npt.ArrayLike) -> Array:
 def vector_from_rotation(rotation: npt.ArrayLike) -> Array:
     """Rotation vector (3,) in radians, length 0..pi, from a rotation matrix (3, 3)."""
     r = np.asarray(rotation, dtype=np.float64)
-    w = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / 2.0
-    sine = float(np.linalg.norm(w))
-    cosine = (float(np.trace(r)) - 1.0) / 2.0
+    # Plain numbers: of so few, an array's own functions take far longer, and each image asks.
+    (a, b, c), (d, e, f), (g, h, i) = r.tolist()
+    x, y, z = (h - f) / 2.0, (c - g) / 2.0, (d - b) / 2.0
+    sine, cosine = hypot(x, y, z), (a + e + i - 1.0) / 2.0
     # atan2 of both, because arccos loses half its digits near zero degrees.
-    angle = float(np.arctan2(sine, cosine))
+    angle = atan2(sine, cosine)
+    w = np.array([x, y, z])
     if sine > 1e-7:
         return w * (angle / sine)
     if cosine > 0.0:

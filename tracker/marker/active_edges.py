@@ -59,6 +59,8 @@ class ActiveEdges:
         inner: (n,), not of the outline of the square.
         straight: (n,), no corner within reach: only these say where the marker is.
         fitted: the straight ones alone; made here.
+        sides: (n,), of the outline, and no corner within reach; made here.
+        half_mm: from the marker's middle to the farthest of them along x or y; made here.
     """
 
     level_px: int
@@ -69,8 +71,13 @@ class ActiveEdges:
     inner: npt.NDArray[np.bool_]
     straight: npt.NDArray[np.bool_]
     fitted: StraightEdges = field(init=False, repr=False, compare=False)
+    sides: npt.NDArray[np.bool_] = field(init=False, repr=False, compare=False)
+    half_mm: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        farthest = float(np.abs(self.points_mm).max()) if len(self.points_mm) else 0.0
+        object.__setattr__(self, "sides", self.straight & ~self.inner)
+        object.__setattr__(self, "half_mm", farthest)
         chosen, strength = self.straight, self.strength_ratio[self.straight]
         side_mm = float(np.ptp(self.points_mm, axis=0).max()) if len(self.points_mm) else 1.0
         fitted = StraightEdges(

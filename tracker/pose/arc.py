@@ -15,7 +15,7 @@ def beyond_first_order(covariance: Array) -> Array:
     a covariance carries tangents alone. Of a marker that faces the camera that is all that tilt does across.
     """
     turn = covariance[3:, 3:]
-    squared = float(np.trace(turn)) ** 2 + 2.0 * float(np.sum(turn * turn))
+    squared = float(turn.trace()) ** 2 + 2.0 * float((turn * turn).sum())
     more = np.zeros((6, 6))
-    more[:3, :3] = (0.5 * TOOL_REACH_MM) ** 2 * squared * np.eye(3)
+    more[0, 0] = more[1, 1] = more[2, 2] = (0.5 * TOOL_REACH_MM) ** 2 * squared
     return more

@@ -2,8 +2,6 @@
 
 from math import dist
 
-import numpy as np
-
 from tracker.edges import Gradient
 from tracker.geometry import Array
 from tracker.marker import ActiveEdges, edge_crossings
@@ -39,12 +37,12 @@ def measured_corners_px(
         corners_px: (4, 2), at the pose.
         contrast: gradient of a free edge of this occurrence.
     """
-    half = float(np.abs(active.points_mm).max())
+    half = active.half_mm
     c = corners_px.tolist()
     side_px = (dist(c[0], c[1]) + dist(c[1], c[2]) + dist(c[2], c[3])) / 3.0
     reach = MOST_OFF_PX + MOST_OFF_SIDE_RATIO * side_px
     offset, response = edge_crossings(gradient, points_px, normals_px, reach_px=reach)
-    usable = ~active.inner & active.straight & (response > 0.5 * contrast * active.strength_ratio)
+    usable = active.sides & (response > 0.5 * contrast * active.strength_ratio)
     out = corners_px.copy()
     shift_corners(
         active.points_mm,

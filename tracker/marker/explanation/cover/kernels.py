@@ -22,14 +22,13 @@ from tracker.marker.sampling.kernels import square_to_quad
 def _smoothed(rest, contrast):
     """What is left, in units of the contrast, each field with its eight neighbours."""
     n = len(rest)
-    out = np.empty((n, n))
+    off, out = rest / contrast, np.empty((n, n))
     for r in range(n):
         for c in range(n):
             total = 0.0
             for i in range(r - 1, r + 2):
                 for j in range(c - 1, c + 2):
-                    y, x = min(max(i, 0), n - 1), min(max(j, 0), n - 1)
-                    total += rest[y, x] / contrast[y, x]
+                    total += off[min(max(i, 0), n - 1), min(max(j, 0), n - 1)]
             out[r, c] = total / 9.0
     return out
 
