@@ -32,7 +32,6 @@ from tracker.regions import (
 
 # At a closer look a marker in sight has 0.8 to 1.
 LEAST_LIKENESS = 0.76
-MOST_CANDIDATES = 4
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
 LEAST_PIECE_PX = 4.0
@@ -61,11 +60,13 @@ class Effort:
             they cost little more than one.
         closer: after two steps.
         part_by_part: after all of them.
+        given: as candidates.
     """
 
     peeked: int
     closer: int
     part_by_part: int
+    given: int
 
     def peeked_of(self, models: int) -> int:
         """The share of each of so many models."""
@@ -74,8 +75,8 @@ class Effort:
 
 # Where shadow, highlights, smear and noise come together, the look part by part alone tells the marker from
 # other shapes, and two steps rank it up to eightieth.
-USUAL = Effort(peeked=180, closer=12, part_by_part=8)
-THOROUGH = Effort(peeked=500, closer=80, part_by_part=60)
+USUAL = Effort(peeked=180, closer=12, part_by_part=8, given=4)
+THOROUGH = Effort(peeked=500, closer=80, part_by_part=60, given=6)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,7 +143,7 @@ def _rounds(
                 SAME_OUTLINE_SIDE_RATIO,
             )
             candidates = [_candidate(closer[k], alike[k]) for k in best]
-            kept = _by_two_looks(image, candidates, template)[:MOST_CANDIDATES]
+            kept = _by_two_looks(image, candidates, template)[: effort.given]
             given[m] = np.concatenate([given[m], *(one.corners_px[None].astype(np.float32) for one in kept)])
             fresh.append(kept)
         yield fresh
@@ -204,6 +205,7 @@ def _thorough_looks(_image: GreyImage, levels: Levels, templates: Templates) -> 
         (level, border_segments(_regions(level))),
         (level, _edge_segments(level.image, LEAST_PIECE_PX)),
         (soft, border_segments(_regions(soft))),
+        (soft, _edge_segments(soft.image, LEAST_PIECE_PX)),
     ):
         look = _at_corners(seen, segments, templates, THOROUGH.peeked_of(len(templates)))
         within = _are_within(look.quads, seen.image)

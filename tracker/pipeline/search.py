@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from tracker.marker import Candidate, MarkerModel, Templates, candidate_rounds, thorough_rounds
-from tracker.pipeline.fitter import Fitter, is_certain
+from tracker.pipeline.fitter import MOST_FITS, MOST_THOROUGH_FITS, Fitter, is_certain
 from tracker.pose import Pixels, Seen, Sighting, Unseen, UnseenReason, are_turned, worth_of
 
 
@@ -32,6 +32,8 @@ class Search:
         self._waiting: list[tuple[MarkerModel, list[Candidate]]] = []
         # Names of those that are in the image, and two ways up of which explain as much as the other.
         self._undecided: set[str] = set()
+        # So many candidates of each model and round are fitted.
+        self._most_fits = MOST_FITS
 
     def go_on(self) -> bool:
         """Make a part of it: a round's candidates, or a look at those of one model; False at the end."""
@@ -42,7 +44,7 @@ class Search:
             return candidates is not None
         model, own = self._waiting.pop(0)
         if not self._is_over(model, is_certain):
-            for found in self._fitter.each_of(self._pixels, model, own):
+            for found in self._fitter.each_of(self._pixels, model, own, most=self._most_fits):
                 self._take(model.name, found)
                 # One that leaves nothing open ends it.
                 if self._is_over(model, is_certain):
@@ -70,7 +72,7 @@ class Search:
         self._go_on_until(is_certain)
         unseen = [k for k, model in enumerate(self._models) if not self._is_over(model, _is_seen)]
         if thorough and unseen:
-            self._models = [self._models[k] for k in unseen]
+            self._models, self._most_fits = [self._models[k] for k in unseen], MOST_THOROUGH_FITS
             self._rounds = thorough_rounds(self._pixels.image, self._templates[unseen])
             self._go_on_until(_is_seen)
         return self.best

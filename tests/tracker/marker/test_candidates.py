@@ -160,6 +160,13 @@ def test_thorough_rounds_give_markers_that_the_usual_ones_miss_in_poor_light() -
     assert given >= 3
 
 
+@pytest.mark.parametrize("seed", [707, 721])
+def test_the_edges_of_the_softened_image_give_what_noise_takes_from_all_other_outlines(seed: int) -> None:
+    face = FACES[seed % len(FACES)]
+    scene = random_scene(RIGS["A"], face, conditions_of(RIGS["A"])["hard2"], seed=seed)
+    assert _is_among(thorough_rounds(image_of(scene), templates_of((face.model,))), scene.corners_px)
+
+
 def test_thorough_rounds_give_nothing_that_the_border_cuts() -> None:
     image, corners = _scene(60, roll_deg=20)
     cut = np.ascontiguousarray(image[: int(corners[:, 1].mean())])

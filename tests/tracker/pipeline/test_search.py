@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.tracker.pipeline.stepped import CAMERA, MODEL, image_of, off_px, pose_of, tracker_of
+from tests.tracker.scenes import CODE as OWN
 from tests.tracker.scenes import (
     NEIGHBOURS,
     OTHER,
@@ -15,6 +16,7 @@ from tests.tracker.scenes import (
     cluttered,
     code_image,
     code_model,
+    corners_px_of,
     rendered,
     seen,
 )
@@ -134,6 +136,25 @@ def test_what_a_search_does_not_find_it_looks_for_once_more_and_a_step_leaves_th
     assert asked == []
     assert isinstance(tracker.search(image)["code"], Seen)
     assert asked == [2], "for those alone that are not seen"
+
+
+def test_where_nothing_is_sure_the_fourth_likeliest_of_a_round_is_fitted_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    places = [(80.0, 80.0), (240.0, 80.0), (80.0, 200.0), (240.0, 200.0), (400.0, 200.0)]
+    fields = [*NEIGHBOURS[:3], OWN, OTHER]
+    prints = [
+        Print(picture=code_image(own), pose=pose_of(px, 44)) for own, px in zip(fields, places, strict=True)
+    ]
+    image = rendered(CAMERA, prints, seed=3)
+    given = [
+        Candidate(corners_px=corners_px_of(CAMERA, one.pose), likeness=0.9 - 0.01 * k)
+        for k, one in enumerate(prints)
+    ]
+    monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", lambda *_: iter([[[]]]))
+    monkeypatch.setattr("tracker.pipeline.search.thorough_rounds", lambda *_: iter([[given]]))
+    found = seen(tracker_of().search(image)["code"])
+    assert off_px(found, prints[3].pose) < 0.4
 
 
 def test_the_mirror_image_is_not_taken() -> None:

@@ -33,9 +33,12 @@ IN_NOISE_SIDES_PX, LEAST_IN_NOISE, LEAST_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9)
 # squares with a bent spot have reached 0.93 with noise and 0.96 without it, small ones 0.93 and 0.99 (3,300
 # looked at); nearly all had to be taken for blurred over more of their side than the next limit allows.
 BOTH_SIDES_PX, LEAST_BOTH = (20.0, 26.0), (1.93, 1.875)
+# Blurred over less of its side (geometric mean of both directions) one that is not small has more to say than
+# another can imitate: of 62 that came near, one of 20 px was so sharp and nearly the marker itself.
+SHARP_MEAN_BLUR_SIDE_RATIOS, SHARP_SIDES_PX, LEAST_BOTH_SHARP = (0.055, 0.06), (20.0, 24.0), (1.93, 1.84)
 # Blurred over more of its side, or more of it hidden or too bright to tell, a part of the shape passes for
 # light.
-MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_SMEAR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.062, 0.105, 0.4
+MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_SMEAR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.062, 0.092, 0.4
 MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO = 2.0, 0.06
 MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
@@ -214,6 +217,14 @@ class Explanation:
             and self.blur_px[1] <= MOST_UNEVEN_SMEAR_SIDE_RATIO * self.side_px
             and alike >= least
             and beside >= LEAST_BESIDE_NOISE
-            and alike + beside >= float(np.interp(self.side_px, BOTH_SIDES_PX, LEAST_BOTH))
+            and alike + beside >= self._least_both
             and without.flipped_ratio <= MOST_FLIPPED_RATIO
         )
+
+    @property
+    def _least_both(self) -> float:
+        """How like the model it must be with noise and without it, together."""
+        soft = float(np.interp(self.side_px, BOTH_SIDES_PX, LEAST_BOTH))
+        sharp = min(float(np.interp(self.side_px, SHARP_SIDES_PX, LEAST_BOTH_SHARP)), soft)
+        blur_ratio = float(np.sqrt(self.blur_px[0] * self.blur_px[1])) / self.side_px
+        return float(np.interp(blur_ratio, SHARP_MEAN_BLUR_SIDE_RATIOS, (sharp, soft)))
