@@ -64,10 +64,10 @@ def test_what_is_out_of_view_costs_a_part_of_a_search_in_less_than_half_of_the_i
     looked = Fitter.each_of
 
     def counted_look(
-        fitter: Fitter, pixels: Pixels, model: MarkerModel, candidates: list[Candidate]
+        fitter: Fitter, pixels: Pixels, model: MarkerModel, candidates: list[Candidate], *, most: int
     ) -> Iterator[Seen | Unseen]:
         looks[-1] += 1
-        return looked(fitter, pixels, model, candidates)
+        return looked(fitter, pixels, model, candidates, most=most)
 
     tracker = _tracker()
     monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", counted)

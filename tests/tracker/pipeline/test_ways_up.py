@@ -51,11 +51,11 @@ def test_where_two_ways_up_explain_it_none_is_claimed(monkeypatch: pytest.Monkey
     one = replace(certain, score_ratio=0.6, target_score_ratio=0.9)
     other = replace(one, corners_px=np.roll(one.corners_px, 1, axis=0), score_ratio=0.7)
     for both in ((one, other), (other, one)):
-        monkeypatch.setattr(Fitter, "each_of", lambda *_, both=both: iter(both))
+        monkeypatch.setattr(Fitter, "each_of", lambda *_, both=both, **_more: iter(both))
         sighting = tracker.search(image)["rings"]
         assert isinstance(sighting, Unseen)
         assert (sighting.reason, sighting.best_score_ratio) == (UnseenReason.SHAPE_DIFFERS, 0.7)
-    monkeypatch.setattr(Fitter, "each_of", lambda *_: iter((other, certain)))
+    monkeypatch.setattr(Fitter, "each_of", lambda *_, **_more: iter((other, certain)))
     assert tracker.search(image)["rings"] is certain
 
 
