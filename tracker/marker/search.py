@@ -74,9 +74,9 @@ class Effort:
 
 
 # Where shadow, highlights, smear and noise come together, the look part by part alone tells the marker from
-# other shapes, and two steps rank it up to eightieth.
+# other shapes, and two steps rank it up to past the hundredth.
 USUAL = Effort(peeked=180, closer=12, part_by_part=8, given=4)
-THOROUGH = Effort(peeked=500, closer=80, part_by_part=60, given=6)
+THOROUGH = Effort(peeked=500, closer=140, part_by_part=100, given=6)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
