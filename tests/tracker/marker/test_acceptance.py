@@ -35,9 +35,10 @@ def _explanation(
         (27.0, (0.05, 0.055), True),
         (27.0, (0.056, 0.075), False),
         (21.0, (0.05, 0.055), False),
-        (27.0, (0.03, 0.10), False),
+        (27.0, (0.03, 0.10), True),
+        (27.0, (0.03, 0.11), False),
     ],
-    ids=["sharp", "soft", "small", "smeared"],
+    ids=["sharp", "soft", "small", "smeared", "too smeared"],
 )
 def test_the_sharper_and_wider_a_square_is_the_more_noise_may_be_on_it(
     side_px: float, blur_ratio: tuple[float, float], explains: bool
@@ -55,3 +56,9 @@ def test_a_sharper_square_is_never_refused_where_a_softer_one_is_taken() -> None
                 for one in (0.02, 0.05, 0.054, 0.057, 0.0595, 0.061)
             ]
             assert taken == sorted(taken, reverse=True), (side_px, both, taken)
+
+
+def test_of_what_is_soft_one_way_and_smeared_the_other_none_is_believed() -> None:
+    for blur_ratio, explains in (((0.06, 0.08), True), ((0.06, 0.095), False)):
+        one = _explanation(side_px=27.0, blur_ratio=blur_ratio, likeness=0.97, beside=0.99)
+        assert one.explains is explains
