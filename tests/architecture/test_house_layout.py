@@ -2,6 +2,7 @@
 
 import ast
 import subprocess
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -40,6 +41,13 @@ def odd_at_the_top(files: Iterable[Path]) -> set[str]:
 
 def named_for_nothing(files: Iterable[Path]) -> list[Path]:
     return [file for file in files if SAYS_NOTHING & {part.lower() for part in (*file.parts[:-1], file.stem)}]
+
+
+def of_one_test_name(files: Iterable[Path]) -> list[Path]:
+    """Test files whose name another has too: pytest imports them by it, and collects only one of the two."""
+    tests = [file for file in files if file.name.startswith("test_") and file.suffix == ".py"]
+    named = Counter(file.name for file in tests)
+    return [file for file in tests if named[file.name] > 1]
 
 
 def too_long(name: str, text: str) -> list[str]:
@@ -104,6 +112,15 @@ def test_no_name_says_nothing() -> None:
 def test_a_name_that_says_nothing_is_seen() -> None:
     files = [Path("server/utils.py"), Path("tracker/common/edge.py"), Path("tracker/data_rate.py")]
     assert named_for_nothing(files) == files[:2]
+
+
+def test_no_two_test_files_share_a_name() -> None:
+    assert of_one_test_name(files_in_git()) == []
+
+
+def test_test_files_of_one_name_are_seen() -> None:
+    files = [Path("tests/a/test_pose.py"), Path("tests/b/test_pose.py"), Path("tests/test_edges.py")]
+    assert of_one_test_name(files) == files[:2]
 
 
 def test_files_and_functions_fit_the_eye() -> None:
