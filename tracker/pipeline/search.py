@@ -67,11 +67,12 @@ class Search:
     def to_the_end(self, *, thorough: bool = False) -> dict[str, Sighting]:
         """Make the rest of it, as long as it can find something better; what it says of each marker.
 
-        `thorough`: whether what is not seen is looked for once more, at far more cost.
+        `thorough`: whether what is not seen is looked for once more, at far more cost, where the light may be
+        poor: it is not where another marker was found for certain.
         """
         self._go_on_until(is_certain)
         unseen = [k for k, model in enumerate(self._models) if not self._is_over(model, _is_seen)]
-        if thorough and unseen:
+        if thorough and unseen and not any(is_certain(one) for one in self.best.values()):
             self._models, self._most_fits = [self._models[k] for k in unseen], MOST_THOROUGH_FITS
             self._rounds = thorough_rounds(self._pixels.image, self._templates[unseen])
             self._go_on_until(_is_seen)

@@ -117,8 +117,8 @@ class Tracker:
     def search(self, image: npt.NDArray[np.uint8]) -> dict[str, Sighting]:
         """What this image says of each marker: the whole image, no prior, stateless.
 
-        A marker that is not found is looked for once more, in poor light: that takes as long again. A step
-        leaves that out, as another image comes.
+        Where none is found for certain the light may be poor, and what is not found is looked for once more:
+        that takes many times as long again. A step leaves that out, as another image comes.
 
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.

@@ -118,7 +118,7 @@ def test_of_a_marker_among_its_look_alikes_only_it_is_taken() -> None:
         assert off_px(sighting, prints[0].pose) < 0.4
 
 
-def test_what_a_search_does_not_find_it_looks_for_once_more_and_a_step_leaves_that_to_the_next_image(
+def test_in_poor_light_a_search_looks_once_more_for_what_it_does_not_find_and_a_step_does_not(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked: list[int] = []
@@ -131,11 +131,17 @@ def test_what_a_search_does_not_find_it_looks_for_once_more_and_a_step_leaves_th
     models = [MODEL, code_model(OTHER, name="other"), code_model(NEIGHBOURS[4], name="absent")]
     tracker = Tracker(camera=CAMERA, models=models)
     image = image_of(pose_of())
+    assert isinstance(tracker.search(image)["code"], Seen)
+    assert asked == [], "where one is found for certain the light is good"
+    # Seen, yet not for certain.
+    monkeypatch.setattr("tracker.pipeline.fitter.CERTAIN_WORTH", 4.0)
     tracker.step(image, captured_at_s=0.0)
     tracker_of().search(image)
     assert asked == []
     assert isinstance(tracker.search(image)["code"], Seen)
     assert asked == [2], "for those alone that are not seen"
+    tracker.search(np.full_like(image, 128))
+    assert asked == [2, 3]
 
 
 def test_where_nothing_is_sure_the_fourth_likeliest_of_a_round_is_fitted_too(
