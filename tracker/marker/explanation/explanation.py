@@ -40,9 +40,10 @@ FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN = 3, 6, 4
 LEAST_HOPE = 0.55
 WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
-# What is so like the model as a whole is worth the question whether it is a turn of it.
+# What is so like the model as a whole, and inside, is worth the question whether it is a turn of it: what is
+# less like it inside is not believed either way.
 # Less like its own turns than this, and in full sight, it cannot be mistaken for one of them.
-WORTH_TURNING, HALF_TURNED = 0.9, 0.6
+WORTH_TURNING, WORTH_TURNING_INSIDE, HALF_TURNED = 0.9, 0.85, 0.6
 # How like the model part by part a square is that uneven light is worth fitting to.
 WORTH_UNEVEN = 0.7
 UNEVEN_ROUNDS = 6
@@ -138,7 +139,8 @@ def _told(fit: Fit, *, in_noise: bool = False) -> Explanation | None:
         if not (fit.visible & inside_square()).any() or not fit.walk(ROUNDS_AGAIN):
             return None
     found = _explanation(fit, in_noise=in_noise)
-    worth = found.explains if in_noise else found.likeness >= WORTH_TURNING
+    nearly = found.likeness >= WORTH_TURNING and found.inner_likeness >= WORTH_TURNING_INSIDE
+    worth = found.explains if in_noise else nearly
     if not worth or not (found.is_covered or fit.pictures.turned_likeness > HALF_TURNED):
         return found
     return replace(found, is_turned=another_turn_is_nearer(fit))
