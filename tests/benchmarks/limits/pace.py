@@ -10,14 +10,14 @@ from tests.benchmarks.limits.judging import Judged, claim_of, judged
 from tests.benchmarks.limits.peers import Peer
 from tests.benchmarks.scenes.faces import ANVIL, CODE, FACES, ORBIT, SAIL
 from tests.benchmarks.scenes.hand import RATE_HZ, SPEEDS, hand_scenes
-from tests.benchmarks.scenes.placing import crowded_scene
+from tests.benchmarks.scenes.placing import crowded_scene, empty_scene
 from tests.benchmarks.scenes.rigs import RIG_A, RIG_B, RIG_HD, RIG_VGA, Rig
 from tests.benchmarks.scenes.scene import Scene, image_of
 
 RIGS_BY_SIZE = (RIG_VGA, RIG_A, RIG_HD, RIG_B)
 FOUR = (SAIL, ORBIT, CODE, ANVIL)
 # Markers known, and in view.
-LOADS = ((1, 1), (4, 1), (4, 4))
+LOADS = ((1, 1), (1, 0), (4, 1), (4, 4))
 # One in which all is found, and the five in which what is out of view is looked out for twice.
 STEPS_OF_A_SCENE = 6
 
@@ -58,7 +58,11 @@ def measure_pace(peers: Sequence[Peer], *, count: int, seed: int) -> list[PaceRu
         for known, in_view in LOADS:
             run = PaceRun(rig=rig, known=known, in_view=in_view, peers_ms={peer.name: [] for peer in peers})
             for number in range(count):
-                _pace_of(run, crowded_scene(rig, FOUR[:in_view], seed=seed + number), peers)
+                own = seed + number
+                scene = (
+                    crowded_scene(rig, FOUR[:in_view], seed=own) if in_view else empty_scene(rig, seed=own)
+                )
+                _pace_of(run, scene, peers)
             runs.append(run)
     return runs
 

@@ -30,7 +30,7 @@ def _time_table(run: LimitsRun) -> Table:
         width, height = one.rig.size_wh_px
         load = f"{width}x{height}, {one.known} known, {one.in_view} in view"
         search, step = goals.SEARCH_OF_ARUCO.get(one.rig.name), goals.STEP_OF_ARUCO.get(one.rig.name)
-        is_single = one.known == 1
+        is_single = one.in_view == one.known == 1
         rows.append(
             [
                 load,
@@ -83,9 +83,9 @@ def _four(run: LimitsRun, one: PaceRun) -> str:
 
     Not in ms, because other work may slow down one of both.
     """
-    if one.in_view == 1:
+    if one.in_view < one.known:
         return NOTHING
-    single = next(each for each in run.paces if each.rig == one.rig and each.known == 1)
+    single = next(each for each in run.paces if each.rig == one.rig and each.in_view == each.known == 1)
     by_peer = [median(ratios(each.step_ms, each.by_step_ms)) for each in (one, single)]
     times = by_peer[0] / by_peer[1]
     return f"{times:.2f} of one, goal {goals.FOUR_OF_ONE:g}"

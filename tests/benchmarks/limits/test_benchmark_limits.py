@@ -123,13 +123,13 @@ def invented_run(*, with_apriltag: bool) -> LimitsRun:
         PaceRun(
             rig=RIG_A,
             known=known,
-            in_view=known,
+            in_view=in_view,
             search_ms=[4.0, 4.0, 6.0],
-            step_ms=[1.0 * known] * 3,
+            step_ms=[step_ms] * 3,
             peers_ms={name: [10.0, 10.0, 10.0] for name in peers},
             by_step_ms=[10.0] * 3,
         )
-        for known in (1, 4)
+        for known, in_view, step_ms in ((1, 0, 9.0), (1, 1, 1.0), (4, 1, 2.0), (4, 4, 4.0))
     ]
     return LimitsRun(
         peers=peers,
@@ -149,8 +149,11 @@ def test_tables_say_shares_medians_and_ratios() -> None:
     ]
     assert list(tip.rows[0])[:3] == ["base", "2", "0.500 / 0.500"]
     time, hand, empty = pace_tables(run)
-    assert list(time.rows[0])[3:5] == ["0.400 / 0.596", "0.4 / 1.5"]
-    assert list(time.rows[1])[8] == "4.00 of one, goal 2.5"
+    assert [list(row)[3:5] for row in time.rows[:2]] == [
+        ["0.400 / 0.596", "–"],
+        ["0.400 / 0.596", "0.4 / 1.5"],
+    ]
+    assert [list(row)[8] for row in time.rows[:4]] == ["–", "0.15 / 0.6", "–", "4.00 of one, goal 2.5"]
     assert list(hand.rows[0])[:4] == ["A fast", "2", "0.500", "0.500"]
     assert list(empty.rows[0]) == ["A", "0 of 2", "0 of 1", "0 of 1"]
 
