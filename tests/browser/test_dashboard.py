@@ -37,6 +37,23 @@ COVERED = """pane => {
     return fills && cover.contains(middle) && /^rgb\\(/.test(backgroundColor) && opacity === "1";
 }"""
 
+# Words in the top and beside the video's title that lie over each other, two by two, and facts that are cut.
+ILLEGIBLE = """page => {
+    const within = ".top :is(dt, dd, h1, p, li), .pane-video .pane-head > *";
+    const words = [...page.querySelectorAll(within)].filter(one => one.checkVisibility() && one.textContent);
+    const boxes = words.map(one => one.getBoundingClientRect());
+    const apart = (a, b) =>
+        Math.min(a.right, b.right) - Math.max(a.left, b.left) < 2 ||
+        Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) < 2;
+    const over = words.flatMap((one, i) => words
+        .filter((other, k) => k > i && !one.contains(other) && !apart(boxes[i], boxes[k]))
+        .map(other => [one.textContent, other.textContent]));
+    const facts = words.filter(one => one.matches("dd, .moves"));
+    const cut = facts
+        .filter(one => one.scrollWidth > one.clientWidth || one.scrollHeight > one.clientHeight + 2);
+    return [...over, ...cut.map(one => one.textContent)];
+}"""
+
 
 def is_live(page: Page, pane: str, *, live: bool = True) -> None:
     expect(page.get_by_test_id(pane)).to_have_attribute("data-live", "true" if live else "false")
@@ -191,8 +208,8 @@ def test_speaks_another_language(theatre: Theatre, watch: Watch) -> None:
 
 @pytest.mark.parametrize(
     ("width", "height"),
-    [(1920, 1080), (1024, 768), (820, 1180), (390, 844)],
-    ids=["theatre", "tablet-lying", "tablet-upright", "phone"],
+    [(1920, 1080), (1280, 720), (1180, 820), (1024, 768), (820, 1180), (390, 844)],
+    ids=["theatre", "laptop", "large-tablet", "tablet-lying", "tablet-upright", "phone"],
 )
 def test_fits_the_screen_with_the_video_first(
     theatre: Theatre, watch: Watch, width: int, height: int
@@ -203,6 +220,7 @@ def test_fits_the_screen_with_the_video_first(
     is_live(page, "numbers")
     picture(page, f"dashboard-{width}x{height}")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
+    assert page.locator("body").evaluate(ILLEGIBLE) == []
     boxes = [page.get_by_test_id(name).bounding_box() for name in ("video", "reading-entry", "scene")]
     video, numbers, scene = (box for box in boxes if box is not None)
     assert video["y"] <= numbers["y"]
