@@ -22,8 +22,10 @@ LEAST_CONTRAST_GREY = 4.0
 # Where more is left unexplained, in units of the noise and of the contrast, or less of the pixels has a say,
 # edges, which bring their own contrast, are the better judge of the pose.
 MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 1.8, 0.055, 0.6
-# Beyond what the residuals themselves tell: measured on rendered scenes, where the truth is known.
-COVARIANCE_FACTOR = 1.6
+# What the model of the marker leaves out is a share of the contrast and follows the pose; residuals tell it
+# in part. So many times their variance is added where they are no more than this share of the contrast, less
+# where noise is the larger part of them. Measured on rendered scenes, where the truth is known.
+UNTOLD_FACTOR, UNTOLD_CONTRAST_RATIO = 0.6, 0.02
 # Costs count each pixel as if it erred alone; half of that is left when the model's own errors are in.
 COST_SHARE = 0.5
 # Where edges and the images before speak so clearly for one of the two solutions, pixels need not be asked of
@@ -86,7 +88,7 @@ def with_whole_shape(
     first, *others = np.argsort(costs, kind="stable")
     if not _is_exact(near[first], pixels.noise_grey):
         return seen
-    pose, covariance = near[first].camera_from_marker, COVARIANCE_FACTOR * near[first].covariance
+    pose, covariance = near[first].camera_from_marker, _beyond_residuals(near[first])
     covariance = covariance + beyond_first_order(covariance)
     for k in others:
         gap = float(costs[k] - costs[first])
@@ -110,6 +112,12 @@ def _is_exact(one: WholeFit, noise_grey: float) -> bool:
         and one.scale_grey < left
         and one.explained_ratio > LEAST_EXPLAINED_RATIO
     )
+
+
+def _beyond_residuals(one: WholeFit) -> Array:
+    """The covariance (6, 6) with what the residuals do not tell."""
+    untold = UNTOLD_CONTRAST_RATIO * one.contrast_grey
+    return (1.0 + UNTOLD_FACTOR * (untold / max(one.scale_grey, untold)) ** 2) * one.covariance
 
 
 def _is_near(camera: CameraModel, model: MarkerModel, one: WholeFit, here: Array, reach: float) -> bool:

@@ -68,6 +68,20 @@ def test_two_solutions_that_explain_alike_are_both_in_the_covariance(
     assert turned_deg > 10.0
 
 
+@pytest.mark.parametrize(
+    ("left_ratio", "factor"), [(0.0, 1.6), (0.01, 1.6), (0.02, 1.6), (0.04, 1.15), (0.05, 1.096)]
+)
+def test_what_residuals_do_not_tell_is_added_less_the_more_of_them_is_noise(
+    monkeypatch: pytest.MonkeyPatch, found: Seen, left_ratio: float, factor: float
+) -> None:
+    fit = _fit_at(POSE)
+    # So sure of its turn that the arc of a tool's end beside its tangent is nothing.
+    sure = replace(fit, covariance=1e-4 * fit.covariance, scale_grey=left_ratio * fit.contrast_grey)
+    _given(monkeypatch, [sure])
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, replace(found, lead_sd2=0.0))
+    assert exact.pose_covariance == pytest.approx(factor * sure.covariance, rel=1e-3, abs=0.0)
+
+
 @pytest.mark.parametrize(("lead_sd2", "expected", "count"), [(1e3, POSE, 1), (10.0, POSE, 2), (1e3, None, 2)])
 def test_the_other_solution_is_asked_of_the_pixels_unless_edges_and_time_have_decided(
     monkeypatch: pytest.MonkeyPatch,
