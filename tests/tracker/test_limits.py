@@ -85,6 +85,8 @@ MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
 COVERED_LEAST = Level(0.92, 0.92)
 # Median of their squares in units of what is stated: 2.37 if it were exactly true, less where it is too wide.
 TYPICAL_SD2 = Level(0.9, 1.7)
+# No error is ten times what is stated: the pose of the wrong planar solution would be hundreds of times.
+WORST_SD2 = 100.0
 COVERED_IN = (("A", "base"), ("A", "noise8"), ("A", "motion4"), ("B", "base"), ("B", "noise8"))
 # A share of so few images is that far off by chance, two standard deviations of 0.95.
 COVERED_CHANCE = 0.045
@@ -179,6 +181,14 @@ def test_errors_lie_inside_their_stated_ellipsoid_as_often_as_stated(
     found = [one for rig, name in COVERED_IN for one in right(run_of(rig, name, searchers))]
     assert float(np.mean([one.covered[number] for one in found])) >= COVERED_LEAST.asserted - COVERED_CHANCE
     assert float(np.median([one.stated_sd2[number] for one in found])) >= TYPICAL_SD2.asserted
+
+
+def test_no_pose_is_wrong_and_sure_of_itself(searchers: Searchers) -> None:
+    stated_sd2 = {
+        (rig, name): max(max(one.stated_sd2) for one in right(run_of(rig, name, searchers)))
+        for rig, name in FOUND
+    }
+    assert {where: worst for where, worst in stated_sd2.items() if worst > WORST_SD2} == {}
 
 
 @pytest.mark.parametrize("rig", EMPTY_IMAGES)

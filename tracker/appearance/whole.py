@@ -21,6 +21,7 @@ from tracker.appearance.uneven import (
     known_from,
     leaves_much,
 )
+from tracker.camera.blur.kernels import smear_of
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
 from tracker.geometry.kernels import mean_ratio, pose_rows
@@ -40,6 +41,8 @@ OUT_OF_QUESTION_SD2 = 30.0
 BLOCKS, LARGE_BLOCKS = 7, 5
 # What a net of light cannot follow is in the pose: measured on rendered scenes, where the truth is known.
 UNEVEN_FACTOR = 1.4
+# So is what a wide blur brings in from beyond the paper; what is smeared has sharp edges along the smear.
+OUT_OF_FOCUS_FACTOR = 1.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,6 +58,7 @@ class WholeFit:
         explained_ratio: mean weight of the pixels, 0..1: what is covered has none.
         response: bend of the camera's response, 0 where grey levels are proportional to light.
         cost_sd2: robust sum of squared residuals in units of the smaller scale of both; 0 of one alone.
+        smear_px: length along which motion smeared the marker while the shutter was open; 0 where it did not.
         light: the uneven light that it was found in; None where it is even.
     """
 
@@ -66,6 +70,7 @@ class WholeFit:
     explained_ratio: float
     response: float
     cost_sd2: float
+    smear_px: float
     light: KnownLight | None = None
 
 
@@ -125,8 +130,9 @@ def whole_fits(
         return []
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
-    blocks = BLOCKS if covered_at is None and _wide(done[0].numbers, focus) is None else LARGE_BLOCKS
-    records = (_record(seen, one, cost, blocks, known) for one, cost in zip(done, costs, strict=True))
+    is_wide = _wide(done[0].numbers, focus) is not None
+    of_all = (is_wide, covered_at is not None, known)
+    records = (_record(seen, one, cost, *of_all) for one, cost in zip(done, costs, strict=True))
     return [one for one in records if one is not None]
 
 
@@ -183,9 +189,12 @@ def _at_all(seen: Samples, near: list[Fitted], noise_grey: float, much: bool) ->
 
 
 def _record(
-    seen: Samples, one: Fitted, cost_sd2: float, blocks: int, known: KnownLight | None
+    seen: Samples, one: Fitted, cost_sd2: float, is_wide: bool, is_covered: bool, known: KnownLight | None
 ) -> WholeFit | None:
-    """What the fit says of the pose; None where it says nothing. `known`: the light that it came from."""
+    """What the fit says of the pose; None where it says nothing.
+
+    `is_wide`: whether blur is; `is_covered`: whether part of the marker is; `known`: the light it came from.
+    """
     # What is known beforehand is in the matrix: it needs no ridge.
     rows, is_told = pose_rows(one.matrix, fields_first(one.light), band_of(one.light), 0.0)
     if not is_told:
@@ -199,18 +208,21 @@ def _record(
         one.scale_grey,
         CUT,
         rows,
-        blocks,
+        LARGE_BLOCKS if is_wide or is_covered else BLOCKS,
     )
     alike = max(float(mean_ratio(alone, together)), 1.0)
     by_light = 1.0 if one.light[0] == PLAIN else UNEVEN_FACTOR
+    smear_px = float(np.sqrt(12.0 * smear_of(one.numbers[BLUR : BLUR + 3])[0]))
+    by_blur = OUT_OF_FOCUS_FACTOR if is_wide and smear_px == 0.0 else 1.0
     return WholeFit(
         camera_from_marker=Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm),
-        covariance=alone * alike * by_light,
+        covariance=alone * alike * by_light * by_blur,
         alike_ratio=alike,
         scale_grey=one.scale_grey,
         contrast_grey=float(typical_contrast(one.numbers, one.light)),
         explained_ratio=one.explained_ratio,
         response=float(one.numbers[RESPONSE]),
         cost_sd2=cost_sd2,
+        smear_px=smear_px,
         light=known_from(one, known),
     )

@@ -21,10 +21,10 @@ MOST_APART_PX, MOST_APART_SIDE_RATIO = 1.2, 0.04
 LEAST_CONTRAST_GREY = 4.0
 # Where more is left unexplained, in units of the noise and of the contrast, or less of the pixels has a say,
 # edges, which bring their own contrast, are the better judge of the pose.
-MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 1.8, 0.055, 0.6
-# What the model of the marker leaves out is a share of the contrast and follows the pose; residuals tell it
-# in part. So many times their variance is added where they are no more than this share of the contrast, less
-# where noise is the larger part of them. Measured on rendered scenes, where the truth is known.
+MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 2.2, 0.055, 0.6
+# What the model of the marker leaves out follows the pose: residuals tell it in part. So many times their
+# variance is added, by how much of it is no noise: what is more than the image's noise, as of compressed
+# pictures, and at least a share of the contrast. Measured on rendered scenes, where the truth is known.
 UNTOLD_FACTOR, UNTOLD_CONTRAST_RATIO = 0.6, 0.02
 # Costs count each pixel as if it erred alone; half of that is left when the model's own errors are in.
 COST_SHARE = 0.5
@@ -76,32 +76,31 @@ def with_whole_shape(
         covered_at=covered_at,
         known=expected.light if isinstance(expected, Expected) else None,
     )
-    here = corners_px_at(camera, model, starts[0])
-    reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px)
-    near = [one for one in fits if _is_near(camera, model, one, here, reach)]
-    if not near:
+    if not fits:
         return seen
-    # The better one must be exact by itself: where it just is not, the worse one would be left alone.
     # Where neighbours err alike, as under smear that is not quite the model's, squares count so much less.
-    share = COST_SHARE / max(one.alike_ratio for one in near)
-    costs = [share * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in near]
+    share = COST_SHARE / max(one.alike_ratio for one in fits)
+    costs = [share * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in fits]
     first, *others = np.argsort(costs, kind="stable")
-    if not _is_exact(near[first], pixels.noise_grey):
+    # The best one must be near and exact by itself: where it just is not, a worse one would be left alone.
+    if not _is_near(camera, model, fits[first], seen.camera_from_marker):
         return seen
-    pose, covariance = near[first].camera_from_marker, _beyond_residuals(near[first])
+    if not _is_exact(fits[first], pixels.noise_grey):
+        return seen
+    pose, covariance = fits[first].camera_from_marker, _beyond_residuals(fits[first], pixels.noise_grey)
     covariance = covariance + beyond_first_order(covariance)
     for k in others:
         gap = float(costs[k] - costs[first])
-        covariance = covariance + doubt_between(pose, near[k].camera_from_marker, gap=gap, expected=expected)
+        covariance = covariance + doubt_between(pose, fits[k].camera_from_marker, gap=gap, expected=expected)
     lead = seen.lead_sd2
     if len(starts) > 1:
-        lead = lead_between(costs, [one.camera_from_marker for one in near], int(first))
+        lead = lead_between(costs, [one.camera_from_marker for one in fits], int(first))
     return replace(
         seen,
         camera_from_marker=pose,
         pose_covariance=covariance,
         lead_sd2=lead,
-        light=near[first].light,
+        light=fits[first].light,
     )
 
 
@@ -114,12 +113,15 @@ def _is_exact(one: WholeFit, noise_grey: float) -> bool:
     )
 
 
-def _beyond_residuals(one: WholeFit) -> Array:
+def _beyond_residuals(one: WholeFit, noise_grey: float) -> Array:
     """The covariance (6, 6) with what the residuals do not tell."""
-    untold = UNTOLD_CONTRAST_RATIO * one.contrast_grey
-    return (1.0 + UNTOLD_FACTOR * (untold / max(one.scale_grey, untold)) ** 2) * one.covariance
+    left = one.scale_grey**2
+    untold = max((UNTOLD_CONTRAST_RATIO * one.contrast_grey) ** 2, left - noise_grey**2)
+    return (1.0 + UNTOLD_FACTOR * untold / max(left, untold)) * one.covariance
 
 
-def _is_near(camera: CameraModel, model: MarkerModel, one: WholeFit, here: Array, reach: float) -> bool:
-    there = corners_px_at(camera, model, one.camera_from_marker)
+def _is_near(camera: CameraModel, model: MarkerModel, one: WholeFit, found: Rigid[Camera, Marker]) -> bool:
+    """Whether a fit ended where edges are. Those of a smeared marker stand at either end of the smear."""
+    here, there = (corners_px_at(camera, model, pose) for pose in (found, one.camera_from_marker))
+    reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px_of(here)) + 0.5 * one.smear_px
     return float(np.abs(there - here).max()) < reach

@@ -69,17 +69,58 @@ def test_two_solutions_that_explain_alike_are_both_in_the_covariance(
 
 
 @pytest.mark.parametrize(
-    ("left_ratio", "factor"), [(0.0, 1.6), (0.01, 1.6), (0.02, 1.6), (0.04, 1.15), (0.05, 1.096)]
+    ("left_ratio", "noise_ratio", "factor"),
+    [
+        (0.0, 0.01, 1.6),
+        (0.01, 0.01, 1.6),
+        (0.04, 0.04, 1.15),
+        (0.05, 0.06, 1.096),
+        # Of what is left, so much is not noise.
+        (0.05, 0.04, 1.216),
+        (0.05, 0.0, 1.6),
+    ],
 )
 def test_what_residuals_do_not_tell_is_added_less_the_more_of_them_is_noise(
-    monkeypatch: pytest.MonkeyPatch, found: Seen, left_ratio: float, factor: float
+    monkeypatch: pytest.MonkeyPatch, found: Seen, left_ratio: float, noise_ratio: float, factor: float
 ) -> None:
     fit = _fit_at(POSE)
     # So sure of its turn that the arc of a tool's end beside its tangent is nothing.
     sure = replace(fit, covariance=1e-4 * fit.covariance, scale_grey=left_ratio * fit.contrast_grey)
     _given(monkeypatch, [sure])
-    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, replace(found, lead_sd2=0.0))
+    pixels = replace(PIXELS, noise_grey=noise_ratio * fit.contrast_grey)
+    exact = whole.with_whole_shape(CAMERA, MODEL, pixels, replace(found, lead_sd2=0.0))
     assert exact.pose_covariance == pytest.approx(factor * sure.covariance, rel=1e-3, abs=0.0)
+
+
+def _moved_by_px(pose: Rigid[Camera, Marker], moved_px: float) -> Rigid[Camera, Marker]:
+    by_mm = moved_px * pose.translation_mm[2] / CAMERA.matrix[0, 0]
+    return replace(pose, translation_mm=pose.translation_mm + np.array([by_mm, 0.0, 0.0]))
+
+
+@pytest.mark.parametrize(("smear_px", "is_taken"), [(0.0, False), (2.0, False), (8.0, True)])
+def test_a_fit_may_end_half_a_smear_from_where_edges_are(
+    monkeypatch: pytest.MonkeyPatch, found: Seen, smear_px: float, is_taken: bool
+) -> None:
+    there = _moved_by_px(found.camera_from_marker, 5.0)
+    monkeypatch.setattr(
+        whole,
+        "whole_fits",
+        lambda *_, **__: [replace(_fit_at(POSE), camera_from_marker=there, smear_px=smear_px)],
+    )
+    exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
+    assert (exact.camera_from_marker is there) == is_taken
+    assert is_taken or exact == found
+
+
+def test_where_the_better_fit_ends_elsewhere_the_worse_does_not_stand_in(
+    monkeypatch: pytest.MonkeyPatch, found: Seen
+) -> None:
+    worse = replace(_fit_at(found.camera_from_marker), cost_sd2=900.0)
+    better = replace(
+        worse, camera_from_marker=other_solution(_moved_by_px(found.camera_from_marker, 6.0)), cost_sd2=500.0
+    )
+    monkeypatch.setattr(whole, "whole_fits", lambda *_, **__: [worse, better])
+    assert whole.with_whole_shape(CAMERA, MODEL, PIXELS, found) == found
 
 
 @pytest.mark.parametrize(("lead_sd2", "expected", "count"), [(1e3, POSE, 1), (10.0, POSE, 2), (1e3, None, 2)])
