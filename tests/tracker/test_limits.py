@@ -1,38 +1,18 @@
-"""The tracker near the limit of what the pixels hold, on a small set of scenes that is the same each time."""
+"""Search near the limit of what the pixels hold, on a small set of scenes that is the same each time."""
 
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 
-from tests.benchmarks.limits.conditions_run import (
-    ConditionRun,
-    measure_condition,
-    measure_empty,
-    measure_kept,
-)
-from tests.benchmarks.limits.finders import Searchers, tracker_of
-from tests.benchmarks.limits.judging import COVERED, Judged, Outcome, claim_of, judged
+from tests.benchmarks.limits.conditions_run import ConditionRun, measure_condition
+from tests.benchmarks.limits.finders import Searchers
+from tests.benchmarks.limits.judging import COVERED, Judged, Outcome
 from tests.benchmarks.scenes.conditions import conditions_of
-from tests.benchmarks.scenes.faces import FACES
-from tests.benchmarks.scenes.hand import hand_scenes
-from tests.benchmarks.scenes.placing import random_scene
 from tests.benchmarks.scenes.rigs import RIGS
-from tests.benchmarks.scenes.scene import image_of
+from tests.tracker.levels import SEED, Level
 
-# `make benchmark` measures with other seeds.
-SEED = 500
 SCENES = {"A": 24, "B": 15}
-EMPTY_IMAGES = {"A": 40, "B": 20}
-
-
-class Level(NamedTuple):
-    """What is asserted, and the goal. Where the goal is reached, both are the same, and it stays so."""
-
-    asserted: float
-    goal: float
-
 
 FOUND = {
     ("A", "base"): Level(0.99, 0.99),
@@ -66,19 +46,6 @@ TIP_OF_BOUND = {
 }
 # Median, mm: the bound's camera answers straight, this one does not.
 GAMMA_TIP_MM = {"A": Level(1.0, 1.0), "B": Level(0.08, 0.08)}
-# By step, after the condition has set in.
-KEPT = {
-    ("A", "cover10"): Level(0.99, 0.99),
-    ("A", "cover30"): Level(0.99, 0.99),
-    ("A", "glare1.6"): Level(0.99, 0.99),
-    ("A", "shadow0.8"): Level(0.99, 0.99),
-    ("B", "cover30"): Level(0.99, 0.99),
-    ("B", "glare1.6"): Level(0.99, 0.99),
-}
-SEQUENCES = 6
-# By step, a hand at 300 mm/s.
-FOUND_IN_FAST_HAND, IMAGES_OF_A_HAND = Level(0.99, 0.99), 20
-COVERED_AMONG_OTHERS = 12
 # Poses at base that are nearer to the wrong one of the two planar solutions.
 MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
 # Of the errors inside their stated 95 % ellipsoid, in base, noise and motion together: least.
@@ -137,37 +104,6 @@ def test_a_camera_that_answers_not_straight_hardly_moves_the_tip(rig: str, searc
     assert float(np.median(tips)) <= GAMMA_TIP_MM[rig].asserted
 
 
-@pytest.mark.parametrize(("rig", "condition"), KEPT, ids=map(" ".join, KEPT))
-def test_a_marker_that_was_found_is_kept(rig: str, condition: str) -> None:
-    harder = conditions_of(RIGS[rig])[condition]
-    images = measure_kept(RIGS[rig], harder, sequences=SEQUENCES, seed=SEED)
-    assert [one for one in images if one.outcome is Outcome.WRONG] == []
-    found = sum(one.outcome is Outcome.RIGHT for one in images)
-    assert found >= KEPT[rig, condition].asserted * len(images)
-
-
-def test_a_marker_under_a_finger_is_found_where_others_are_looked_for_too() -> None:
-    found = []
-    for number in range(COVERED_AMONG_OTHERS):
-        face = FACES[number % len(FACES)]
-        scene = random_scene(RIGS["A"], face, conditions_of(RIGS["A"])["cover20"], seed=800 + number)
-        sightings = tracker_of(RIGS["A"], FACES).step(image_of(scene), captured_at_s=0.0)
-        found.append(judged(scene, claim_of(sightings[face.name])).outcome is Outcome.RIGHT)
-    assert sum(found) >= COVERED_AMONG_OTHERS - 1
-
-
-def test_a_fast_hand_is_followed() -> None:
-    images = []
-    for nth, face in enumerate(FACES):
-        tracker = tracker_of(RIGS["A"], [face])
-        for at_s, scene in hand_scenes(RIGS["A"], face, "fast", seed=SEED + nth, count=IMAGES_OF_A_HAND):
-            sighting = tracker.step(image_of(scene), captured_at_s=at_s)[face.name]
-            images.append(judged(scene, claim_of(sighting)))
-    assert [one for one in images if one.outcome is Outcome.WRONG] == []
-    found = sum(one.outcome is Outcome.RIGHT for one in images)
-    assert found >= FOUND_IN_FAST_HAND.asserted * len(images)
-
-
 @pytest.mark.parametrize("rig", MIRRORED)
 def test_poses_at_base_are_the_right_one_of_both_planar_solutions(rig: str, searchers: Searchers) -> None:
     mirrored = [one for one in run_of(rig, "base", searchers).searched if one.is_mirrored]
@@ -189,10 +125,3 @@ def test_no_pose_is_wrong_and_sure_of_itself(searchers: Searchers) -> None:
         for rig, name in FOUND
     }
     assert {where: worst for where, worst in stated_sd2.items() if worst > WORST_SD2} == {}
-
-
-@pytest.mark.parametrize("rig", EMPTY_IMAGES)
-def test_nothing_is_claimed_in_images_without_a_marker(rig: str) -> None:
-    found = measure_empty(RIGS[rig], peers=(), count=EMPTY_IMAGES[rig], seed=SEED)["coaxial"]
-    assert len(found) == 3 * EMPTY_IMAGES[rig]
-    assert [one for one in found if one.outcome is not Outcome.MISSED] == []

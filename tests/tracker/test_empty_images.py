@@ -1,0 +1,17 @@
+"""Images without a marker, in which nothing may be claimed."""
+
+import pytest
+
+from tests.benchmarks.limits.conditions_run import measure_empty
+from tests.benchmarks.limits.judging import Outcome
+from tests.benchmarks.scenes.rigs import RIGS
+from tests.tracker.levels import SEED
+
+EMPTY_IMAGES = {"A": 40, "B": 20}
+
+
+@pytest.mark.parametrize("rig", EMPTY_IMAGES)
+def test_nothing_is_claimed_in_images_without_a_marker(rig: str) -> None:
+    found = measure_empty(RIGS[rig], peers=(), count=EMPTY_IMAGES[rig], seed=SEED)["coaxial"]
+    assert len(found) == 3 * EMPTY_IMAGES[rig]
+    assert [one for one in found if one.outcome is not Outcome.MISSED] == []
