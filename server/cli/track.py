@@ -135,7 +135,7 @@ class _Summary:
         if self._tracker is None or self._setup is None or self._setup.camera.size_wh_px != (width, height):
             self._setup = preparation.setup_for((width, height))
             self._tracker = preparation.tracker_for(self._setup)
-        sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s)
+        sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s, whole=True)
         stage_ms = {"reading": read_ms, **self._tracker.stage_ms}
         self._images += 1
         for stage, took_ms in stage_ms.items():

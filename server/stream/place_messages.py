@@ -49,7 +49,8 @@ class MarkerUnseenMessage(Message):
 
     kind: Literal["unseen"] = "unseen"
     reason: UnseenReason
-    best_score_ratio: float
+    best_score_ratio: float | None
+    """The best that anything in this image reached; null where only a part of it was searched."""
 
 
 class MarkerMessage(Message):

@@ -81,7 +81,7 @@ def searched(
                     claims[name].append(claim)
                     best[name] = max(best[name], sighting.score_ratio)
                 else:
-                    best[name] = max(best[name], sighting.best_score_ratio)
+                    best[name] = max(best[name], sighting.best_score_ratio or 0.0)
         advance()
     return {
         name: Searched(

@@ -49,7 +49,11 @@ class LookOut:
         if is_over:
             self.hear(search.best)
         nothing = Unseen(reason=UnseenReason.NO_CANDIDATE)
-        said: dict[str, Sighting] = {model.name: self._unseen.get(model.name, nothing) for model in models}
+        # The reason is the last one that is known; a score would be another image's.
+        said: dict[str, Sighting] = {
+            model.name: replace(self._unseen.get(model.name, nothing), best_score_ratio=None)
+            for model in models
+        }
         found = [model for model in models if isinstance(search.best[model.name], Seen)]
         if found:
             said |= self._begin(pixels, found).to_the_end()

@@ -79,7 +79,9 @@ class Tracker:
         for _ in candidate_rounds(image, templates):
             pass
 
-    def step(self, image: npt.NDArray[np.uint8], *, captured_at_s: float) -> dict[str, Sighting]:
+    def step(
+        self, image: npt.NDArray[np.uint8], *, captured_at_s: float, whole: bool = False
+    ) -> dict[str, Sighting]:
         """What this image says of each marker, using what is known from the images before it.
 
         A marker that was seen is looked for where it is expected; one that is not there is searched for in
@@ -89,6 +91,8 @@ class Tracker:
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
             captured_at_s: time of the image; an image that is older than the last one clears what is known.
+            whole: search the whole of this image for each marker that is not seen, whatever that costs: for
+                recordings, in which no image is to be missed.
 
         Raises:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
@@ -101,7 +105,8 @@ class Tracker:
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
         # Where none is in view there is time to look for all.
-        lost = [model for model in missing if not seen or self._expected(model, captured_at_s) is not None]
+        at_once = whole or not seen
+        lost = [model for model in missing if at_once or self._expected(model, captured_at_s) is not None]
         if lost:
             said = self._search_of(pixels, lost).to_the_end()
             self._look_out.hear(said)

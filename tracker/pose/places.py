@@ -42,4 +42,4 @@ def worth_of(sighting: Sighting) -> float:
     if isinstance(sighting, Seen):
         scores = sighting.score_ratio + sighting.target_score_ratio
         return 1.0 + 0.5 * scores if sighting.is_in_noise else 2.0 + scores
-    return sighting.best_score_ratio
+    return sighting.best_score_ratio or 0.0

@@ -66,11 +66,12 @@ class Unseen:
 
     Attributes:
         reason: why not.
-        best_score_ratio: the best score that anything in the image reached, 0 if nothing was scored.
+        best_score_ratio: the best score that anything in the image reached, 0 if nothing was scored. None where
+            only a part of a search was made: then the reason is that of the last image that was searched whole.
     """
 
     reason: UnseenReason
-    best_score_ratio: float = 0.0
+    best_score_ratio: float | None = 0.0
 
 
 Sighting: TypeAlias = Seen | Unseen

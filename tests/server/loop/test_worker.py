@@ -59,10 +59,10 @@ class Failing(Tracker):
         super().__init__(camera=made_setup().camera, models=[])
         self.level, self.error = level, error
 
-    def step(self, image: np.ndarray, *, captured_at_s: float) -> dict[str, Sighting]:
+    def step(self, image: np.ndarray, *, captured_at_s: float, whole: bool = False) -> dict[str, Sighting]:
         if int(image[0, 0, 0]) == self.level:
             raise self.error
-        return super().step(image, captured_at_s=captured_at_s)
+        return super().step(image, captured_at_s=captured_at_s, whole=whole)
 
 
 class Prepared(Preparation):

@@ -82,6 +82,28 @@ def test_what_is_out_of_view_costs_a_part_of_a_search_in_less_than_half_of_the_i
     assert all(r + n <= 1 for r, n in zip(rounds[1:], looks[1:], strict=True))
 
 
+def test_no_score_of_an_image_before_is_told_as_this_ones() -> None:
+    tracker = _tracker()
+    first = tracker.step(_two(None, seed=0), captured_at_s=0.0)["other"]
+    assert isinstance(first, Unseen)
+    assert first.best_score_ratio is not None
+    for k in range(1, 9):
+        said = tracker.step(_two(None, seed=k), captured_at_s=k / 30)["other"]
+        assert isinstance(said, Unseen)
+        assert (said.reason, said.best_score_ratio) == (first.reason, None)
+
+
+def test_where_each_image_is_searched_whole_a_marker_is_found_as_soon_as_it_is_there() -> None:
+    tracker = _tracker()
+    for k in range(6):
+        said = tracker.step(_two(None, seed=k), captured_at_s=k / 30, whole=True)["other"]
+        assert isinstance(said, Unseen)
+        assert said.best_score_ratio is not None
+    there = pose_of((260.0, 150.0))
+    sightings = tracker.step(_two(there, seed=7), captured_at_s=0.2, whole=True)
+    assert {name for name, one in sightings.items() if isinstance(one, Seen)} == {"code", "other"}
+
+
 def test_a_marker_that_comes_into_view_is_found_where_it_has_gone_meanwhile() -> None:
     tracker = _tracker()
     for k in range(4):

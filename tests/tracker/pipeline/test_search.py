@@ -64,6 +64,7 @@ def test_clutter_without_a_marker_is_unseen_with_a_reason() -> None:
         sighting = tracker_of().search(image)["code"]
         assert isinstance(sighting, Unseen), seed
         assert sighting.reason in UnseenReason
+        assert sighting.best_score_ratio is not None
         assert 0.0 <= sighting.best_score_ratio <= 1.0
 
 
@@ -102,7 +103,7 @@ def test_a_look_alike_that_differs_in_one_field_is_not_taken(fields: Fields) -> 
         sighting = tracker_of().search(image)["code"]
         assert isinstance(sighting, Unseen), (side_px, tilt_deg)
         # It was looked at closely, and something was found against it.
-        assert sighting.best_score_ratio > 0.4
+        assert (sighting.best_score_ratio or 0.0) > 0.4
 
 
 def test_of_a_marker_among_its_look_alikes_only_it_is_taken() -> None:

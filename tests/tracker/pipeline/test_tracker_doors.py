@@ -64,7 +64,7 @@ def test_strict_settings_turn_the_same_occurrence_down() -> None:
         sighting = tracker.search(image)["code"]
         assert isinstance(sighting, Unseen)
         assert sighting.reason is reason
-        assert sighting.best_score_ratio > 0.9
+        assert (sighting.best_score_ratio or 0.0) > 0.9
 
 
 def test_a_bright_field_too_many_says_that_the_shape_differs() -> None:
@@ -201,8 +201,10 @@ def test_warming_up_runs_the_loops_of_a_search_and_of_a_track(monkeypatch: pytes
     found: list[str] = []
 
     class Watched(Tracker):
-        def step(self, image: Image8, *, captured_at_s: float) -> dict[str, Seen | Unseen]:
-            sightings = super().step(image, captured_at_s=captured_at_s)
+        def step(
+            self, image: Image8, *, captured_at_s: float, whole: bool = False
+        ) -> dict[str, Seen | Unseen]:
+            sightings = super().step(image, captured_at_s=captured_at_s, whole=whole)
             found.append(seen(sightings["warm-up"]).found_by)
             return sightings
 
@@ -219,7 +221,7 @@ def test_what_is_inside_must_be_there_whatever_the_outline_says(side: int) -> No
     sighting = Tracker(camera=CAMERA, models=[MODEL], settings=strict).search(image)["code"]
     assert isinstance(sighting, Unseen)
     assert sighting.reason is UnseenReason.SCORE_TOO_LOW
-    assert sighting.best_score_ratio > strict.accept_score_ratio
+    assert (sighting.best_score_ratio or 0.0) > strict.accept_score_ratio
 
 
 def test_the_first_tracker_of_a_process_loads_what_an_image_needs(monkeypatch: pytest.MonkeyPatch) -> None:

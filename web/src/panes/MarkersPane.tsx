@@ -58,7 +58,7 @@ function MarkerRow({
     <Table.Tr data-testid={`marker-${name}`}>
       <Table.Th scope="row">{name}</Table.Th>
       <Table.Td>{stale ? words.markers.unknown : state}</Table.Td>
-      <Table.Td className="figure">{stale ? "—" : shownPercent(score)}</Table.Td>
+      <Table.Td className="figure">{stale || score === null ? "—" : shownPercent(score)}</Table.Td>
       <Table.Td className="figure">
         {stale || !seen ? "—" : shownPercent(sighting.target_score_ratio)}
       </Table.Td>
