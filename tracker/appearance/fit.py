@@ -125,9 +125,13 @@ def cost_of(seen: Samples, one: Fitted, scale_grey: float) -> float:
 
 
 def in_question(seen: Samples, fits: list[Fitted], within_sd2: float) -> list[Fitted]:
-    """Those fits to the same pixels whose cost is within so much of the least."""
+    """Those fits to the same pixels whose cost is within so much of the least.
+
+    Where even the best leaves more than one a pixel, what no fit explains costs too: so much more is allowed.
+    """
     if len(fits) < 2:
         return fits
     scale = min(one.scale_grey for one in fits)
     costs = [cost_of(seen, one, scale) for one in fits]
+    within_sd2 *= max(1.0, min(costs) / len(seen.values))
     return [one for one, cost in zip(fits, costs, strict=True) if cost < min(costs) + within_sd2]

@@ -14,7 +14,7 @@ LEAST_APART_RAD = float(np.radians(0.5))
 def with_mirrored(seen: Samples, fits: list[Fitted], starts: list[Array]) -> list[Fitted]:
     """The same fits, and one from the mirror image of the best where a start was there and no fit is.
 
-    In light that is not explained yet a fit may slip from one side of facing the camera to the other.
+    While blur or light are not explained yet, a fit may slip from one side of facing the camera to the other.
 
     Args:
         seen: the pixels.

@@ -143,6 +143,7 @@ def _anew(
     noise_grey: float,
 ) -> tuple[Samples, list[Fitted]]:
     """Pixels, chosen at a blur (3,), and the fits to them from each start, whatever the light is."""
+    rotations = [start.rotation for start in starts]
     seen = chosen(focus_px2)
     few = some_of(seen, FEW_PIXELS)
     near = [one for one in (_near(few, start, focus_px2) for start in starts) if one is not None]
@@ -157,10 +158,16 @@ def _anew(
             return seen, []
     # Where even light leaves much, it has not been asked yet which of them is better.
     if not (much := leaves_much(near, noise_grey)):
-        near = in_question(few, near, OUT_OF_QUESTION_SD2)
+        near = in_question(few, with_mirrored(few, near, rotations), OUT_OF_QUESTION_SD2)
     done = _at_all(seen, near, noise_grey, much)
     if done and done[0].light[0] != PLAIN:
-        done = with_mirrored(seen, done, [start.rotation for start in starts])
+        done = with_mirrored(seen, done, rotations)
+    elif done and blur is not None:
+        # Few may have slipped while the blur was not known yet; some tell whether all are worth asking.
+        some = some_of(seen, SOME_PIXELS)
+        asked = in_question(some, with_mirrored(some, done, rotations), OUT_OF_QUESTION_SD2)
+        known = {id(one) for one in done}
+        done += all_again(seen, [one for one in asked if id(one) not in known])
     return seen, done
 
 

@@ -82,7 +82,16 @@ def doubt_between(
     if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
         return np.zeros((6, 6))
     # How probable it is that the worse one is true, 0..0.5.
-    doubt = 1.0 / (1.0 + float(np.exp(gap / 2.0)))
+    return _spread(apart, 1.0 / (1.0 + float(np.exp(gap / 2.0))))
+
+
+def doubt_over(claimed: Rigid[Camera, Marker], other: Rigid[Camera, Marker]) -> Array:
+    """What it adds to a pose's covariance (6, 6) that another one is as probable, wherever that is."""
+    return _spread(_difference(claimed, other), 0.5)
+
+
+def _spread(apart: Array, doubt: float) -> Array:
+    """The covariance (6, 6) of a pose beside which another one, so much apart, is so probable."""
     spread = np.outer(apart, apart)
     # A turn goes along an arc, a covariance along its tangent: by so much is the other solution beside it.
     # By so much nearer is the end of a tool, which no turn tells to first order; a small doubt need not.

@@ -66,8 +66,8 @@ class Unseen:
 
     Attributes:
         reason: why not.
-        best_score_ratio: the best score that anything in the image reached, 0 if nothing was scored. None where
-            only a part of a search was made: then the reason is that of the last image that was searched whole.
+        best_score_ratio: the best score that anything in the image reached, 0 if nothing was scored. None
+            where only a part of it was searched: then the reason is that of the last whole search.
     """
 
     reason: UnseenReason

@@ -13,7 +13,7 @@ from tracker.marker import MarkerModel
 from tracker.pose.arc import beyond_first_order
 from tracker.pose.occurrence import corners_px_at, side_px_of
 from tracker.pose.planar import other_solution
-from tracker.pose.rivals import Expected, doubt_between, lead_between, surprise
+from tracker.pose.rivals import Expected, doubt_between, doubt_over, lead_between, surprise
 from tracker.pose.sighting import Seen
 
 # Edges place a pose to a fraction of a pixel: a whole-shape fit that ends farther away fitted something else.
@@ -21,7 +21,7 @@ MOST_APART_PX, MOST_APART_SIDE_RATIO = 1.2, 0.04
 LEAST_CONTRAST_GREY = 4.0
 # Where more is left unexplained, in units of the noise and of the contrast, or less of the pixels has a say,
 # edges, which bring their own contrast, are the better judge of the pose.
-MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 2.2, 0.055, 0.6
+MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 2.2, 0.055, 0.72
 # What the model of the marker leaves out follows the pose: residuals tell it in part. So many times their
 # variance is added, by how much of it is no noise: what is more than the image's noise, as of compressed
 # pictures, and at least a share of the contrast. Measured on rendered scenes, where the truth is known.
@@ -30,7 +30,7 @@ UNTOLD_FACTOR, UNTOLD_CONTRAST_RATIO = 0.6, 0.02
 COST_SHARE = 0.5
 # Where edges and the images before speak so clearly for one of the two solutions, pixels need not be asked of
 # the other. Edges alone may be wrong: smear moves them.
-CLEAR_LEAD_SD2 = 60.0
+CLEAR_LEAD_SD2 = 100.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +63,8 @@ def with_whole_shape(
     """
     side_px = side_px_of(seen.corners_px)
     starts = [seen.camera_from_marker]
-    if expected is None or seen.lead_sd2 < CLEAR_LEAD_SD2:
+    # Where no other solution fits the edges, both may have ended at one: that is not clear.
+    if expected is None or seen.lead_sd2 < CLEAR_LEAD_SD2 or np.isinf(seen.lead_sd2):
         starts.append(other_solution(seen.camera_from_marker))
     fits = whole_fits(
         pixels.image,
@@ -83,10 +84,12 @@ def with_whole_shape(
     costs = [share * one.cost_sd2 + surprise(one.camera_from_marker, expected) for one in fits]
     first, *others = np.argsort(costs, kind="stable")
     # The best one must be near and exact by itself: where it just is not, a worse one would be left alone.
-    if not _is_near(camera, model, fits[first], seen.camera_from_marker):
-        return seen
     if not _is_exact(fits[first], pixels.noise_grey):
         return seen
+    if not _is_near(camera, model, fits[first], seen.camera_from_marker):
+        # Pixels contradict edges, and either may be led astray by what covers a side: both stay possible.
+        doubt = doubt_over(seen.camera_from_marker, fits[first].camera_from_marker)
+        return replace(seen, pose_covariance=seen.pose_covariance + doubt, lead_sd2=0.0)
     pose, covariance = fits[first].camera_from_marker, _beyond_residuals(fits[first], pixels.noise_grey)
     covariance = covariance + beyond_first_order(covariance)
     for k in others:
