@@ -13,7 +13,7 @@ import typer
 
 from server.cli.background import Film, film_of
 from server.cli.marker_report import Report, closest_picture, json_of, told
-from server.cli.output import write_whole
+from server.cli.output import refuse_unwritable, write_whole
 from server.cli.progress import Steps, shown_steps
 from server.marker_file import load_marker_image
 from server.printing import marker_sheet, pdf_from_sheet, svg_from_sheet
@@ -36,6 +36,13 @@ class DesignOrder:
     seed: int
     proposals: int
     images: int
+    replace: bool
+
+    @property
+    def files(self) -> tuple[Path, Path, Path]:
+        """SVG, PDF and model image."""
+        svg, pdf, png = (self.output / f"{self.name}.{kind}" for kind in ("svg", "pdf", "png"))
+        return svg, pdf, png
 
 
 def design_marker(order: DesignOrder, *, as_json: bool) -> int:
@@ -51,6 +58,7 @@ def design_marker(order: DesignOrder, *, as_json: bool) -> int:
             "Use letters, digits, - and _ with --name, at most 40, a letter or digit first.",
             {"name": order.name},
         )
+    _refuse_replacing(order)
     settings = ScoreSettings()
     with shown_steps() as steps:
         film = (
@@ -123,6 +131,20 @@ def check_marker(
     return 0 if judgement.unique else FAILED
 
 
+def _refuse_replacing(order: DesignOrder) -> None:
+    """Before the work: a marker that was printed must stay the one that is tracked."""
+    there = [str(file) for file in order.files if file.exists()]
+    if there and not order.replace:
+        raise InvalidInput(
+            "MARKER_FILES_EXIST",
+            f"there is a marker '{order.name}' already: {', '.join(there)}",
+            "Give another --name or --output, or --replace if no print of it is used.",
+            {"files": there},
+        )
+    for file in order.files:
+        refuse_unwritable(file)
+
+
 def _designed(order: DesignOrder, film: Film | None, settings: ScoreSettings, steps: Steps) -> Design:
     # First the page: a side that cannot be printed must not cost a minute.
     first = next(proposed_shapes(order.seed))
@@ -147,7 +169,7 @@ def _proposed(order: DesignOrder, steps: Steps) -> Iterator[Shape]:
 def _write(design: Design, order: DesignOrder) -> tuple[Path, Path, Path]:
     """SVG, PDF and model image."""
     sheet = marker_sheet(design.shape, side_mm=order.side_mm, name=order.name)
-    svg, pdf, png = (order.output / f"{order.name}.{kind}" for kind in ("svg", "pdf", "png"))
+    svg, pdf, png = order.files
     write_whole(svg, svg_from_sheet(sheet).encode())
     write_whole(pdf, pdf_from_sheet(sheet))
     write_whole(png, _png(design.model.image))

@@ -35,6 +35,9 @@ def design(
     seed: Annotated[int, typer.Option(help="Another seed proposes other shapes.", min=0)] = 1,
     proposals: Annotated[int, typer.Option(help="Shapes that are compared.", min=4, max=20_000)] = 300,
     images: ImagesOption = 120,
+    replace: Annotated[
+        bool, typer.Option("--replace", help="Write over a marker of the same name.", show_default=False)
+    ] = False,
     json: JsonOption = False,
 ) -> None:
     """Propose a square marker, and write it as SVG and PDF at true size and as the picture that is tracked.
@@ -52,6 +55,7 @@ def design(
         seed=seed,
         proposals=proposals,
         images=images,
+        replace=replace,
     )
     raise typer.Exit(design_marker(order, as_json=json))
 

@@ -55,8 +55,8 @@ def told(report: Report) -> None:
     table.add_column(f"edges inside\n(from {settings.accept_inner_coverage_ratio:.2f})", justify="right")
     table.add_column(f"target score\n(from {settings.accept_target_score_ratio:.2f})", justify="right")
     table.add_column("")
-    table.add_row("itself turned, 27 px", *_columns(judgement.turned))
-    table.add_row("its mirror image, 27 px", *_columns(judgement.mirrored))
+    table.add_row("itself turned, 27 px wide", *_columns(judgement.turned))
+    table.add_row("its mirror image, 27 px wide", *_columns(judgement.mirrored))
     if film is not None:
         for place in judgement.nearest[:1]:
             table.add_row(f"closest square, image {film.numbers[place.image_index]}", *_columns(place.score))
@@ -158,12 +158,12 @@ def _sentences(report: Report) -> list[str]:
     sentences = [
         f"Best false score {judgement.best_false_score_ratio:.2f}, "
         + (
-            "nothing reaches all that is accepted."
+            "but nothing reaches all that is accepted: score, edges inside and target score together."
             if judgement.unique
             else "SOMETHING REACHES ALL THAT IS ACCEPTED."
         ),
-        f"Pose at 27 px, tilted by 30°, the best that any method can do at ordinary noise: tilt "
-        f"{precision.tilt_sd_deg:.2f}° ({precision.tilt_gain:.1f} times surer than a plain square), distance "
+        "Pose where it is 27 px wide, tilted by 30°, the best any method can do at ordinary noise: "
+        f"tilt {precision.tilt_sd_deg:.2f}° ({precision.tilt_gain:.1f} times surer than a plain square), distance "
         f"{100 * precision.distance_sd_ratio:.2f} % ({precision.distance_gain:.1f} times).",
     ]
     if judgement.search.claims:
@@ -177,7 +177,7 @@ def _sentences(report: Report) -> list[str]:
 
 
 def _columns(score: FalseScore) -> tuple[str, str, str, str]:
-    reached = "ACCEPTABLE" if score.accepted else ""
+    reached = "TAKEN FOR IT" if score.accepted else ""
     ratios = (score.score_ratio, score.inner_coverage_ratio, score.target_score_ratio)
     whole, inner, target = (f"{ratio:.2f}" for ratio in ratios)
     return whole, inner, target, reached

@@ -112,6 +112,17 @@ def write_whole(path: Path, content: bytes) -> None:
         ) from error
 
 
+def refuse_unwritable(path: Path) -> None:
+    """See that a file can be written before the work for it; its folder is made where it is missing.
+
+    Raises:
+        InvalidInput: OUTPUT_NOT_WRITABLE.
+    """
+    part = path.with_name(path.name + PART)
+    write_whole(part, b"")
+    part.unlink()
+
+
 def _opened(path: Path) -> IO[str]:
     try:
         return path.open("w", encoding="utf-8", buffering=1)

@@ -22,6 +22,8 @@ from tracker.pose.tool import (
 )
 
 FAILED = 1
+# As printed sides are told, to a hundredth.
+SAME_SIDE_MM = 0.005
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,6 +61,8 @@ def calibrate_tip(order: PivotOrder, *, as_json: bool) -> int:
     files = read_poses(order.poses, unit=Unit(order.unit), marker=order.marker)
     # Asked before the work, so that nobody pivots for a file that cannot be written.
     marker = None if order.output is None else _marker_of(order, files, config)
+    if marker is None:
+        _refuse_another_side(files, order.side_mm, order.poses)
     gate = _gate(config)
     found = pivot_calibration(files.poses, gate)
     failures = found.failures(gate)
@@ -85,6 +89,7 @@ def calibrate_axis(order: TipOrder, *, as_json: bool) -> int:
             "Find the tip first with 'coaxial pivot --output FILE', then give that file with --tool.",
         )
     files = read_poses(order.poses, unit=Unit(order.unit), marker=_marker_name(order, tool))
+    _refuse_another_side(files, None if tool is None else tool.side_mm, order.poses)
     gate = _gate(config)
     found = spin_calibration(files.poses, tip_in_marker_mm=_tip(order, tool), gate=gate)
     failures = found.failures(gate)
@@ -112,6 +117,7 @@ def check_tool_tip(order: TipOrder, *, as_json: bool) -> int:
             "Give the tool's file with --tool FILE, or its tip with --tip-mm X,Y,Z.",
         )
     files = read_poses(order.poses, unit=Unit(order.unit), marker=_marker_name(order, tool))
+    _refuse_another_side(files, None if tool is None else tool.side_mm, order.poses)
     gate = _gate(config)
     found = check_tip(files.poses, tip, gate)
     return _answered(check_report(found, found.failures(gate), files, gate), as_json=as_json)
@@ -133,6 +139,8 @@ def _marker_of(order: PivotOrder, files: PoseFiles, config: Config) -> ToolMarke
     side_mm = order.side_mm
     if side_mm is None and name is not None and name in config.markers:
         side_mm = config.markers[name].side_mm
+    if side_mm is None:
+        side_mm = next((one.side_mm for one in files.records if one.side_mm is not None), None)
     if name is None or side_mm is None:
         missing = "the name" if name is None else f"the side of '{name}'"
         raise InvalidInput(
@@ -140,6 +148,7 @@ def _marker_of(order: PivotOrder, files: PoseFiles, config: Config) -> ToolMarke
             f"a tool file belongs to one marker, and {missing} is not known",
             "Give --marker NAME and --side-mm MM, or the settings in which the marker stands with --config.",
         )
+    _refuse_another_side(files, side_mm, order.poses)
     try:
         return ToolMarker(marker=name, side_mm=side_mm)
     except ValidationError:
@@ -148,6 +157,20 @@ def _marker_of(order: PivotOrder, files: PoseFiles, config: Config) -> ToolMarke
             f"a marker '{name}' of {side_mm:g} mm cannot be used",
             "Names are letters, digits, - and _, at most 40; sides are over 0 and at most 1000 mm.",
         ) from None
+
+
+def _refuse_another_side(files: PoseFiles, side_mm: float | None, path: Path) -> None:
+    """A pose's millimetres are in proportion to the side that it was tracked with: it must be this one."""
+    told = sorted({one.side_mm for one in files.records if one.side_mm is not None})
+    wanted = told[0] if side_mm is None and told else side_mm
+    other = next((one for one in told if wanted is not None and abs(one - wanted) > SAME_SIDE_MM), None)
+    if other is not None:
+        raise InvalidInput(
+            "TOOL_SIDE_DIFFERS",
+            f"poses in {path} were tracked with a side of {other:g} mm, and the marker's is {wanted:g} mm",
+            "Measure the printed black square, and track again if that side is another one.",
+            {"tracked_mm": told, "side_mm": side_mm},
+        )
 
 
 def _marker_name(order: TipOrder, tool: ToolFile | None) -> str | None:

@@ -6,7 +6,7 @@ import signal
 import statistics
 import threading
 import time
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -25,12 +25,13 @@ from server.cli.options import Given, config_from_options
 from server.cli.output import lines_to
 from server.cli.stopping import Stopping
 from server.config import Config
+from server.errors import CaptureError
 from server.logs import LogSettings, configure_logging
 from server.setup import Preparation, build_setup
 from tracker.errors import InvalidInput
 from tracker.navigation import Setup
 from tracker.pipeline import Tracker
-from tracker.pose import Seen, Sighting
+from tracker.pose import Seen, Sighting, Unseen
 
 BAD_INPUT = 2
 STOPPED = 130
@@ -75,6 +76,10 @@ def track_video(
                         if lines is not None:
                             lines.write(json.dumps(line, allow_nan=False))
                     advance()
+    except CaptureError as error:
+        # Nothing is tried again here, and it was no setting.
+        remedy = "Give a video file that plays, or a folder of images."
+        raise InvalidInput(error.code, error.message, remedy, error.context) from error
     except _StoppedError:
         typer.echo(f"Stopped: {summary.sentence()}", err=True)
         return STOPPED
@@ -125,6 +130,9 @@ class _Summary:
     def __init__(self) -> None:
         self._images = 0
         self._seen: dict[str, int] = {}
+        self._reasons: dict[str, Counter[str]] = defaultdict(Counter)
+        self._whole_ms: list[float] = []
+        self._calibrated = True
         self._times: dict[str, list[float]] = defaultdict(list)
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
@@ -138,16 +146,21 @@ class _Summary:
         sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s, whole=True)
         stage_ms = {"reading": read_ms, **self._tracker.stage_ms}
         self._images += 1
+        self._whole_ms.append(sum(stage_ms.values()))
         for stage, took_ms in stage_ms.items():
             self._times[stage].append(took_ms)
         for name, sighting in sightings.items():
             self._seen[name] = self._seen.get(name, 0) + isinstance(sighting, Seen)
-        calibrated = self._setup.camera_calibrated
+            if isinstance(sighting, Unseen):
+                self._reasons[name][sighting.reason.value] += 1
+        calibrated = self._calibrated = self._setup.camera_calibrated
+        sides_mm = {model.name: model.side_mm for model in self._tracker.models}
         return [
             {
                 "image_number": shot.number,
                 "time_s": round(shot.source_time_s, 6),
                 "name": name,
+                "side_mm": sides_mm[name],
                 **_sighting(sighting, calibrated=calibrated),
                 "stage_ms": {stage: round(took_ms, 3) for stage, took_ms in stage_ms.items()},
             }
@@ -155,10 +168,20 @@ class _Summary:
         ]
 
     def sentence(self) -> str:
-        """Images, how many of them show each marker, and the median time of each stage."""
-        seen = ", ".join(f"{name} seen in {count}" for name, count in self._seen.items())
-        times = ", ".join(f"{stage} {statistics.median(ms):.1f}" for stage, ms in self._times.items())
-        return f"{self._images} images: {seen or 'nothing'}; median ms: {times or '-'}"
+        """Images, how many of them show each marker, why others do not, and the median times."""
+        seen = ", ".join(f"{name} seen in {count}{self._why_not(name)}" for name, count in self._seen.items())
+        whole = f"{statistics.median(self._whole_ms):.1f} an image" if self._whole_ms else "-"
+        # A stage that an image could do without is no part of that image's time.
+        times = "".join(
+            f", {stage} {statistics.median(ms):.1f}{'' if len(ms) == self._images else f' in {len(ms)}'}"
+            for stage, ms in self._times.items()
+        )
+        blind = "" if self._calibrated else "; no millimetres, as no camera file was given (--camera)"
+        return f"{self._images} images: {seen or 'nothing'}; median ms: {whole}{times}{blind}"
+
+    def _why_not(self, name: str) -> str:
+        reasons = ", ".join(f"{reason} {count}" for reason, count in self._reasons[name].most_common())
+        return f" (not in the others: {reasons})" if reasons else ""
 
 
 def _sighting(sighting: Sighting, *, calibrated: bool) -> dict[str, Any]:

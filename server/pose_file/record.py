@@ -23,12 +23,14 @@ class PoseRecord:
         pose: camera from marker, in mm.
         covariance: (6, 6) [mm, rad] where it is stated.
         marker: which marker, where that is told.
+        side_mm: the side that it was tracked with, where that is told.
     """
 
     place: str
     pose: Rigid[Camera, Marker]
     covariance: npt.NDArray[np.float64] | None = None
     marker: str | None = None
+    side_mm: float | None = None
 
 
 def unreadable(place: str, what: str) -> InvalidInput:

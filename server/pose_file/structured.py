@@ -110,13 +110,14 @@ def _from_value(place: str, value: Any, unit: Unit) -> PoseRecord:  # noqa: ANN4
         matrix = _numbers(inner)
         matrix = matrix.reshape(-1, 4) if matrix.shape in {(12,), (16,)} else matrix
     marker = value.get("name", value.get("marker"))
-    covariance = value.get("pose_covariance")
+    covariance, side_mm = value.get("pose_covariance"), value.get("side_mm")
     return _pose(
         matrix,
         place,
         unit,
         covariance=None if covariance is None else _numbers(covariance),
         marker=None if marker is None else str(marker),
+        side_mm=float(side_mm) if isinstance(side_mm, int | float) else None,
     )
 
 
@@ -127,6 +128,7 @@ def _pose(
     *,
     covariance: np.ndarray | None = None,
     marker: str | None = None,
+    side_mm: float | None = None,
 ) -> PoseRecord:
     if matrix.dtype.kind not in "fiu" or matrix.shape not in {(4, 4), (3, 4)}:
         raise unreadable(place, "it holds no 4x4 matrix of numbers")
@@ -134,7 +136,7 @@ def _pose(
         pose = rigid_from_written(matrix, unit_mm=unit.in_mm)
     except InvalidInput as error:
         raise at_place(place, error) from None
-    return PoseRecord(place=place, pose=pose, covariance=covariance, marker=marker)
+    return PoseRecord(place=place, pose=pose, covariance=covariance, marker=marker, side_mm=side_mm)
 
 
 def _numbers(value: Any) -> np.ndarray:  # noqa: ANN401  JSON may be anything

@@ -22,6 +22,9 @@ LEAST_CONTRAST_GREY = 40
 LEAST_DARK_BORDER_RATIO = 0.9
 # A shape that looks the same after a quarter or half turn has no top: its pose would be a guess.
 MOST_SYMMETRY = 0.985
+# Of two shapes that are more alike, small or blurred ones are taken for each other. Those of a printed sheet
+# reach 0.88, a shape and its mirror image 0.98.
+MOST_ALIKE = 0.95
 WORKING_SIDE_PX = 360
 
 
@@ -138,11 +141,11 @@ def refuse_alike(models: Sequence[MarkerModel]) -> None:
     small = [_small(model.square) for model in models]
     for (a, first), (b, second) in combinations(enumerate(small), 2):
         alike = max(_correlation(first, np.rot90(second, turns)) for turns in range(4))
-        if alike > MOST_SYMMETRY:
+        if alike > MOST_ALIKE:
             raise InvalidInput(
                 "MARKERS_ALIKE",
                 f"markers '{names[a]}' and '{names[b]}' look the same, however they are turned: "
-                f"correlation {alike:.3f}, allowed {MOST_SYMMETRY}",
+                f"correlation {alike:.3f}, allowed {MOST_ALIKE}",
                 "Use shapes that differ, so that none is taken for another: another seed designs another.",
                 {"names": [names[a], names[b]], "correlation": alike},
             )

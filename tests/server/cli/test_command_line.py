@@ -113,7 +113,9 @@ def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path:
     )
     assert result.returncode == 0, result.stderr
     assert result.stdout == ""
-    assert result.stderr.startswith("6 images: m-one seen in 0")
+    assert result.stderr.startswith("6 images: m-one seen in 0 (not in the others: ")
+    assert " an image, reading " in result.stderr
+    assert "no millimetres, as no camera file was given (--camera)" in result.stderr
     lines = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
     assert [line["image_number"] for line in lines] == list(range(6))
     assert [line["time_s"] for line in lines] == pytest.approx([n / 25 for n in range(6)])
@@ -121,13 +123,14 @@ def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path:
     keys = {
         *("image_number", "time_s", "name", "seen", "reason", "camera_from_marker", "pose_covariance"),
         *("corners_px", "score_ratio", "target_score_ratio", "model_coverage_ratio", "target_coverage_ratio"),
-        *("fit_error_px2", "found_by", "best_score_ratio", "stage_ms"),
+        *("fit_error_px2", "found_by", "best_score_ratio", "stage_ms", "side_mm"),
     }
     for line in lines:
         assert set(line) == keys
         assert line["name"] == "m-one"
         assert not line["seen"]
         assert line["reason"]
+        assert line["side_mm"] == 40.0
         assert line["stage_ms"]["reading"] >= 0.0
 
 
@@ -157,11 +160,11 @@ def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
     step = Tracker.step
 
     def step_with_ctrl_c(
-        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float
+        tracker: Tracker, image: npt.NDArray[np.uint8], *, captured_at_s: float, whole: bool
     ) -> dict[str, Sighting]:
         signal.raise_signal(signal.SIGINT)
         assert signal.getsignal(signal.SIGINT) == signal.SIG_DFL  # a second one ends it at once
-        return step(tracker, image, captured_at_s=captured_at_s)
+        return step(tracker, image, captured_at_s=captured_at_s, whole=whole)
 
     monkeypatch.setattr(Tracker, "step", step_with_ctrl_c)
     lines = tmp_path / "o.jsonl"

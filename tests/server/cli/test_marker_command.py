@@ -68,6 +68,23 @@ def test_the_same_seed_gives_the_same_files(design: Path, tmp_path: Path) -> Non
         assert (tmp_path / "again" / file.name).read_bytes() == file.read_bytes()
 
 
+def test_a_marker_that_is_there_is_replaced_only_where_that_is_said(tmp_path: Path) -> None:
+    (tmp_path / "marker.png").write_bytes(b"printed")
+    few = ("design", "--proposals", "4", "--output", tmp_path)
+    assert typed(*few) == (2, "MARKER_FILES_EXIST")
+    assert (tmp_path / "marker.png").read_bytes() == b"printed"
+    typed(*few, "--replace")
+    assert load_marker_image(tmp_path / "marker.png").ndim == 2
+
+
+def test_a_folder_that_cannot_be_written_is_told_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    monkeypatch.setattr("server.cli.marker.best_design", None)
+    assert typed("design", "--output", tmp_path / "file" / "folder") == (2, "OUTPUT_NOT_WRITABLE")
+
+
 def test_a_background_that_shows_the_marker_fails_the_check(design: Path, tmp_path: Path) -> None:
     marker = design / "marker.png"
     background = folder_with(marker, tmp_path / "images")

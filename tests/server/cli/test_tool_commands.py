@@ -18,6 +18,7 @@ from server.errors import ConfigError
 from server.setup import build_setup
 from tests.real_data import real_data_file
 from tests.tracker.pose.tool.pivoted import AXIS, Hand, pivoted, spun
+from tracker.errors import NavigationError
 from tracker.geometry import Array, Rigid
 from tracker.navigation import ToolInView, navigate
 from tracker.pose import Seen
@@ -260,6 +261,46 @@ def test_what_cannot_be_asked_is_told(tmp_path: Path, pivot_poses: Path, words: 
     config = str(empty_config(tmp_path))
     result = CliRunner().invoke(app, [command, str(pivot_poses), *rest, "--config", config])
     assert getattr(result.exception, "code", "") == code
+
+
+def tracked(folder: Path, poses: Poses, *, side_mm: float) -> Path:
+    """The lines of `coaxial track` that say these poses."""
+    lines = (
+        {
+            "name": "drill",
+            "side_mm": side_mm,
+            "seen": True,
+            "camera_from_marker": {"rotation": rotation.tolist(), "translation_mm": translation.tolist()},
+        }
+        for rotation, translation in zip(poses.rotations, poses.translations_mm, strict=True)
+    )
+    (folder / "tracked.jsonl").write_text("\n".join(map(json.dumps, lines)))
+    return folder / "tracked.jsonl"
+
+
+def test_poses_that_were_tracked_with_another_side_make_no_tool(tmp_path: Path) -> None:
+    lines = tracked(tmp_path, pivoted(Hand(tip_mm=TIP)).poses, side_mm=25.0)
+    file = tmp_path / "t.yaml"
+
+    def refused(*words: str | Path) -> str:
+        result = CliRunner().invoke(
+            app, [*map(str, words), "--config", str(empty_config(tmp_path)), "--output", str(file)]
+        )
+        assert not file.exists()
+        assert isinstance(result.exception, NavigationError)
+        return f"{result.exception.code}: {result.exception.message}"
+
+    said = refused("pivot", lines, "--side-mm", "99")
+    assert said.startswith("TOOL_SIDE_DIFFERS")
+    assert "25 mm" in said
+    assert "99 mm" in said
+    # Where nobody says it, it is the side that they were tracked with.
+    typed("pivot", lines, "--output", file, folder=tmp_path)
+    assert yaml.safe_load(file.read_text())["side_mm"] == 25.0
+    spin = tracked(tmp_path, spun(), side_mm=25.4)
+    answer = CliRunner().invoke(app, ["spin", str(spin), "--tool", str(file)])
+    assert isinstance(answer.exception, NavigationError)
+    assert answer.exception.code == "TOOL_SIDE_DIFFERS"
 
 
 def test_real_poses_are_read_and_fail_the_gate_for_what_they_are(tmp_path: Path) -> None:

@@ -39,6 +39,8 @@ def _with_entry(row: int, column: int, value: float) -> list[list[float]]:
         pytest.param(K, (), (640, 15), "640x15 px", id="fifteen rows"),
         pytest.param(_with_entry(0, 0, 0.0), (), (640, 480), "focal lengths are 0", id="focal length zero"),
         pytest.param(_with_entry(1, 1, -5.0), (), (640, 480), "and -5 px", id="focal length negative"),
+        pytest.param(_with_entry(0, 0, 5.0), (), (640, 480), "at least 64 px", id="wider than any lens sees"),
+        pytest.param(_with_entry(0, 2, 32e3), (), (640, 480), "49.5 image sizes", id="centre far outside"),
         pytest.param(_with_entry(0, 1, 0.5), (), (640, 480), "is not", id="skew"),
         pytest.param(_with_entry(1, 0, 0.5), (), (640, 480), "is not", id="below the diagonal"),
         pytest.param(_with_entry(2, 2, 2.0), (), (640, 480), "is not", id="last row not 0 0 1"),
