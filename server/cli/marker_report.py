@@ -163,8 +163,8 @@ def _sentences(report: Report) -> list[str]:
             else "SOMETHING REACHES ALL THAT IS ACCEPTED."
         ),
         "Pose where it is 27 px wide, tilted by 30°, the best any method can do at ordinary noise: "
-        f"tilt {precision.tilt_sd_deg:.2f}° ({precision.tilt_gain:.1f} times surer than a plain square), distance "
-        f"{100 * precision.distance_sd_ratio:.2f} % ({precision.distance_gain:.1f} times).",
+        f"tilt {precision.tilt_sd_deg:.2f}° ({precision.tilt_gain:.1f} times surer than a plain square), "
+        f"distance {100 * precision.distance_sd_ratio:.2f} % ({precision.distance_gain:.1f} times).",
     ]
     if judgement.search.claims:
         sentences.append(
