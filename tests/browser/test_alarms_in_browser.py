@@ -39,6 +39,8 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     arm(page)
     # On a slow machine nobody armed a sound for so long that this was an alarm.
     band(page, "none", "normal")
+    # Its sound stops a moment after its band is gone.
+    page.wait_for_function("() => !window.heard.some(one => one.loop) || window.heard.at(-1) === 'stopped'")
     page.evaluate("window.heard = []")
     theatre.tell("deep")
     band(page, "high")
