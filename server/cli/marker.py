@@ -58,21 +58,21 @@ def design_marker(order: DesignOrder, *, as_json: bool) -> int:
             "Use letters, digits, - and _ with --name, at most 40, a letter or digit first.",
             {"name": order.name},
         )
-    _refuse_replacing(order)
+    _refuse_output(order)
     settings = ScoreSettings()
     with shown_steps() as steps:
         film = (
             None if order.background is None else film_of(order.background, images=order.images, steps=steps)
         )
         design = _designed(order, film, settings, steps)
-    files = _write(design, order)
+    _write(design, order)
     report = Report(
         name=order.name,
         side_mm=order.side_mm,
         judgement=design.judgement,
         settings=settings,
         film=film,
-        files=tuple(str(file) for file in files),
+        files=tuple(map(str, order.files)),
         made={"seed": order.seed, "proposals": order.proposals},
     )
     if as_json:
@@ -82,7 +82,7 @@ def design_marker(order: DesignOrder, *, as_json: bool) -> int:
         typer.echo(
             f"Wrote {', '.join(report.files)}.\n"
             "Print the PDF at 100 %, measure its rulers and the square, and track it with\n"
-            f"  --marker {files[2]} --side-mm {order.side_mm:g}   (or the side that you measured)"
+            f"  --marker {report.files[2]} --side-mm {order.side_mm:g}   (or the side that you measured)"
         )
         if not design.judgement.unique:
             typer.echo("Try more --proposals or another --seed: something still comes too close.")
@@ -131,8 +131,8 @@ def check_marker(
     return 0 if judgement.unique else FAILED
 
 
-def _refuse_replacing(order: DesignOrder) -> None:
-    """Before the work: a marker that was printed must stay the one that is tracked."""
+def _refuse_output(order: DesignOrder) -> None:
+    """Before the work: a printed marker must stay the one that is tracked, and files need a place."""
     there = [str(file) for file in order.files if file.exists()]
     if there and not order.replace:
         raise InvalidInput(
@@ -166,14 +166,12 @@ def _proposed(order: DesignOrder, steps: Steps) -> Iterator[Shape]:
         yield shape
 
 
-def _write(design: Design, order: DesignOrder) -> tuple[Path, Path, Path]:
-    """SVG, PDF and model image."""
+def _write(design: Design, order: DesignOrder) -> None:
     sheet = marker_sheet(design.shape, side_mm=order.side_mm, name=order.name)
     svg, pdf, png = order.files
     write_whole(svg, svg_from_sheet(sheet).encode())
     write_whole(pdf, pdf_from_sheet(sheet))
     write_whole(png, _png(design.model.image))
-    return svg, pdf, png
 
 
 def _png(image: npt.NDArray[np.uint8]) -> bytes:

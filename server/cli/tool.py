@@ -88,8 +88,7 @@ def calibrate_axis(order: TipOrder, *, as_json: bool) -> int:
             f"{order.output} would have an axis and no tip",
             "Find the tip first with 'coaxial pivot --output FILE', then give that file with --tool.",
         )
-    files = read_poses(order.poses, unit=Unit(order.unit), marker=_marker_name(order, tool))
-    _refuse_another_side(files, None if tool is None else tool.side_mm, order.poses)
+    files = _poses_of(order, tool)
     gate = _gate(config)
     found = spin_calibration(files.poses, tip_in_marker_mm=_tip(order, tool), gate=gate)
     failures = found.failures(gate)
@@ -116,8 +115,7 @@ def check_tool_tip(order: TipOrder, *, as_json: bool) -> int:
             "there is no tip to check",
             "Give the tool's file with --tool FILE, or its tip with --tip-mm X,Y,Z.",
         )
-    files = read_poses(order.poses, unit=Unit(order.unit), marker=_marker_name(order, tool))
-    _refuse_another_side(files, None if tool is None else tool.side_mm, order.poses)
+    files = _poses_of(order, tool)
     gate = _gate(config)
     found = check_tip(files.poses, tip, gate)
     return _answered(check_report(found, found.failures(gate), files, gate), as_json=as_json)
@@ -157,6 +155,13 @@ def _marker_of(order: PivotOrder, files: PoseFiles, config: Config) -> ToolMarke
             f"a marker '{name}' of {side_mm:g} mm cannot be used",
             "Names are letters, digits, - and _, at most 40; sides are over 0 and at most 1000 mm.",
         ) from None
+
+
+def _poses_of(order: TipOrder, tool: ToolFile | None) -> PoseFiles:
+    """The poses of the tool's marker, tracked with its side."""
+    files = read_poses(order.poses, unit=Unit(order.unit), marker=_marker_name(order, tool))
+    _refuse_another_side(files, None if tool is None else tool.side_mm, order.poses)
+    return files
 
 
 def _refuse_another_side(files: PoseFiles, side_mm: float | None, path: Path) -> None:

@@ -132,7 +132,6 @@ class _Summary:
         self._seen: dict[str, int] = {}
         self._reasons: dict[str, Counter[str]] = defaultdict(Counter)
         self._whole_ms: list[float] = []
-        self._calibrated = True
         self._times: dict[str, list[float]] = defaultdict(list)
         self._setup: Setup | None = None
         self._tracker: Tracker | None = None
@@ -153,7 +152,7 @@ class _Summary:
             self._seen[name] = self._seen.get(name, 0) + isinstance(sighting, Seen)
             if isinstance(sighting, Unseen):
                 self._reasons[name][sighting.reason.value] += 1
-        calibrated = self._calibrated = self._setup.camera_calibrated
+        calibrated = self._setup.camera_calibrated
         sides_mm = {model.name: model.side_mm for model in self._tracker.models}
         return [
             {
@@ -176,7 +175,8 @@ class _Summary:
             f", {stage} {statistics.median(ms):.1f}{'' if len(ms) == self._images else f' in {len(ms)}'}"
             for stage, ms in self._times.items()
         )
-        blind = "" if self._calibrated else "; no millimetres, as no camera file was given (--camera)"
+        calibrated = self._setup is None or self._setup.camera_calibrated
+        blind = "" if calibrated else "; no millimetres, as no camera file was given (--camera)"
         return f"{self._images} images: {seen or 'nothing'}; median ms: {whole}{times}{blind}"
 
     def _why_not(self, name: str) -> str:

@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 # `make benchmark` measures with other seeds.
 SEED = 500
+# No error is ten times what is stated: the pose of the wrong planar solution would be hundreds of times.
+WORST_SD2 = 100.0
 
 
 class Level(NamedTuple):

@@ -10,7 +10,7 @@ from tests.benchmarks.limits.finders import Searchers
 from tests.benchmarks.limits.judging import COVERED, Judged, Outcome
 from tests.benchmarks.scenes.conditions import conditions_of
 from tests.benchmarks.scenes.rigs import RIGS
-from tests.tracker.levels import SEED, Level
+from tests.tracker.levels import SEED, WORST_SD2, Level
 
 SCENES = {"A": 24, "B": 15}
 
@@ -52,8 +52,6 @@ MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
 COVERED_LEAST = Level(0.92, 0.92)
 # Median of their squares in units of what is stated: 2.37 if it were exactly true, less where it is too wide.
 TYPICAL_SD2 = Level(0.9, 1.7)
-# No error is ten times what is stated: the pose of the wrong planar solution would be hundreds of times.
-WORST_SD2 = 100.0
 COVERED_IN = (("A", "base"), ("A", "noise8"), ("A", "motion4"), ("B", "base"), ("B", "noise8"))
 # A share of so few images is that far off by chance, two standard deviations of 0.95.
 COVERED_CHANCE = 0.045

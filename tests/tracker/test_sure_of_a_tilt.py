@@ -14,13 +14,12 @@ from tests.benchmarks.scenes.faces import FACES, Face
 from tests.benchmarks.scenes.placing import posed, scene_at
 from tests.benchmarks.scenes.rigs import Rig
 from tests.benchmarks.scenes.scene import Pose, Scene, image_of
+from tests.tracker.levels import WORST_SD2
 from tracker import Sighting, Tracker
 from tracker.geometry import Rigid, rotation_from_vector
 
 RIG = Rig(name="small image", size_wh_px=(448, 336), focal_px=1028.0, depth_mm=(300.0, 1600.0))
 SIDES_PX = (16.0, 20.0, 24.0, 27.0, 32.0, 40.0, 60.0, 80.0)
-# As elsewhere: no error is ten times what is stated.
-WORST_SD2 = 100.0
 COVER_GREYS = (15, 50, 110, 175, 205)
 
 Image = npt.NDArray[np.uint8]
