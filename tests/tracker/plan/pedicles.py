@@ -60,8 +60,8 @@ def rod_between_blocks(
     return hu_at
 
 
-def scanned(hu_at: HuAt, *, spacing_mm: tuple[float, float, float], noise_hu: float) -> Volume:
-    return scan(
-        hu_at,
-        ScanGrid.around((0.0, -8.0, 0.0), size_mm=(60, 90, 40), spacing_mm=spacing_mm, noise_hu=noise_hu),
+def scanned(hu_at: HuAt, *, spacing_mm: tuple[float, float, float], noise_hu: float, seed: int = 1) -> Volume:
+    grid = ScanGrid.around(
+        (0.0, -8.0, 0.0), size_mm=(60, 90, 40), spacing_mm=spacing_mm, noise_hu=noise_hu, seed=seed
     )
+    return scan(hu_at, grid)

@@ -96,21 +96,25 @@ def test_random_phantoms_on_both_sides(seed: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("rod_hu", "block_hu", "around_hu", "spacing"),
+    ("rod_hu", "block_hu", "around_hu", "spacing", "seed"),
     [
-        pytest.param(800.0, 800.0, 0.0, (0.8, 0.8, 1.2), id="one-material"),
-        pytest.param(800.0, 300.0, 0.0, (0.8, 0.8, 1.2), id="softer-blocks"),
-        pytest.param(350.0, 350.0, -1000.0, (0.8, 0.8, 0.8), id="faint-rod-in-air"),
+        pytest.param(800.0, 800.0, 0.0, (0.8, 0.8, 1.2), 1, id="one-material"),
+        pytest.param(800.0, 300.0, 0.0, (0.8, 0.8, 1.2), 1, id="softer-blocks"),
+        # Walls that stand so high above what is around them take a fit many steps.
+        *(
+            pytest.param(350.0, 350.0, -1000.0, (0.8, 0.8, 0.8), seed, id=f"faint-rod-in-air-{seed}")
+            for seed in (1, 2, 6, 8)
+        ),
     ],
 )
 def test_a_solid_rod_without_cortex_is_measured_too(
-    rod_hu: float, block_hu: float, around_hu: float, spacing: tuple[float, float, float]
+    rod_hu: float, block_hu: float, around_hu: float, spacing: tuple[float, float, float], seed: int
 ) -> None:
     axis = axis_from_angles("left", transverse_deg=12.0, sagittal_deg=7.0)
     field = rod_between_blocks(
         width_mm=8.0, height_mm=12.0, axis=axis, rod_hu=rod_hu, block_hu=block_hu, around_hu=around_hu
     )
-    volume = scanned(field, spacing_mm=spacing, noise_hu=15.0)
+    volume = scanned(field, spacing_mm=spacing, noise_hu=15.0, seed=seed)
     measure = measure_pedicle(volume, (0.5, 1.0, -1.0), "left")
     truth = PedicleTruth(
         width_mm=8.0, height_mm=12.0, isthmus_lps_mm=np.zeros(3), axis_lps=axis, length_mm=measure.length_mm

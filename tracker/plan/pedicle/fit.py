@@ -15,7 +15,9 @@ from tracker.plan.pedicle.search import Bar
 LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
 # The rounds that only find the place need fewer voxels than the one that tells the numbers.
 MOST_VOXELS = (900, 1200, 3500)
-MOST_STEPS = (8, 10, 20)
+# Bone that is not like the bar pulls it away in many steps: the first rounds are kept short. What is like it may
+# need so many more of the first to be explained, as where its walls stand high above what is around them.
+MOST_STEPS, MORE_STEPS = (8, 10, 20), 80
 # Where the narrowest place is still so far from the window's middle, the window is moved there once more.
 SETTLED, MORE_ROUNDS, LEAST_WAIST = 0.15, 2, 0.02
 # Only where bone is like the bar; where it is not, a window that wanders settles on what joins it.
@@ -73,9 +75,11 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
         if len(samples.hu) < LEAST_VOXELS:
             break
         slopes = _HELD_SLOPES if held else _coarse_slopes(bar, axis, left, up, half)
-        parameters, covariance, residual, done = _solve(
-            near, samples, parameters, slopes, MOST_STEPS[round_number]
-        )
+        solved = _solve(near, samples, parameters, slopes, MOST_STEPS[round_number])
+        if fitted is None and _misfit_ratio(near, solved[2]) > MOST_MISFIT_RATIO:
+            ended = _solve(near, samples, solved[0], slopes, MORE_STEPS)
+            solved = ended if _misfit_ratio(near, ended[2]) <= MOST_MISFIT_RATIO else solved
+        parameters, covariance, residual, done = solved
         fitted = FittedBar(
             origin_mm=origin,
             axis=axis,
