@@ -7,6 +7,7 @@ import numpy as np
 
 from tracker.appearance.equations.kernels import EVEN
 from tracker.appearance.fit import CUT, PIXEL_PX2, Fitted, all_again, cost_of, fitted, in_question
+from tracker.appearance.inside import by_inside
 from tracker.appearance.kernels import scores_spread
 from tracker.appearance.light.fields.kernels import PLAIN, band_of, fields_first, typical_contrast
 from tracker.appearance.light.kernels import BLUR, RESPONSE
@@ -116,24 +117,36 @@ def whole_fits(
 
     step = max(1, int(np.ceil(side_px / WIDEST_PX)))
     focus = np.array([1.0, 1.0, 0.0]) * (FOCUS_PX2 + step * step * PIXEL_PX2)
-    one: Fitted | None = None
-    # It is the light of one pose: of two, it would speak for that one.
-    if known is not None and len(starts) == 1:
-        wide = _wide(known.numbers, focus)
-        seen = chosen(focus if wide is None else wide)
-        one = in_known_light(seen, starts[0].rotation, starts[0].translation_mm, known)
-    done = [] if one is None else [one]
-    if not done:
-        known = None
-        seen, done = _anew(chosen, starts, focus, noise_grey)
+    before = _in_light_before(chosen, starts, focus, known)
+    seen, done = before or _anew(chosen, starts, focus, noise_grey)
     if not done:
         return []
+    rotations = [start.rotation for start in starts]
+    inside = by_inside(seen, done, rotations, side_px=side_px, noise_grey=noise_grey)
+    if inside is not None:
+        seen, done = inside
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
     is_wide = _wide(done[0].numbers, focus) is not None
-    of_all = (is_wide, covered_at is not None, known)
+    of_all = (is_wide, covered_at is not None, None if before is None else known)
     records = (_record(seen, one, cost, *of_all) for one, cost in zip(done, costs, strict=True))
     return [one for one in records if one is not None]
+
+
+def _in_light_before(
+    chosen: Callable[[Array], Samples],
+    starts: list[Rigid[Camera, Marker]],
+    focus_px2: Array,
+    known: KnownLight | None,
+) -> tuple[Samples, list[Fitted]] | None:
+    """Pixels and the fit to them in the uneven light of the image before; None where it does not serve."""
+    # It is the light of one pose: of two, it would speak for that one.
+    if known is None or len(starts) != 1:
+        return None
+    wide = _wide(known.numbers, focus_px2)
+    seen = chosen(focus_px2 if wide is None else wide)
+    one = in_known_light(seen, starts[0].rotation, starts[0].translation_mm, known)
+    return None if one is None else (seen, [one])
 
 
 def _anew(

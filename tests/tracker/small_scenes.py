@@ -1,0 +1,58 @@
+"""Scenes of a small image with one marker in it, and how sure of a wrong pose the tracker is in each."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from tests.benchmarks.limits.judging import Judged, Outcome, claim_of, judged
+from tests.benchmarks.scenes.faces import FACES, Face
+from tests.benchmarks.scenes.placing import posed
+from tests.benchmarks.scenes.rigs import Rig
+from tests.benchmarks.scenes.scene import Pose, Scene
+from tracker import Sighting, Tracker
+
+RIG = Rig(name="small image", size_wh_px=(448, 336), focal_px=1028.0, depth_mm=(300.0, 1600.0))
+SIDES_PX = (16.0, 20.0, 24.0, 27.0, 32.0, 40.0, 60.0, 80.0)
+COVER_GREYS = (15, 50, 110, 175, 205)
+
+Image = npt.NDArray[np.uint8]
+Shown = Iterator[tuple[Scene, Sighting]]
+Trackers = Mapping[str, Tracker]
+
+
+def trackers_by_face() -> Trackers:
+    return {face.name: Tracker(camera=RIG.camera, models=[face.model]) for face in FACES}
+
+
+def pose_of(random: np.random.Generator, side_px: float, tilt_deg: tuple[float, float]) -> Pose:
+    """Somewhere in the image with all its paper, about so wide."""
+    edge = 1.1 * side_px + 15.0
+    at_px = random.uniform([edge, edge], np.array(RIG.size_wh_px) - edge)
+    return posed(
+        RIG.sight_through(at_px) * RIG.focal_px * 25.0 / side_px,
+        tilt_deg=random.uniform(*tilt_deg),
+        about_deg=random.uniform(0.0, 360.0),
+        roll_deg=random.uniform(-180.0, 180.0),
+    )
+
+
+def judged_by_seed(
+    shown: Callable[[int, Face, Trackers], Shown], seeds: Iterable[int], trackers: Trackers
+) -> list[tuple[int, Judged]]:
+    """What became of each image, with its scene's seed; nothing is claimed where no marker is."""
+    found = []
+    for seed in seeds:
+        for scene, sighting in shown(seed, FACES[seed % len(FACES)], trackers):
+            one = judged(scene, claim_of(sighting))
+            assert one.outcome is not Outcome.WRONG
+            found.append((seed, one))
+    return found
+
+
+def worst_by_seed(found: list[tuple[int, Judged]], *, over_sd2: float) -> dict[int, float]:
+    """The worst squared error in units of what is stated, by seed, where it is over this."""
+    worst: dict[int, float] = {}
+    for seed, one in found:
+        worst[seed] = max(worst.get(seed, 0.0), *one.stated_sd2, 0.0)
+    return {seed: sd2 for seed, sd2 in worst.items() if sd2 > over_sd2}
