@@ -1,5 +1,6 @@
 """The stages of the tracker in order: a grey image, candidates, gradient, fit, score, judgement."""
 
+from tracker.pipeline.image import is_same_image
 from tracker.pipeline.tracker import Tracker
 
-__all__ = ["Tracker"]
+__all__ = ["Tracker", "is_same_image"]

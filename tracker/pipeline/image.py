@@ -13,6 +13,33 @@ from tracker.pose import Pixels
 from tracker.regions import noise_grey
 
 PIXELS_FOR_NOISE = 125_000
+# One pixel in so many each way tells nearly always that an image is another one.
+TELLING_STRIDE = 16
+
+
+def is_same_image(one: npt.NDArray[np.uint8], other: npt.NDArray[np.uint8]) -> bool:
+    """Whether two images, (h, w) or (h, w, 3), are equal in each pixel; other sizes are other images."""
+    few = slice(None, None, TELLING_STRIDE)
+    return np.array_equal(one[few, few], other[few, few]) and np.array_equal(one, other)
+
+
+class LastImage:
+    """The image before, to know one that comes again: of a frozen camera, or of one slower than its card."""
+
+    def __init__(self) -> None:
+        self._grey: GreyImage | None = None
+
+    def is_again(self, grey: GreyImage) -> bool:
+        """Whether this image is the one of the last call, pixel by pixel; it is kept for the next."""
+        last = self._grey
+        if last is None:
+            # The caller may write over its own.
+            self._grey = grey.copy()
+            return False
+        if is_same_image(last, grey):
+            return True
+        np.copyto(last, grey)
+        return False
 
 
 def grey_of(image: npt.NDArray[np.uint8], *, size_wh_px: tuple[int, int]) -> GreyImage:

@@ -18,7 +18,7 @@ from tracker.marker import (
     templates_of,
 )
 from tracker.pipeline.fitter import Fitter
-from tracker.pipeline.image import grey_of, pixels_of
+from tracker.pipeline.image import LastImage, grey_of, pixels_of
 from tracker.pipeline.look_out import LookOut
 from tracker.pipeline.practice import practice_picture
 from tracker.pipeline.search import Search
@@ -62,6 +62,7 @@ class Tracker:
         for model in self.models:
             # Made when they are first asked for: now, not when the marker is first in doubt.
             pictures_of(model.square)
+        self._last_image = LastImage()
         self._stages = Stages(clock)
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
         self._look_out = LookOut(self._search_of)
@@ -86,7 +87,8 @@ class Tracker:
 
         A marker that was seen is looked for where it is expected; one that is not there is searched for in
         the whole of the same image. A marker that was not seen while others are costs a part of a search:
-        it may come into view for a fraction of a second before it is found.
+        it may come into view for a fraction of a second before it is found. An image that comes again, as
+        of a frozen camera, says the same again, and makes nothing surer.
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
@@ -98,9 +100,10 @@ class Tracker:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         pixels = self._pixels(image)
+        is_again = self._last_image.is_again(pixels.image)
         seen: dict[str, Sighting] = {}
         for model in self.models:
-            sighting = self._track(pixels, model, captured_at_s)
+            sighting = self._track(pixels, model, captured_at_s, is_again=is_again)
             if isinstance(sighting, Seen):
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
@@ -115,7 +118,7 @@ class Tracker:
         seen |= self._look_out.look(pixels, [model for model in missing if model.name not in lost_names])
         seen = one_for_each_place(seen)
         for name, prior in self._priors.items():
-            prior.learn(seen[name], captured_at_s)
+            prior.learn(seen[name], captured_at_s, is_again=is_again)
         self.stage_ms = self._stages.taken_ms
         return {model.name: seen[model.name] for model in self.models}
 
@@ -139,9 +142,11 @@ class Tracker:
         self._stages.end("grey")
         return pixels_of(grey, self._textures)
 
-    def _track(self, pixels: Pixels, model: MarkerModel, captured_at_s: float) -> Sighting | None:
+    def _track(
+        self, pixels: Pixels, model: MarkerModel, captured_at_s: float, *, is_again: bool
+    ) -> Sighting | None:
         """The marker where it is expected; None when nothing is expected there."""
-        expected = self._expected(model, captured_at_s)
+        expected = self._priors[model.name].expected(captured_at_s, is_again=is_again)
         return None if expected is None else self._fitter.near(pixels, model, expected, found_by="track")
 
     def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:

@@ -26,17 +26,24 @@ KEPT_LEAD_RATIO, MOST_LEAD_SD2 = 0.9, 25.0
 
 @dataclass(slots=True)
 class Prior:
-    """A marker's last pose, how sure it is, its light and its motion. Mutable: the tracker's window."""
+    """A marker's last pose, how sure it is, its light and its motion. Mutable: the tracker's window.
+
+    `lead_before_sd2` is what the images before the last one spoke for.
+    """
 
     pose: Rigid[Camera, Marker] | None = None
     lead_sd2: float = 0.0
+    lead_before_sd2: float = 0.0
     light: KnownLight | None = None
     at_s: float = 0.0
     velocity_mm_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
     turning_rad_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
-    def expected(self, at_s: float) -> Expected | None:
-        """Where the marker should be at this time; None when nobody can know."""
+    def expected(self, at_s: float, *, is_again: bool = False) -> Expected | None:
+        """Where the marker should be at this time; None when nobody can know.
+
+        `is_again`: the image is the last one once more: it has no say in what to expect of itself.
+        """
         ahead = at_s - self.at_s
         if self.pose is None or not 0.0 < ahead <= LONGEST_AHEAD_S:
             return None
@@ -50,12 +57,17 @@ class Prior:
             rotation=pose.rotation,
             translation_mm=pose.translation_mm,
             rival=other_solution(pose),
-            lead_sd2=self.lead_sd2,
+            lead_sd2=self.lead_before_sd2 if is_again else self.lead_sd2,
             light=self.light,
         )
 
-    def learn(self, sighting: Sighting, at_s: float) -> None:
-        """Take in what an image said; a marker that is not seen for a while is forgotten."""
+    def learn(self, sighting: Sighting, at_s: float, *, is_again: bool = False) -> None:
+        """Take in what an image said; a marker that is not seen for a while is forgotten.
+
+        From an image that comes again (`is_again`), nothing is learnt of a marker that was seen in it.
+        """
+        if is_again and isinstance(sighting, Seen) and self.expected(at_s) is not None:
+            return
         if not isinstance(sighting, Seen):
             if not 0.0 < at_s - self.at_s <= LONGEST_UNSEEN_S:
                 self.pose = None
@@ -77,4 +89,5 @@ class Prior:
                 self.turning_rad_s = turned / interval
         self.pose, self.at_s = sighting.camera_from_marker, at_s
         self.light = sighting.light
+        self.lead_before_sd2 = self.lead_sd2 if sighting.found_by == "track" else 0.0
         self.lead_sd2 = min(KEPT_LEAD_RATIO * sighting.lead_sd2, MOST_LEAD_SD2)

@@ -1,0 +1,71 @@
+"""Images that come again: from a frozen camera, or a card that gives each of a slower camera's twice."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from tests.benchmarks.scenes.conditions import BASE
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.placing import scene_at
+from tests.benchmarks.scenes.scene import image_of as scene_image_of
+from tests.tracker.pipeline.stepped import image_of, off_px, pose_of, tracker_of
+from tests.tracker.scenes import seen
+from tests.tracker.small_scenes import RIG, SIDES_PX, Image, trackers_by_face
+from tests.tracker.small_scenes import pose_of as somewhere
+from tracker import Tracker
+from tracker.pipeline.image import LastImage
+from tracker.pose.rivals import DECIDED_COST
+
+FACE = FACES[0]
+
+
+def leads_of(tracker: Tracker, images: Iterable[Image], *, from_s: float = 0.0) -> list[float]:
+    said = (tracker.step(image, captured_at_s=from_s + k / 60.0) for k, image in enumerate(images))
+    return [seen(sightings[FACE.name]).lead_sd2 for sightings in said]
+
+
+def images_of(seed: int, *, count: int) -> list[Image]:
+    """Of a small marker that nearly faces the camera, and does not move."""
+    random = np.random.default_rng([seed, 5])
+    pose = somewhere(random, float(random.choice(SIDES_PX[:4])), (1.0, 10.0))
+    return [
+        scene_image_of(scene_at(RIG, FACE, BASE, (pose,), seed=seed, image_number=k)) for k in range(count)
+    ]
+
+
+def test_a_frozen_camera_makes_no_doubtful_pose_surer_and_a_live_one_does() -> None:
+    tracker = trackers_by_face()[FACE.name]
+    frozen_surer, live_surer, doubtful = 0, 0, 0
+    for seed in range(40):
+        live = images_of(seed, count=10)
+        frozen_leads = leads_of(tracker, live[:1] * 10, from_s=20.0 * seed)
+        # The first is searched for; what is tracked from there on says the same again and again.
+        if frozen_leads[1] >= DECIDED_COST:
+            continue
+        doubtful += 1
+        frozen_surer += max(frozen_leads[2:]) > frozen_leads[1] + 1e-6
+        live_surer += leads_of(tracker, live, from_s=20.0 * seed + 10.0)[-1] > frozen_leads[1] + 5.0
+    assert doubtful > 15
+    assert frozen_surer == 0
+    assert live_surer > 8
+
+
+def test_the_speed_of_a_marker_is_told_by_its_images_and_not_by_their_repetitions() -> None:
+    tracker, found_by = tracker_of(), []
+    for k in range(14):
+        # Nine pixels in each new image: over the reach, unless its speed is known.
+        pose = pose_of((120.0 + 9 * (k // 2), 150.0))
+        found = seen(tracker.step(image_of(pose, seed=k // 2), captured_at_s=k / 60.0)["code"])
+        assert off_px(found, pose) < 0.3
+        found_by.append(found.found_by)
+    assert found_by[4:] == ["track"] * 10
+
+
+def test_one_pixel_makes_another_image() -> None:
+    last, image = LastImage(), np.full((48, 64), 90, np.uint8)
+    assert not last.is_again(image)
+    assert last.is_again(image)
+    # The caller writes the next image over this one.
+    image[5, 7] += 1
+    assert not last.is_again(image)
+    assert last.is_again(image.copy())
