@@ -6,6 +6,7 @@ from collections import deque
 
 import structlog
 
+from server.capture.frozen import SameImage
 from server.capture.shot import Shot, Source
 from server.errors import CaptureError
 from server.live import SourceState, SourceStatus, Trouble
@@ -13,6 +14,8 @@ from server.live import SourceState, SourceStatus, Trouble
 # Half a second to knock and this to wait: a source that is back is found within a second.
 RETRY_AFTER_S = 0.3
 STALLED_AFTER_S = 2.0
+# A card may give each image of a slower camera more than once; the same one for longer is no live image.
+FROZEN_AFTER_S = 0.25
 RATE_WINDOW_S = 1.0
 
 log = structlog.get_logger(__name__)
@@ -21,7 +24,8 @@ log = structlog.get_logger(__name__)
 class Capture:
     """The newest image of a source, which is opened again by itself whenever it fails.
 
-    Nothing is queued: an image that was not taken before the next one came is skipped, and counted.
+    Nothing is queued: an image that was not taken before the next one came is skipped, and counted. Of a
+    camera that gives the same image again and again, nothing is handed on after `FROZEN_AFTER_S`.
     """
 
     def __init__(self, source: Source, *, stop: threading.Event, taken_before: int = 0) -> None:
@@ -31,6 +35,7 @@ class Capture:
         self._newest: Shot | None = None
         self._state = SourceState.OPENING
         self._trouble: Trouble | None = None
+        self._same = SameImage()
         self._told: tuple[str, str] | None = None
         self._failed_at_s: float | None = None
         self._is_open = False
@@ -128,7 +133,28 @@ class Capture:
             if shot is None:
                 self._end()
                 return
-            self._hand_over(shot)
+            if not self._is_frozen(shot):
+                self._hand_over(shot)
+
+    def _is_frozen(self, shot: Shot) -> bool:
+        """Whether the source gives an old image as if it were live.
+
+        Raises:
+            CaptureError: SOURCE_FROZEN: for so long that it is opened again.
+        """
+        if not self._source.stalls or self._same.for_s(shot) <= FROZEN_AFTER_S:
+            return False
+        with self._change:
+            silent_s = shot.captured_at_s - self._alive_at_s
+        if silent_s > STALLED_AFTER_S:
+            raise CaptureError(
+                "SOURCE_FROZEN",
+                f"the source {self._source.name} gave the same image for {STALLED_AFTER_S:g} s",
+                "Restart the camera, or what stands between it and this machine, and check its cable; it is "
+                "opened again by itself.",
+                {"source": self._source.name, "limit_s": STALLED_AFTER_S},
+            )
+        return True
 
     def _hand_over(self, shot: Shot) -> None:
         defect = self._source.defect

@@ -17,9 +17,9 @@ from server.live import SourceState
 from tracker.rehearsal import Event, EventKind
 
 
-def shot(number: int) -> Shot:
-    image = np.full((4, 6, 3), number % 256, dtype=np.uint8)
-    now_s = time.monotonic()
+def shot(number: int, *, grey: int | None = None, at_s: float | None = None) -> Shot:
+    image = np.full((4, 6, 3), number % 256 if grey is None else grey, dtype=np.uint8)
+    now_s = time.monotonic() if at_s is None else at_s
     return Shot(image=image, number=number, captured_at_s=now_s, source_time_s=now_s)
 
 
@@ -154,6 +154,51 @@ def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.
     assert status.trouble.code == "SOURCE_STALLED"
     stop.set()
     source.told.put(None)
+
+
+def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
+    source, stop = ToldSource(stalls=True), threading.Event()
+    capture = Capture(source, stop=stop)
+    began_s = time.monotonic()
+    # Each image twice, as of a slower camera; then one for ever.
+    greys = [1, 1, 2, 2, *[3] * 40]
+    for number, grey in enumerate(greys):
+        source.told.put(shot(number, grey=grey, at_s=began_s + 0.1 * number))
+    with capture_logs() as logs:
+        capture.start()
+        until(lambda: source.opened == 2)
+        status = capture.status()
+        # It came first as the fifth; after a quarter of a second it is old.
+        assert status.images == 7
+        assert status.state is SourceState.RECONNECTING
+        assert status.trouble is not None
+        assert status.trouble.code == "SOURCE_FROZEN"
+        # No more of it after the source was opened again; the next new image is live.
+        until(source.told.empty)
+        assert capture.status().images == 7
+        source.told.put(shot(99))
+        until(lambda: capture.status().state is SourceState.RUNNING)
+        assert capture.status().images == 100
+    stop.set()
+    source.told.put(None)
+    capture.close()
+    assert [line["event"] for line in logs if line["log_level"] == "warning"] == [
+        "the source told gave the same image for 2 s"
+    ]
+
+
+def test_a_folder_or_a_film_may_show_the_same_image_for_long() -> None:
+    source, stop = ToldSource(), threading.Event()
+    capture = Capture(source, stop=stop)
+    began_s = time.monotonic()
+    for number in range(40):
+        source.told.put(shot(number, grey=7, at_s=began_s + 0.1 * number))
+    capture.start()
+    until(lambda: capture.status().images == 40)
+    assert capture.status().state is SourceState.RUNNING
+    stop.set()
+    source.told.put(None)
+    capture.close()
 
 
 class Numbered:

@@ -1,5 +1,6 @@
 """Network streams, against a small MJPEG server that is stopped and started again."""
 
+import itertools
 import socket
 import threading
 from collections.abc import Iterator
@@ -49,14 +50,17 @@ class _Handler(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         server = self.server
         assert isinstance(server, MjpegServer)
-        content = cv2.imencode(".jpg", grey_image(100))[1].tobytes()
-        head = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n" % len(content)
+        # One that does not change would be a frozen camera's.
+        contents = [cv2.imencode(".jpg", grey_image(grey))[1].tobytes() for grey in (99, 101)]
+        head = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
         self.send_response(200)
         self.send_header("Content-Type", "multipart/x-mixed-replace; boundary=x")
         self.end_headers()
         try:
-            while not server.ended.wait(0.03):
-                self.wfile.write(head + content + b"\r\n")
+            for content in itertools.cycle(contents):
+                if server.ended.wait(0.03):
+                    break
+                self.wfile.write(head % len(content) + content + b"\r\n")
         except OSError:
             pass
 

@@ -15,8 +15,8 @@ from tracker.plan.pedicle.search import Bar
 LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
 # The rounds that only find the place need fewer voxels than the one that tells the numbers.
 MOST_VOXELS = (900, 1200, 3500)
-# Bone that is not like the bar pulls it away in many steps: the first rounds are kept short. What is like it may
-# need so many more of the first to be explained, as where its walls stand high above what is around them.
+# Bone that is not like the bar pulls it away in many steps: the first rounds are kept short. What is like it
+# may need so many more of the first to be explained, as where walls stand high above what is around them.
 MOST_STEPS, MORE_STEPS = (8, 10, 20), 80
 # Where the narrowest place is still so far from the window's middle, the window is moved there once more.
 SETTLED, MORE_ROUNDS, LEAST_WAIST = 0.15, 2, 0.02
