@@ -66,6 +66,9 @@ class FolderSource:
             image = self._decode(file)
             if image is not None:
                 break
+            # It keeps its number and its time: those after it are as late as they are.
+            self._number += 1
+            self._given += 1
         source_time_s = self._given * self._period_s
         if self._pace is not None:
             self._pace.wait_until_due(source_time_s)

@@ -115,7 +115,9 @@ def test_a_bad_image_is_left_out_and_told(tmp_path: Path, stop: threading.Event)
     images = write_images(tmp_path / "f", {"1.png": 10, "3.png": 30})
     (images / "2.png").write_bytes(b"not a picture")
     source = folder(images, stop)
-    assert [round(float(shot.image.mean())) for shot in read_all(source)] == [10, 30]
+    shots = read_all(source)
+    assert [round(float(shot.image.mean())) for shot in shots] == [10, 30]
+    assert [(shot.number, round(shot.source_time_s, 3)) for shot in shots] == [(0, 0.0), (2, 0.2)]
     assert source.defect is not None
     assert source.defect.code == "FOLDER_IMAGE_UNREADABLE"
     assert "2.png" in source.defect.message
