@@ -1,10 +1,10 @@
 """The inside of a marker asked alone: its outline may be trimmed, framed, or covered along a side."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracker.appearance.fit import Fitted, all_again, cost_of, fitted, in_question
+from tracker.appearance.fit import Fitted, all_again, cost_of, fitted
 from tracker.appearance.light.fields.kernels import typical_contrast
 from tracker.appearance.light.kernels import BLUR
 from tracker.appearance.mirrored import with_mirrored
@@ -26,13 +26,32 @@ LEAVES_RATIO, SAY_MORE_RATIO, CONTRADICTS_SD2 = 0.7, 0.04, 60.0
 UNDECIDED_SD2 = 18.0
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ByInside:
+    """What the inside makes of a marker whose outline must not be believed.
+
+    Attributes:
+        seen: the pixels to go by from here on.
+        fits: to them.
+        other: the pose that may as well be true.
+        gap_sd2: by how much the inside speaks against that one, in squared residuals by their variance.
+    """
+
+    seen: Samples
+    fits: list[Fitted]
+    other: Fitted
+    gap_sd2: float
+
+
 def by_inside(
     seen: Samples, fits: list[Fitted], starts: list[Array], *, side_px: float, noise_grey: float
-) -> tuple[Samples, list[Fitted]] | None:
-    """The pixels clear of the outline and the fits to them, where the outline must not be believed.
+) -> ByInside | None:
+    """What the pixels clear of the outline say where the whole marker is not explained.
 
-    That is where the whole is not explained, and the inside either contradicts it and is, or leaves open the
-    other planar solution, which the outline spoke against. Else None.
+    Where they contradict it and are explained alone, they are gone by, and the pose of the whole may as well
+    be true: which of outline and inside is false, nobody knows. Where they leave open the other planar
+    solution, which the outline alone spoke against, the whole is gone by, and that one may as well be true.
+    Else None.
 
     Args:
         seen: the pixels of the whole.
@@ -52,12 +71,15 @@ def by_inside(
     found = [one for one in begun if one is not None]
     if not found:
         return None
-    found = with_mirrored(some, found, starts)
-    is_open = len(fits) == 1 and len(in_question(some, found, UNDECIDED_SD2)) > 1
-    if not is_open and not _contradicts(some, best, min(found, key=lambda one: one.scale_grey)):
+    both = with_mirrored(some, found, starts)
+    if _contradicts(some, best, min(both, key=lambda one: one.scale_grey)):
+        both = both if some is inside else all_again(inside, both)
+        return ByInside(seen=inside, fits=both, other=best, gap_sd2=0.0) if both else None
+    if len(fits) > 1 or len(both) < 2:
         return None
-    found = found if some is inside else all_again(inside, found)
-    return (inside, found) if found else None
+    scale = min(one.scale_grey for one in both)
+    gap = cost_of(some, both[1], scale) - cost_of(some, both[0], scale)
+    return ByInside(seen=seen, fits=fits, other=both[1], gap_sd2=gap) if gap < UNDECIDED_SD2 else None
 
 
 def _contradicts(inside: Samples, whole: Fitted, alone: Fitted) -> bool:

@@ -1,7 +1,7 @@
 """The pose that explains every pixel of a marker: pose, blur, camera response and light fitted together."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,7 +36,7 @@ WIDE_BLUR_RATIO = 4.0
 # So many pixels bring a pose near, some more nearer; all of them then make it exact.
 FEW_PIXELS, SOME_PIXELS = 200, 800
 # The other planar solution is let go when those few pixels speak against it by so much.
-OUT_OF_QUESTION_SD2 = 30.0
+OUT_OF_QUESTION_SD2 = 60.0
 # Errors within one of so many parts a side are taken to be alike: those of a wide blur, or of a shade that
 # something casts beside what it covers, are so over larger parts.
 BLOCKS, LARGE_BLOCKS = 7, 5
@@ -61,6 +61,8 @@ class WholeFit:
         cost_sd2: robust sum of squared residuals in units of the smaller scale of both; 0 of one alone.
         smear_px: length along which motion smeared the marker while the shutter was open; 0 where it did not.
         light: the uneven light that it was found in; None where it is even.
+        other: the pose that may as well be true, where the outline must not be believed; else None.
+        other_gap_sd2: by how much the inside speaks against that one.
     """
 
     camera_from_marker: Rigid[Camera, Marker]
@@ -73,6 +75,8 @@ class WholeFit:
     cost_sd2: float
     smear_px: float
     light: KnownLight | None = None
+    other: Rigid[Camera, Marker] | None = None
+    other_gap_sd2: float = 0.0
 
 
 def whole_fits(
@@ -124,13 +128,17 @@ def whole_fits(
     rotations = [start.rotation for start in starts]
     inside = by_inside(seen, done, rotations, side_px=side_px, noise_grey=noise_grey)
     if inside is not None:
-        seen, done = inside
+        seen, done = inside.seen, inside.fits
     scale = min(one.scale_grey for one in done)
     costs = [cost_of(seen, one, scale) for one in done] if len(done) > 1 else [0.0]
     is_wide = _wide(done[0].numbers, focus) is not None
     of_all = (is_wide, covered_at is not None, None if before is None else known)
     records = (_record(seen, one, cost, *of_all) for one, cost in zip(done, costs, strict=True))
-    return [one for one in records if one is not None]
+    fits = [one for one in records if one is not None]
+    if inside is None:
+        return fits
+    other = _pose_of(inside.other)
+    return [replace(one, other=other, other_gap_sd2=inside.gap_sd2) for one in fits]
 
 
 def _in_light_before(
@@ -235,7 +243,7 @@ def _record(
     smear_px = float(np.sqrt(12.0 * smear_of(one.numbers[BLUR : BLUR + 3])[0]))
     by_blur = OUT_OF_FOCUS_FACTOR if is_wide and smear_px == 0.0 else 1.0
     return WholeFit(
-        camera_from_marker=Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm),
+        camera_from_marker=_pose_of(one),
         covariance=alone * alike * by_light * by_blur,
         alike_ratio=alike,
         scale_grey=one.scale_grey,
@@ -246,3 +254,7 @@ def _record(
         smear_px=smear_px,
         light=known_from(one, known),
     )
+
+
+def _pose_of(one: Fitted) -> Rigid[Camera, Marker]:
+    return Rigid(rotation=nearest_rotation(one.rotation), translation_mm=one.translation_mm)

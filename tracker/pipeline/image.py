@@ -9,12 +9,15 @@ import numpy.typing as npt
 from tracker.appearance import Textures
 from tracker.edges import GreyImage
 from tracker.errors import InvalidInput
+from tracker.geometry import Array
 from tracker.pose import Pixels
 from tracker.regions import noise_grey
 
 PIXELS_FOR_NOISE = 125_000
 # One pixel in so many each way tells nearly always that an image is another one.
 TELLING_STRIDE = 16
+# Of the paper around a marker: all that its pose is told by.
+PATCH_MARGIN_RATIO = 0.2
 
 
 def is_same_image(one: npt.NDArray[np.uint8], other: npt.NDArray[np.uint8]) -> bool:
@@ -23,23 +26,29 @@ def is_same_image(one: npt.NDArray[np.uint8], other: npt.NDArray[np.uint8]) -> b
     return np.array_equal(one[few, few], other[few, few]) and np.array_equal(one, other)
 
 
-class LastImage:
-    """The image before, to know one that comes again: of a frozen camera, or of one slower than its card."""
+class Patch:
+    """The pixels around a marker when it was last seen, to know them when they come again.
+
+    So they do from a frozen camera, also under a clock that goes on, and from one slower than its card.
+    """
 
     def __init__(self) -> None:
+        self._at: tuple[slice, slice] | None = None
         self._grey: GreyImage | None = None
 
     def is_again(self, grey: GreyImage) -> bool:
-        """Whether this image is the one of the last call, pixel by pixel; it is kept for the next."""
-        last = self._grey
-        if last is None:
-            # The caller may write over its own.
-            self._grey = grey.copy()
-            return False
-        if is_same_image(last, grey):
-            return True
-        np.copyto(last, grey)
-        return False
+        """Whether these pixels are all in this image, where they were."""
+        return self._at is not None and self._grey is not None and np.array_equal(grey[self._at], self._grey)
+
+    def keep(self, grey: GreyImage, corners_px: Array) -> None:
+        """Those of this image, around a marker with these corners (4, 2)."""
+        low, high = corners_px.min(axis=0), corners_px.max(axis=0)
+        margin = PATCH_MARGIN_RATIO * (high - low).max()
+        left, top = np.maximum(np.floor(low - margin), 0).astype(int)
+        right, bottom = np.maximum(np.ceil(high + margin), 1).astype(int)
+        self._at = (slice(top, bottom), slice(left, right))
+        # The caller may write over its own.
+        self._grey = grey[self._at].copy()
 
 
 def grey_of(image: npt.NDArray[np.uint8], *, size_wh_px: tuple[int, int]) -> GreyImage:

@@ -18,7 +18,7 @@ from tracker.marker import (
     templates_of,
 )
 from tracker.pipeline.fitter import Fitter
-from tracker.pipeline.image import LastImage, grey_of, pixels_of
+from tracker.pipeline.image import Patch, grey_of, pixels_of
 from tracker.pipeline.look_out import LookOut
 from tracker.pipeline.practice import practice_picture
 from tracker.pipeline.search import Search
@@ -59,10 +59,10 @@ class Tracker:
         self._templates = templates_of(self.models)
         self._textures = {model.name: textures_of(model.square) for model in self.models}
         self._priors = {model.name: Prior() for model in models}
+        self._patches = {model.name: Patch() for model in models}
         for model in self.models:
             # Made when they are first asked for: now, not when the marker is first in doubt.
             pictures_of(model.square)
-        self._last_image = LastImage()
         self._stages = Stages(clock)
         self._fitter = Fitter(camera=camera, settings=self.settings, stages=self._stages)
         self._look_out = LookOut(self._search_of)
@@ -87,8 +87,8 @@ class Tracker:
 
         A marker that was seen is looked for where it is expected; one that is not there is searched for in
         the whole of the same image. A marker that was not seen while others are costs a part of a search:
-        it may come into view for a fraction of a second before it is found. An image that comes again, as
-        of a frozen camera, says the same again, and makes nothing surer.
+        it may come into view for a fraction of a second before it is found. A marker whose pixels come
+        again, as from a frozen camera, is seen again, and no surer.
 
         Args:
             image: grey (h, w) or BGR (h, w, 3), uint8, of the camera's size.
@@ -100,10 +100,10 @@ class Tracker:
             InvalidInput: IMAGE_INVALID, or IMAGE_SIZE_DIFFERS from the camera model's.
         """
         pixels = self._pixels(image)
-        is_again = self._last_image.is_again(pixels.image)
+        again = {name: patch.is_again(pixels.image) for name, patch in self._patches.items()}
         seen: dict[str, Sighting] = {}
         for model in self.models:
-            sighting = self._track(pixels, model, captured_at_s, is_again=is_again)
+            sighting = self._track(pixels, model, captured_at_s, is_again=again[model.name])
             if isinstance(sighting, Seen):
                 seen[model.name] = sighting
         missing = [model for model in self.models if model.name not in seen]
@@ -118,7 +118,10 @@ class Tracker:
         seen |= self._look_out.look(pixels, [model for model in missing if model.name not in lost_names])
         seen = one_for_each_place(seen)
         for name, prior in self._priors.items():
-            prior.learn(seen[name], captured_at_s, is_again=is_again)
+            now = seen[name]
+            prior.learn(now, captured_at_s, is_again=again[name])
+            if isinstance(now, Seen) and not again[name]:
+                self._patches[name].keep(pixels.image, now.corners_px)
         self.stage_ms = self._stages.taken_ms
         return {model.name: seen[model.name] for model in self.models}
 

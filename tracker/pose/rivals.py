@@ -81,13 +81,25 @@ def doubt_between(
     apart = _difference(better, worse)
     if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
         return np.zeros((6, 6))
-    # How probable it is that the worse one is true, 0..0.5.
-    return _spread(apart, 1.0 / (1.0 + float(np.exp(gap / 2.0))))
+    return _spread(apart, _doubt_at(gap))
 
 
-def doubt_over(claimed: Rigid[Camera, Marker], other: Rigid[Camera, Marker]) -> Array:
-    """What it adds to a pose's covariance (6, 6) that another one is as probable, wherever that is."""
-    return _spread(_difference(claimed, other), 0.5)
+def doubt_over(claimed: Rigid[Camera, Marker], other: Rigid[Camera, Marker], *, gap: float) -> Array:
+    """What it adds to a pose's covariance (6, 6) that another one may be true, wherever that is.
+
+    `gap` as in `doubt_between`; at 0 it is as probable.
+    """
+    return _spread(_difference(claimed, other), _doubt_at(gap))
+
+
+def _doubt_at(gap: float) -> float:
+    """How probable it is that the worse one of two is true."""
+    return 1.0 / (1.0 + float(np.exp(gap / 2.0)))
+
+
+def is_nearer(one: Rigid[Camera, Marker], to: Rigid[Camera, Marker], than: Rigid[Camera, Marker]) -> bool:
+    """Whether a pose is turned less from the first than from the second."""
+    return _turn_rad(one, to) < _turn_rad(one, than)
 
 
 def _spread(apart: Array, doubt: float) -> Array:

@@ -13,7 +13,15 @@ from tracker.marker import MarkerModel
 from tracker.pose.arc import beyond_first_order
 from tracker.pose.occurrence import corners_px_at, side_px_of
 from tracker.pose.planar import other_solution
-from tracker.pose.rivals import Expected, doubt_between, doubt_over, lead_between, surprise
+from tracker.pose.rivals import (
+    DECIDED_COST,
+    Expected,
+    doubt_between,
+    doubt_over,
+    is_nearer,
+    lead_between,
+    surprise,
+)
 from tracker.pose.sighting import Seen
 
 # Edges place a pose to a fraction of a pixel: a whole-shape fit that ends farther away fitted something else.
@@ -22,6 +30,8 @@ LEAST_CONTRAST_GREY = 4.0
 # Where more is left unexplained, in units of the noise and of the contrast, or less of the pixels has a say,
 # edges, which bring their own contrast, are the better judge of the pose.
 MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 2.2, 0.055, 0.72
+# Where so many have a say, nothing is covered: of noise alone 0.88.
+ALL_EXPLAINED_RATIO = 0.86
 # What the model of the marker leaves out follows the pose: residuals tell it in part. So many times their
 # variance is added, by how much of it is no noise: what is more than the image's noise, as of compressed
 # pictures, and at least a share of the contrast. Measured on rendered scenes, where the truth is known.
@@ -64,8 +74,9 @@ def with_whole_shape(
     side_px = side_px_of(seen.corners_px)
     starts = [seen.camera_from_marker]
     # Where no other solution fits the edges, both may have ended at one: that is not clear.
-    if expected is None or seen.lead_sd2 < CLEAR_LEAD_SD2 or np.isinf(seen.lead_sd2):
-        starts.append(other_solution(seen.camera_from_marker))
+    other = other_solution(seen.camera_from_marker)
+    if not _is_clear(seen, other, expected):
+        starts.append(other)
     fits = whole_fits(
         pixels.image,
         camera.lens,
@@ -87,9 +98,7 @@ def with_whole_shape(
     if not _is_exact(fits[first], pixels.noise_grey):
         return seen
     if not _is_near(camera, model, fits[first], seen.camera_from_marker):
-        # Pixels contradict edges, and either may be led astray by what covers a side: both stay possible.
-        doubt = doubt_over(seen.camera_from_marker, fits[first].camera_from_marker)
-        return replace(seen, pose_covariance=seen.pose_covariance + doubt, lead_sd2=0.0)
+        return _either(seen, fits[first])
     pose, covariance = fits[first].camera_from_marker, _beyond_residuals(fits[first], pixels.noise_grey)
     covariance = covariance + beyond_first_order(covariance)
     for k in others:
@@ -98,12 +107,38 @@ def with_whole_shape(
     lead = seen.lead_sd2
     if len(starts) > 1:
         lead = lead_between(costs, [one.camera_from_marker for one in fits], int(first))
+    if (other := fits[first].other) is not None:
+        gap = COST_SHARE * fits[first].other_gap_sd2
+        covariance = covariance + doubt_over(pose, other, gap=gap)
+        lead = min(lead, max(gap, 0.0))
     return replace(
         seen,
         camera_from_marker=pose,
         pose_covariance=covariance,
         lead_sd2=lead,
         light=fits[first].light,
+    )
+
+
+def _is_clear(seen: Seen, other: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> bool:
+    """Whether edges and the images before speak so clearly that pixels need not be asked of the other."""
+    if not isinstance(expected, Expected) or not CLEAR_LEAD_SD2 <= seen.lead_sd2 < np.inf:
+        return False
+    was_sure = expected.lead_sd2 >= DECIDED_COST
+    return was_sure and not is_nearer(expected, other, seen.camera_from_marker)
+
+
+def _either(seen: Seen, by_pixels: WholeFit) -> Seen:
+    """Where pixels contradict edges both stay possible: what covers a side may lead either astray."""
+    doubt = doubt_over(seen.camera_from_marker, by_pixels.camera_from_marker, gap=0.0)
+    if by_pixels.explained_ratio < ALL_EXPLAINED_RATIO:
+        return replace(seen, pose_covariance=seen.pose_covariance + doubt, lead_sd2=0.0)
+    return replace(
+        seen,
+        camera_from_marker=by_pixels.camera_from_marker,
+        pose_covariance=by_pixels.covariance + doubt,
+        lead_sd2=0.0,
+        light=by_pixels.light,
     )
 
 

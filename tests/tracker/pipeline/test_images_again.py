@@ -13,7 +13,7 @@ from tests.tracker.scenes import seen
 from tests.tracker.small_scenes import RIG, SIDES_PX, Image, trackers_by_face
 from tests.tracker.small_scenes import pose_of as somewhere
 from tracker import Tracker
-from tracker.pipeline.image import LastImage
+from tracker.pipeline.image import Patch
 from tracker.pose.rivals import DECIDED_COST
 
 FACE = FACES[0]
@@ -38,7 +38,11 @@ def test_a_frozen_camera_makes_no_doubtful_pose_surer_and_a_live_one_does() -> N
     frozen_surer, live_surer, doubtful = 0, 0, 0
     for seed in range(40):
         live = images_of(seed, count=10)
-        frozen_leads = leads_of(tracker, live[:1] * 10, from_s=20.0 * seed)
+        frozen = [live[0].copy() for _ in range(10)]
+        for k, image in enumerate(frozen):
+            # A clock in a corner goes on.
+            image[:4, :4] = k
+        frozen_leads = leads_of(tracker, frozen, from_s=20.0 * seed)
         # The first is searched for; what is tracked from there on says the same again and again.
         if frozen_leads[1] >= DECIDED_COST:
             continue
@@ -61,11 +65,13 @@ def test_the_speed_of_a_marker_is_told_by_its_images_and_not_by_their_repetition
     assert found_by[4:] == ["track"] * 10
 
 
-def test_one_pixel_makes_another_image() -> None:
-    last, image = LastImage(), np.full((48, 64), 90, np.uint8)
-    assert not last.is_again(image)
-    assert last.is_again(image)
+def test_a_pixel_of_the_marker_makes_another_image_and_a_clock_beside_it_does_not() -> None:
+    patch, image = Patch(), np.full((48, 64), 90, np.uint8)
+    assert not patch.is_again(image)
+    patch.keep(image, np.array([[20.0, 20.0], [40.0, 20.0], [40.0, 40.0], [20.0, 40.0]]))
+    assert patch.is_again(image)
+    image[2, 60] += 1
+    assert patch.is_again(image)
     # The caller writes the next image over this one.
-    image[5, 7] += 1
-    assert not last.is_again(image)
-    assert last.is_again(image.copy())
+    image[30, 37] += 1
+    assert not patch.is_again(image)
