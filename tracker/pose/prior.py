@@ -28,7 +28,8 @@ KEPT_LEAD_RATIO, MOST_LEAD_SD2 = 0.9, 25.0
 class Prior:
     """A marker's last pose, how sure it is, its light and its motion. Mutable: the tracker's window.
 
-    `lead_before_sd2` is what the images before the last one spoke for.
+    `lead_before_sd2` is what the images before the last one spoke for. `at_s` is of the last image, and
+    `again_at_s` of when it came last: later, where it came again.
     """
 
     pose: Rigid[Camera, Marker] | None = None
@@ -36,17 +37,19 @@ class Prior:
     lead_before_sd2: float = 0.0
     light: KnownLight | None = None
     at_s: float = 0.0
+    again_at_s: float = 0.0
     velocity_mm_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
     turning_rad_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def expected(self, at_s: float, *, is_again: bool = False) -> Expected | None:
         """Where the marker should be at this time; None when nobody can know.
 
-        `is_again`: the image is the last one once more: it has no say in what to expect of itself.
+        `is_again`: the image is the last one once more: it has no say in what to expect of itself, and
+        nothing has moved.
         """
-        ahead = at_s - self.at_s
-        if self.pose is None or not 0.0 < ahead <= LONGEST_AHEAD_S:
+        if self.pose is None or not 0.0 < at_s - self.again_at_s <= LONGEST_AHEAD_S:
             return None
+        ahead = 0.0 if is_again else min(at_s - self.at_s, LONGEST_AHEAD_S)
         translation = self.pose.translation_mm + self.velocity_mm_s * ahead
         rotation = self.pose.rotation.copy()
         turn_by(rotation, self.turning_rad_s * ahead)
@@ -66,10 +69,11 @@ class Prior:
 
         From an image that comes again (`is_again`), nothing is learnt of a marker that was seen in it.
         """
-        if is_again and isinstance(sighting, Seen) and self.expected(at_s) is not None:
+        if is_again and isinstance(sighting, Seen) and self.expected(at_s, is_again=True) is not None:
+            self.again_at_s = at_s
             return
         if not isinstance(sighting, Seen):
-            if not 0.0 < at_s - self.at_s <= LONGEST_UNSEEN_S:
+            if not 0.0 < at_s - self.again_at_s <= LONGEST_UNSEEN_S:
                 self.pose = None
             return
         interval = at_s - self.at_s
@@ -87,7 +91,7 @@ class Prior:
             if min(turns) < MOST_TURN_RAD:
                 turned = vector_from_rotation(now.rotation @ nearer.rotation.T)
                 self.turning_rad_s = turned / interval
-        self.pose, self.at_s = sighting.camera_from_marker, at_s
+        self.pose, self.at_s, self.again_at_s = sighting.camera_from_marker, at_s, at_s
         self.light = sighting.light
         self.lead_before_sd2 = self.lead_sd2 if sighting.found_by == "track" else 0.0
         self.lead_sd2 = min(KEPT_LEAD_RATIO * sighting.lead_sd2, MOST_LEAD_SD2)

@@ -73,7 +73,6 @@ def with_whole_shape(
     """
     side_px = side_px_of(seen.corners_px)
     starts = [seen.camera_from_marker]
-    # Where no other solution fits the edges, both may have ended at one: that is not clear.
     other = other_solution(seen.camera_from_marker)
     if not _is_clear(seen, other, expected):
         starts.append(other)
@@ -122,6 +121,7 @@ def with_whole_shape(
 
 def _is_clear(seen: Seen, other: Rigid[Camera, Marker], expected: Rigid[Camera, Marker] | None) -> bool:
     """Whether edges and the images before speak so clearly that pixels need not be asked of the other."""
+    # Where no other solution fits the edges, both may have ended at one: an infinite lead is not clear.
     if not isinstance(expected, Expected) or not CLEAR_LEAD_SD2 <= seen.lead_sd2 < np.inf:
         return False
     was_sure = expected.lead_sd2 >= DECIDED_COST

@@ -65,6 +65,20 @@ def test_the_speed_of_a_marker_is_told_by_its_images_and_not_by_their_repetition
     assert found_by[4:] == ["track"] * 10
 
 
+def test_a_marker_in_a_frozen_image_is_tracked_on_and_where_it_is_when_it_moves_again() -> None:
+    tracker = tracker_of()
+    moving = [pose_of((120.0 + 4 * k, 150.0)) for k in range(4)]
+    for k, pose in enumerate(moving):
+        tracker.step(image_of(pose, seed=k), captured_at_s=k / 30.0)
+    # It has a speed; for two seconds the image stands still.
+    for k in range(60):
+        found = seen(tracker.step(image_of(moving[-1], seed=3), captured_at_s=(4 + k) / 30.0)["code"])
+        assert found.found_by == "track"
+        assert off_px(found, moving[-1]) < 0.3
+    after = pose_of((134.0, 150.0))
+    assert off_px(seen(tracker.step(image_of(after, seed=9), captured_at_s=2.2)["code"]), after) < 0.3
+
+
 def test_a_pixel_of_the_marker_makes_another_image_and_a_clock_beside_it_does_not() -> None:
     patch, image = Patch(), np.full((48, 64), 90, np.uint8)
     assert not patch.is_again(image)
