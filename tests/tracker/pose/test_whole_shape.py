@@ -11,6 +11,7 @@ from tracker import Tracker
 from tracker.appearance import WholeFit, textures_of, whole_fits
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.pose import Pixels, Seen, other_solution, whole
+from tracker.pose.rivals import Expected
 
 CAMERA = camera_of()
 MODEL = code_model()
@@ -97,46 +98,80 @@ def _moved_by_px(pose: Rigid[Camera, Marker], moved_px: float) -> Rigid[Camera, 
     return replace(pose, translation_mm=pose.translation_mm + np.array([by_mm, 0.0, 0.0]))
 
 
-@pytest.mark.parametrize(("smear_px", "is_taken"), [(0.0, False), (2.0, False), (8.0, True)])
+@pytest.mark.parametrize(
+    ("smear_px", "explained_ratio", "is_by_pixels", "is_sure"),
+    [
+        (8.0, 0.8, True, True),
+        (0.0, 0.8, False, False),
+        (2.0, 0.8, False, False),
+        # Where pixels leave nothing unexplained theirs is the pose, as probable as that of edges.
+        (2.0, 0.9, True, False),
+    ],
+)
 def test_a_fit_may_end_half_a_smear_from_where_edges_are(
-    monkeypatch: pytest.MonkeyPatch, found: Seen, smear_px: float, is_taken: bool
+    monkeypatch: pytest.MonkeyPatch,
+    found: Seen,
+    smear_px: float,
+    explained_ratio: float,
+    is_by_pixels: bool,
+    is_sure: bool,
 ) -> None:
     there = _moved_by_px(found.camera_from_marker, 5.0)
-    monkeypatch.setattr(
-        whole,
-        "whole_fits",
-        lambda *_, **__: [replace(_fit_at(POSE), camera_from_marker=there, smear_px=smear_px)],
-    )
+    fit = replace(_fit_at(POSE), camera_from_marker=there, smear_px=smear_px, explained_ratio=explained_ratio)
+    monkeypatch.setattr(whole, "whole_fits", lambda *_, **__: [fit])
     exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
-    assert (exact.camera_from_marker is there) == is_taken
-    # Else pixels contradict edges: the pose stays theirs, and what is stated reaches over both.
+    assert exact.camera_from_marker is (there if is_by_pixels else found.camera_from_marker)
+    # Where pixels contradict edges, what is stated reaches over both.
     by_mm = there.translation_mm[0] - found.camera_from_marker.translation_mm[0]
-    assert is_taken or exact.pose_covariance[0, 0] > 0.4 * by_mm**2 > 20.0 * found.pose_covariance[0, 0]
+    alone_mm2 = (fit.covariance if is_by_pixels else found.pose_covariance)[0, 0]
+    assert 0.4 * by_mm**2 > 20.0 * alone_mm2
+    assert (exact.pose_covariance[0, 0] < 2.0 * alone_mm2) == is_sure
+    assert (exact.pose_covariance[0, 0] > 0.4 * by_mm**2) != is_sure
+    assert (exact.lead_sd2 > 0.0) == is_sure
 
 
+@pytest.mark.parametrize(("explained_ratio", "is_by_pixels"), [(0.8, False), (0.9, True)])
 def test_where_the_better_fit_ends_elsewhere_the_worse_does_not_stand_in(
-    monkeypatch: pytest.MonkeyPatch, found: Seen
+    monkeypatch: pytest.MonkeyPatch, found: Seen, explained_ratio: float, is_by_pixels: bool
 ) -> None:
-    worse = replace(_fit_at(found.camera_from_marker), cost_sd2=900.0)
-    better = replace(
-        worse, camera_from_marker=other_solution(_moved_by_px(found.camera_from_marker, 6.0)), cost_sd2=500.0
-    )
+    here = found.camera_from_marker
+    there = other_solution(_moved_by_px(here, 6.0))
+    worse = replace(_fit_at(here), cost_sd2=900.0, explained_ratio=explained_ratio)
+    better = replace(worse, camera_from_marker=there, cost_sd2=500.0)
     monkeypatch.setattr(whole, "whole_fits", lambda *_, **__: [worse, better])
     exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, found)
-    assert exact.camera_from_marker is found.camera_from_marker
+    assert exact.camera_from_marker is (there if is_by_pixels else here)
     assert exact.lead_sd2 == 0.0
     turned_deg = np.degrees(np.sqrt(np.linalg.eigvalsh(exact.pose_covariance[3:, 3:])[-1]))
     assert turned_deg > 10.0
 
 
+def _expected(near: Rigid[Camera, Marker], lead_sd2: float) -> Expected:
+    return Expected(
+        rotation=near.rotation,
+        translation_mm=near.translation_mm,
+        rival=other_solution(near),
+        lead_sd2=lead_sd2,
+    )
+
+
 @pytest.mark.parametrize(
-    ("lead_sd2", "expected", "count"), [(1e3, POSE, 1), (10.0, POSE, 2), (np.inf, POSE, 2), (1e3, None, 2)]
+    ("lead_sd2", "expected", "count"),
+    [
+        (1e3, _expected(POSE, 1e3), 1),
+        (10.0, _expected(POSE, 1e3), 2),
+        (np.inf, _expected(POSE, 1e3), 2),
+        (1e3, None, 2),
+        # What the images before left open, or were sure of otherwise, edges alone do not decide.
+        (1e3, _expected(POSE, 10.0), 2),
+        (1e3, _expected(other_solution(POSE), 1e3), 2),
+    ],
 )
 def test_the_other_solution_is_asked_of_the_pixels_unless_edges_and_time_have_decided(
     monkeypatch: pytest.MonkeyPatch,
     found: Seen,
     lead_sd2: float,
-    expected: Rigid[Camera, Marker] | None,
+    expected: Expected | None,
     count: int,
 ) -> None:
     starts: list[int] = []
