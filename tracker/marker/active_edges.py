@@ -95,11 +95,12 @@ def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: 
     picture, scale, margin = _seen_at(square, level_px)
     x = cv2.Sobel(picture, cv2.CV_32F, 1, 0)
     y = cv2.Sobel(picture, cv2.CV_32F, 0, 1)
-    free = float(np.percentile(np.hypot(x, y)[margin, margin : margin + scale], 50))
-    quantise = 8000.0 / max(free, 1e-6)
+    upper = np.s_[margin, margin : margin + scale]
+    free = float(np.percentile(np.hypot(x[upper], y[upper]), 50))
+    quantise = np.float32(8000.0 / max(free, 1e-6))
     gradient = Gradient(
-        x=np.clip(x * quantise, -32000, 32000).astype(np.int16),
-        y=np.clip(y * quantise, -32000, 32000).astype(np.int16),
+        x=_whole_numbers(x, quantise),
+        y=_whole_numbers(y, quantise),
         left_px=0,
         top_px=0,
         threshold=8000.0 * LEAST_STRENGTH_RATIO,
@@ -146,6 +147,13 @@ def _seen_at(square: npt.NDArray[np.uint8], level_px: int) -> tuple[npt.NDArray[
     paper = cv2.copyMakeBorder(seen, margin, margin, margin, margin, cv2.BORDER_CONSTANT, value=(white,))
     blurred = cv2.GaussianBlur(paper, (0, 0), BLUR_PX * OVERSAMPLING)
     return np.asarray(blurred, dtype=np.float32), scale, margin
+
+
+def _whole_numbers(slopes: npt.NDArray[np.float32], quantise: np.float32) -> npt.NDArray[np.int16]:
+    """Slopes as many times as large, cut off to whole numbers; `slopes` is overwritten, as it is large."""
+    np.multiply(slopes, quantise, out=slopes)
+    np.clip(slopes, -32000, 32000, out=slopes)
+    return slopes.astype(np.int16)
 
 
 def _every_pixel(points: Array, *, closed: bool) -> tuple[npt.NDArray[np.int64], float]:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 from scipy.spatial import cKDTree
 
 from tracker.camera.calibration.blocks import Block, inverse, total_information
@@ -35,7 +35,7 @@ class Uncertainty:
     @property
     def reach_95(self) -> Array:
         """Half of each 95 % interval (p,)."""
-        return np.asarray(stats.t.ppf(0.975, self.degrees_of_freedom) * np.sqrt(np.diag(self.covariance)))
+        return np.asarray(special.stdtrit(self.degrees_of_freedom, 0.975) * np.sqrt(np.diag(self.covariance)))
 
 
 def uncertainty(blocks: Sequence[Block], *, is_noise_alike: bool) -> Uncertainty:
@@ -87,7 +87,7 @@ def noise_is_alike(
     ratios = np.array([b.squares_px2 / b.coordinates / mean_px2 for b in blocks])
     free = np.array([b.coordinates - b.own for b in blocks], dtype=np.float64)
     chi2 = float((((ratios - 1.0) ** 2) * free / 2.0).sum())
-    return chi2 > float(stats.chi2.ppf(0.9995, len(blocks) - 1))
+    return chi2 > float(special.chdtri(len(blocks) - 1, 0.0005))
 
 
 def _neighbours(view: BoardView) -> Array:

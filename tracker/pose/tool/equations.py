@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import stats
+from scipy import special
 
 from tracker.geometry import Array
 
@@ -97,7 +97,7 @@ def most_allowed(residuals: Array, used: Mask) -> float:
     freedom = float(np.trace(spread)) ** 2 / power if power > 0.0 else 3.0
     few = (1.0 + 5.0 / max(3 * len(residuals) - 6, 1)) ** 2
     median = float(np.median((residuals**2).sum(axis=1)))
-    by_median = float(stats.chi2.ppf(AGREED_SHARE, freedom) / stats.chi2.ppf(0.5, freedom))
+    by_median = float(special.chdtri(freedom, 1.0 - AGREED_SHARE) / special.chdtri(freedom, 0.5))
     return max(float(np.sqrt(few * median * by_median)), LEAST_ALLOWED)
 
 
@@ -140,4 +140,4 @@ def alike_neighbours(residuals: Array) -> float:
 def _few_poses(count: int, numbers: int) -> float:
     # How many degrees of freedom a sandwich of so many poses has: found by simulation of many kinds of noise.
     freedom = max(FREEDOM_BY_POSE * (count - 3), 1.0)
-    return float(numbers * stats.f.ppf(0.95, numbers, freedom) / stats.chi2.ppf(0.95, numbers))
+    return float(numbers * special.fdtri(numbers, freedom, 0.95) / special.chdtri(numbers, 0.05))

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2 as chi2_distribution
+from scipy import special
 
 from tracker.camera import CameraModel
 from tracker.errors import InvalidInput, RegistrationError
@@ -158,10 +158,10 @@ def _freedom(best: Solution) -> int:
 
 
 def _refuse_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> None:
-    chance = float(chi2_distribution.sf(best.chi2, freedom))
+    chance = float(special.chdtrc(freedom, best.chi2))
     if chance >= gate.least_chance_ratio:
         return
-    allowed = float(chi2_distribution.isf(gate.least_chance_ratio, freedom))
+    allowed = float(special.chdtri(freedom, gate.least_chance_ratio))
     raise RegistrationError(
         "NEEDLES_DISAGREE",
         f"needles, ruler and touched points disagree: chi squared is {best.chi2:.0f}, allowed {allowed:.0f}; "

@@ -1,7 +1,7 @@
 """How sure a fit to points is: its covariance, and the error to expect at a target."""
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra
 from tracker.registration.points.fit import jacobians, weights_in_fixed
@@ -93,4 +93,4 @@ def slope_of_common_tip(
 
 def few_points(freedom: float) -> float:
     """By how much a variance that so many left-over numbers tell is widened."""
-    return float(3.0 * stats.f.ppf(0.95, 3, freedom) / stats.chi2.ppf(0.95, 3))
+    return float(3.0 * special.fdtri(3, freedom, 0.95) / special.chdtri(3, 0.05))
