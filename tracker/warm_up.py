@@ -13,6 +13,7 @@ from tracker.navigation.clearance import field_of_bone
 from tracker.pipeline import Tracker
 from tracker.pipeline.practice import PracticePicture, practice_picture
 from tracker.plan import Channel, Surface
+from tracker.plan.pedicle.kernels import walls_around
 
 # From the marker's centre towards its right top corner, in sides.
 COVERED_FROM_RATIO = 0.3
@@ -37,6 +38,13 @@ def warm_up() -> None:
     _explain(model, picture, shaded)
     _fit(model, picture, shaded, camera)
     _judge()
+    _outline()
+
+
+def _outline() -> None:
+    """Outline a section through a block without bone."""
+    block = np.zeros((2, 2, 2), np.float32)
+    walls_around(block, np.zeros((1, 3)), np.ones((1, 1, 3)), 2, 1.0, 1, np.empty((1, 1)))
 
 
 def _judge() -> None:

@@ -93,8 +93,8 @@ class ActiveEdges:
 def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: int) -> ActiveEdges:
     """The edges of a grey square (n, n) that is seen `level_px` wide."""
     picture, scale, margin = _seen_at(square, level_px)
-    x = cv2.Sobel(picture, cv2.CV_32F, 1, 0)
-    y = cv2.Sobel(picture, cv2.CV_32F, 0, 1)
+    x = np.asarray(cv2.Sobel(picture, cv2.CV_32F, 1, 0), dtype=np.float32)
+    y = np.asarray(cv2.Sobel(picture, cv2.CV_32F, 0, 1), dtype=np.float32)
     upper = np.s_[margin, margin : margin + scale]
     free = float(np.percentile(np.hypot(x[upper], y[upper]), 50))
     quantise = np.float32(8000.0 / max(free, 1e-6))

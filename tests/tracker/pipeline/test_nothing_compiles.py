@@ -1,4 +1,4 @@
-"""In theatre nothing compiles: whatever an image shows, the warm-up has run each loop on such arrays."""
+"""In theatre nothing compiles: whatever image or CT shows, the warm-up has run each loop on such arrays."""
 
 import json
 import subprocess
@@ -11,6 +11,8 @@ from tests.benchmarks.scenes.faces import FACES
 from tests.benchmarks.scenes.hand import hand_scenes
 from tests.benchmarks.scenes.rigs import RIGS
 from tests.benchmarks.scenes.scene import image_of
+from tracker.plan import measure_pedicle
+from tracker.rehearsal.ct import random_grid, random_phantom, scan
 from tracker.warm_up import warm_up
 
 CHECKOUT = Path(__file__).resolve().parents[3]
@@ -42,7 +44,12 @@ def _see_everything() -> None:
         tracker.search(image)
 
 
-def test_after_the_warm_up_no_image_makes_anything_compile() -> None:
+def _measure_a_pedicle() -> None:
+    made = random_phantom(1)
+    measure_pedicle(scan(made.hu_at, random_grid(made, 1)), made.seed_lps_mm("left"), "left")
+
+
+def test_after_the_warm_up_no_image_and_no_ct_makes_anything_compile() -> None:
     # In a process of its own: other tests call the loops with other arrays, which would hide it.
     told = subprocess.run(
         [sys.executable, "-m", "tests.tracker.pipeline.test_nothing_compiles"],
@@ -60,4 +67,5 @@ if __name__ == "__main__":
     warm_up()
     at_first = _versions()
     _see_everything()
+    _measure_a_pedicle()
     sys.stdout.write(json.dumps([at_first, _versions()]))

@@ -57,8 +57,12 @@ class Neighbourhood:
 
     def index_of(self, points_lps_mm: Array) -> Array:
         """Indexes (..., 3) as i, j, k in the block."""
+        return self.index_step(points_lps_mm - self.lps_from_index[:3, 3])
+
+    def index_step(self, steps_lps_mm: Array) -> Array:
+        """By how many indexes (..., 3), as i, j, k, steps (..., 3) go."""
         inverse = np.linalg.inv(self.lps_from_index[:3, :3])
-        return np.asarray((points_lps_mm - self.lps_from_index[:3, 3]) @ inverse.T)
+        return np.asarray(steps_lps_mm @ inverse.T)
 
     def holds(self, points_lps_mm: Array) -> npt.NDArray[np.bool_]:
         """Which points (..., 3) lie in the block."""

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
+from tracker.plan.pedicle.kernels import walls_around
 from tracker.plan.pedicle.neighbourhood import Neighbourhood
 
 STEP_MM = 0.4
@@ -106,39 +107,25 @@ def outlines_of(
 
 
 def _wall_radius(near: Neighbourhood, centre: Array, across: Array, up: Array, rays: int) -> Array:
+    """How far (m, rays) from centres (m, 3) the wall has fallen halfway to its outside; NaN if nowhere."""
     angle = angles(rays)
     direction = np.cos(angle)[:, None] * across[:, None, :] + np.sin(angle)[:, None] * up[:, None, :]
-    steps = np.arange(0.0, FARTHEST_MM, STEP_MM)
-    profile = near.smooth_hu(centre[:, None, None, :] + steps[:, None] * direction[:, :, None, :])
-    return first_wall(profile, STEP_MM, near.least_fall_hu, _behind_steps(near))
+    out = np.empty(direction.shape[:2])
+    walls_around(
+        np.ascontiguousarray(near.smooth),
+        near.index_of(centre),
+        near.index_step(STEP_MM * direction),
+        int(np.ceil(FARTHEST_MM / STEP_MM)),
+        near.least_fall_hu,
+        _behind_steps(near),
+        out,
+    )
+    return STEP_MM * out
 
 
 def _behind_steps(near: Neighbourhood) -> int:
     slice_mm = float(np.linalg.norm(near.lps_from_index[:3, 2]))
     return int(np.ceil(max(BEHIND_MM, 1.1 * slice_mm) / STEP_MM))
-
-
-def first_wall(profile: Array, step_mm: float, least_fall_hu: float, behind: int) -> Array:
-    """Where profiles (..., steps) first fall from a wall to its outside: at half the fall; NaN if nowhere."""
-    highest = np.maximum.accumulate(profile, axis=-1)
-    fallen = highest - profile >= least_fall_hu
-    first = np.argmax(fallen, axis=-1)
-    count = profile.shape[-1]
-    at = np.clip(first[..., None] + np.arange(behind + 1), 0, count - 1)
-    trough = np.take_along_axis(profile, at, axis=-1).min(axis=-1)
-    peak = np.take_along_axis(highest, first[..., None], axis=-1)[..., 0]
-    half = 0.5 * (peak + trough)
-    # The last step that is above half height and not behind the trough.
-    index = np.arange(count)
-    peak_at = np.argmax(profile >= peak[..., None], axis=-1)
-    below = (profile < half[..., None]) & (index > peak_at[..., None])
-    crossing = np.argmax(below, axis=-1)
-    before = np.maximum(crossing - 1, 0)
-    upper = np.take_along_axis(profile, before[..., None], axis=-1)[..., 0]
-    lower = np.take_along_axis(profile, crossing[..., None], axis=-1)[..., 0]
-    share = np.clip((upper - half) / np.maximum(upper - lower, 1e-9), 0.0, 1.0)
-    met = fallen.any(axis=-1) & below.any(axis=-1)
-    return np.where(met, (before + share) * step_mm, np.nan)
 
 
 def _widest_gap_deg(near_curve: npt.NDArray[np.bool_]) -> Array:

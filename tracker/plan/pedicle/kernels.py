@@ -1,0 +1,66 @@
+"""The compiled loops of sections through bone; their types are those of their calls."""
+
+import numpy as np
+
+from tracker.compiled import compiled
+
+
+@compiled
+def number_at(block, x, y, z):
+    """The number of a block [z, y, x] at an index between voxels; beyond it its outermost voxels go on."""
+    slices, rows, columns = block.shape
+    x = min(max(x, 0.0), columns - 1.0)
+    y = min(max(y, 0.0), rows - 1.0)
+    z = min(max(z, 0.0), slices - 1.0)
+    # What is not a number would lie anywhere in memory.
+    i, j, k = max(int(x), 0), max(int(y), 0), max(int(z), 0)
+    a, b, c = x - i, y - j, z - k
+    i_next, j_next, k_next = min(i + 1, columns - 1), min(j + 1, rows - 1), min(k + 1, slices - 1)
+    near = (1.0 - b) * ((1.0 - a) * block[k, j, i] + a * block[k, j, i_next]) + b * (
+        (1.0 - a) * block[k, j_next, i] + a * block[k, j_next, i_next]
+    )
+    far = (1.0 - b) * ((1.0 - a) * block[k_next, j, i] + a * block[k_next, j, i_next]) + b * (
+        (1.0 - a) * block[k_next, j_next, i] + a * block[k_next, j_next, i_next]
+    )
+    return (1.0 - c) * near + c * far
+
+
+@compiled
+def steps_to_wall(block, centre, step, count, least_fall, behind, profile):
+    """How many steps from a centre (3,) bone's wall has fallen halfway to its outside; NaN if nowhere.
+
+    The wall is the highest number before the first fall by `least_fall`; its outside the lowest number at
+    that fall or up to `behind` steps farther. `centre` and `step` (3,) are indexes x, y, z of the block; of
+    `count` steps, `profile` (count,) is overwritten with the numbers that were looked at.
+    """
+    peak, peak_at, fallen_at = -np.inf, 0, -1
+    for n in range(count):
+        value = number_at(block, centre[0] + n * step[0], centre[1] + n * step[1], centre[2] + n * step[2])
+        profile[n] = value
+        if value > peak:
+            peak, peak_at = value, n
+        if peak - value >= least_fall:
+            fallen_at = n
+            break
+    if fallen_at < 0:
+        return np.nan
+    trough = profile[fallen_at]
+    for n in range(fallen_at + 1, min(fallen_at + behind, count - 1) + 1):
+        value = number_at(block, centre[0] + n * step[0], centre[1] + n * step[1], centre[2] + n * step[2])
+        profile[n] = value
+        trough = min(trough, value)
+    half = 0.5 * (peak + trough)
+    at = peak_at + 1
+    while profile[at] >= half:
+        at += 1
+    upper, lower = profile[at - 1], profile[at]
+    return at - 1 + min(max((upper - half) / max(upper - lower, 1e-9), 0.0), 1.0)
+
+
+@compiled
+def walls_around(block, centres, steps, count, least_fall, behind, out):
+    """Into `out` (m, rays): `steps_to_wall` from each centre (m, 3), along each of its steps (m, rays, 3)."""
+    profile = np.empty(count)
+    for m in range(steps.shape[0]):
+        for ray in range(steps.shape[1]):
+            out[m, ray] = steps_to_wall(block, centres[m], steps[m, ray], count, least_fall, behind, profile)
