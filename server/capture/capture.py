@@ -150,8 +150,8 @@ class Capture:
             raise CaptureError(
                 "SOURCE_FROZEN",
                 f"the source {self._source.name} gave the same image for {STALLED_AFTER_S:g} s",
-                "Restart the camera, or what stands between it and this machine, and check its cable; it is "
-                "opened again by itself.",
+                "Uncover its lens; else restart the camera, or what stands between it and this machine, and "
+                "check its cable. It is opened again by itself.",
                 {"source": self._source.name, "limit_s": STALLED_AFTER_S},
             )
         return True
