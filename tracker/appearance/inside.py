@@ -12,7 +12,7 @@ from tracker.appearance.samples import Samples, some_of
 from tracker.geometry import Array
 
 # The inside is asked where the whole leaves so much, in units of the noise and of the contrast, or where so
-# few of its pixels have a say. Of noise alone 0.88 have one.
+# few of its pixels have a say that something must cover it. Of noise alone 0.88 have one.
 LEAVES_NOISES, LEAVES_CONTRAST_RATIO, LEAST_SAY_RATIO = 1.4, 0.04, 0.86
 # The outline reaches so many blurs inwards; what was cut off or lies over it, at least so much of a half
 # side. Where it reaches farther than the most, the inside tells too little.

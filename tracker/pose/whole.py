@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracker.appearance import CoveredAt, Textures, WholeFit, whole_fits
+from tracker.appearance import LEAST_SAY_RATIO, CoveredAt, Textures, WholeFit, whole_fits
 from tracker.camera import CameraModel
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -30,8 +30,6 @@ LEAST_CONTRAST_GREY = 4.0
 # Where more is left unexplained, in units of the noise and of the contrast, or less of the pixels has a say,
 # edges, which bring their own contrast, are the better judge of the pose.
 MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 2.2, 0.055, 0.72
-# Where so many have a say, nothing is covered: of noise alone 0.88.
-ALL_EXPLAINED_RATIO = 0.86
 # What the model of the marker leaves out follows the pose: residuals tell it in part. So many times their
 # variance is added, by how much of it is no noise: what is more than the image's noise, as of compressed
 # pictures, and at least a share of the contrast. Measured on rendered scenes, where the truth is known.
@@ -131,7 +129,7 @@ def _is_clear(seen: Seen, other: Rigid[Camera, Marker], expected: Rigid[Camera, 
 def _either(seen: Seen, by_pixels: WholeFit) -> Seen:
     """Where pixels contradict edges both stay possible: what covers a side may lead either astray."""
     doubt = doubt_over(seen.camera_from_marker, by_pixels.camera_from_marker, gap=0.0)
-    if by_pixels.explained_ratio < ALL_EXPLAINED_RATIO:
+    if by_pixels.explained_ratio < LEAST_SAY_RATIO:
         return replace(seen, pose_covariance=seen.pose_covariance + doubt, lead_sd2=0.0)
     return replace(
         seen,

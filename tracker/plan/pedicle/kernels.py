@@ -33,22 +33,20 @@ def steps_to_wall(block, centre, step, count, least_fall, behind, profile):
     that fall or up to `behind` steps farther. `centre` and `step` (3,) are indexes x, y, z of the block; of
     `count` steps, `profile` (count,) is overwritten with the numbers that were looked at.
     """
-    peak, peak_at, fallen_at = -np.inf, 0, -1
+    peak, peak_at, trough, last = -np.inf, 0, np.inf, -1
     for n in range(count):
         value = number_at(block, centre[0] + n * step[0], centre[1] + n * step[1], centre[2] + n * step[2])
         profile[n] = value
-        if value > peak:
+        if last < 0 and value > peak:
             peak, peak_at = value, n
-        if peak - value >= least_fall:
-            fallen_at = n
+        if last < 0 and peak - value >= least_fall:
+            last = n + behind
+        if last >= 0:
+            trough = min(trough, value)
+        if n == last:
             break
-    if fallen_at < 0:
+    if last < 0:
         return np.nan
-    trough = profile[fallen_at]
-    for n in range(fallen_at + 1, min(fallen_at + behind, count - 1) + 1):
-        value = number_at(block, centre[0] + n * step[0], centre[1] + n * step[1], centre[2] + n * step[2])
-        profile[n] = value
-        trough = min(trough, value)
     half = 0.5 * (peak + trough)
     at = peak_at + 1
     while profile[at] >= half:
