@@ -33,6 +33,7 @@ def _steps(profile: Array, *, start: float = 0.0, least_fall: float = 100.0, beh
         pytest.param([200, 200, 800, 800, 400, 0, 0], 4.0, id="over-two-voxels"),
         pytest.param([200, 200, 800, 650, 0, 0, 0], 3.0 + 250.0 / 650.0, id="first-below-half"),
         pytest.param([200, 200, 800, 800, 0, 0, 900], 3.5, id="another-bone-behind"),
+        pytest.param([200, 800, 0, 900, 900, 900, 900], 1.5, id="lowest-and-not-last-behind-the-fall"),
         pytest.param([200, 240, 280, 320, 360, 400, 440], np.nan, id="never-falls"),
         pytest.param([200, 200, 290, 200, 200, 200, 200], np.nan, id="falls-too-little"),
         pytest.param([0, 0, 0, 0, 0, 0, 0], np.nan, id="no-bone"),
@@ -47,7 +48,8 @@ def test_a_wall_is_where_bone_has_fallen_halfway_to_its_outside(
 def test_the_outside_is_looked_for_only_so_far_behind_the_first_fall() -> None:
     # A trough of 400, then farther out one of -1000 that is another bone's.
     profile = np.array([800, 800, 400, 400, 400, 400, -1000, -1000], float)
-    assert _steps(profile, behind=3) == pytest.approx(1.5)
+    assert _steps(profile, behind=7) == pytest.approx(1.5)
+    assert _steps(profile, behind=8) == pytest.approx(5.0 + 0.5 * 150.0 / 700.0)
     assert _steps(profile, behind=12) == pytest.approx(5.0 + 500.0 / 1400.0)
 
 
