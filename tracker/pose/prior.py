@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tracker.appearance import KnownLight
-from tracker.geometry import Camera, Marker, Rigid, vector_from_rotation
+from tracker.geometry import Array, Camera, Marker, Rigid, vector_from_rotation
 from tracker.geometry.kernels import turn_between, turn_by
 from tracker.pose.planar import other_solution
-from tracker.pose.rivals import Expected
+from tracker.pose.rivals import Expected, is_nearer
 from tracker.pose.sighting import Seen, Sighting
 
 # A hand changes its mind within a tenth of a second: farther ahead a straight line is a guess.
@@ -22,6 +22,8 @@ MOST_TURN_RAD = float(np.radians(15.0))
 # What speaks for one of the planar solutions is not all new in each image: bent paper, light and blur stay.
 # So images long past lose their say, and some that agree always suffice to turn the judgement.
 KEPT_LEAD_RATIO, MOST_LEAD_SD2 = 0.9, 25.0
+# By as many images as ever have a say together, an image says more than alone.
+IMAGES_KEPT = 1.0 / (1.0 - KEPT_LEAD_RATIO)
 
 
 @dataclass(slots=True)
@@ -29,7 +31,7 @@ class Prior:
     """A marker's last pose, how sure it is, its light and its motion. Mutable: the tracker's window.
 
     `lead_before_sd2` is what the images before the last one spoke for. `at_s` is of the last image, and
-    `again_at_s` of when it came last: later, where it came again.
+    `again_at_s` of when it came last: later, where it came again. `rates` (6,) [mm/s, rad/s] are its motion.
     """
 
     pose: Rigid[Camera, Marker] | None = None
@@ -38,8 +40,7 @@ class Prior:
     light: KnownLight | None = None
     at_s: float = 0.0
     again_at_s: float = 0.0
-    velocity_mm_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
-    turning_rad_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    rates: Array = field(default_factory=lambda: np.zeros(6))
 
     def expected(self, at_s: float, *, is_again: bool = False) -> Expected | None:
         """Where the marker should be at this time; None when nobody can know.
@@ -50,9 +51,9 @@ class Prior:
         if self.pose is None or not 0.0 < at_s - self.again_at_s <= LONGEST_AHEAD_S:
             return None
         ahead = 0.0 if is_again else min(at_s - self.at_s, LONGEST_AHEAD_S)
-        translation = self.pose.translation_mm + self.velocity_mm_s * ahead
+        translation = self.pose.translation_mm + self.rates[:3] * ahead
         rotation = self.pose.rotation.copy()
-        turn_by(rotation, self.turning_rad_s * ahead)
+        turn_by(rotation, self.rates[3:] * ahead)
         if translation[2] <= 1.0 or float(rotation[:, 2] @ translation) >= 0.0:
             return None
         pose: Rigid[Camera, Marker] = Rigid(rotation=rotation, translation_mm=translation)
@@ -76,22 +77,44 @@ class Prior:
             if not 0.0 < at_s - self.again_at_s <= LONGEST_UNSEEN_S:
                 self.pose = None
             return
-        interval = at_s - self.at_s
-        self.velocity_mm_s, self.turning_rad_s = np.zeros(3), np.zeros(3)
-        if self.pose is not None and LEAST_INTERVAL_S < interval <= LONGEST_AHEAD_S:
-            now = sighting.camera_from_marker
-            velocity = (now.translation_mm - self.pose.translation_mm) / interval
-            # Faster than any hand: it was somewhere else before, and that says nothing of the next image.
-            if float(velocity @ velocity) < MOST_SPEED_MM_S**2:
-                self.velocity_mm_s = velocity
-            # From one planar solution to the other is no turn of the hand.
-            before = (self.pose, other_solution(self.pose))
-            turns = [float(turn_between(now.rotation, pose.rotation)) for pose in before]
-            nearer = before[turns[1] < turns[0]]
-            if min(turns) < MOST_TURN_RAD:
-                turned = vector_from_rotation(now.rotation @ nearer.rotation.T)
-                self.turning_rad_s = turned / interval
+        self._weigh(sighting)
+        rates = self.rates_to(sighting.camera_from_marker, at_s)
+        self.rates = np.zeros(6) if rates is None else rates
         self.pose, self.at_s, self.again_at_s = sighting.camera_from_marker, at_s, at_s
         self.light = sighting.light
-        self.lead_before_sd2 = self.lead_sd2 if sighting.found_by == "track" else 0.0
-        self.lead_sd2 = min(KEPT_LEAD_RATIO * sighting.lead_sd2, MOST_LEAD_SD2)
+
+    def rates_to(self, now: Rigid[Camera, Marker], at_s: float) -> Array | None:
+        """The motion (6,) [mm/s, rad/s] since the last image; None where that is too long ago."""
+        interval = at_s - self.at_s
+        if self.pose is None or not LEAST_INTERVAL_S < interval <= LONGEST_AHEAD_S:
+            return None
+        rates = np.zeros(6)
+        velocity = (now.translation_mm - self.pose.translation_mm) / interval
+        # Faster than any hand: it was somewhere else before, and that says nothing of the next image.
+        if float(velocity @ velocity) < MOST_SPEED_MM_S**2:
+            rates[:3] = velocity
+        # From one planar solution to the other is no turn of the hand.
+        before = (self.pose, other_solution(self.pose))
+        turns = [float(turn_between(now.rotation, pose.rotation)) for pose in before]
+        nearer = before[turns[1] < turns[0]]
+        if min(turns) < MOST_TURN_RAD:
+            rates[3:] = vector_from_rotation(now.rotation @ nearer.rotation.T) / interval
+        return rates
+
+    def _weigh(self, seen: Seen) -> None:
+        """Take in what an image says for one of both solutions, as far as the next ones do not repeat it.
+
+        What no noise explains comes again in each image, as of a drop on the marker or of doubled rows: as a
+        share of what is left it says in how many images that agree there is something new.
+        """
+        before = self.lead_sd2 if seen.found_by == "track" and self.pose is not None else 0.0
+        says = seen.lead_sd2 - before
+        if before > 0.0 and self.pose is not None:
+            turned_over = other_solution(self.pose)
+            if is_nearer(seen.camera_from_marker, turned_over, self.pose):
+                says, before = seen.lead_sd2 + before, -before
+        if says > 0.0:
+            images = min(1.0 / max(seen.unexplained_ratio, 1e-9), IMAGES_KEPT)
+            says *= (images - 1.0) / (IMAGES_KEPT - 1.0)
+        self.lead_before_sd2 = abs(before)
+        self.lead_sd2 = min(KEPT_LEAD_RATIO * max(before + says, 0.0), MOST_LEAD_SD2)

@@ -78,7 +78,7 @@ def doubt_between(
         return np.zeros((6, 6))
     if expected is not None and _turned_over(better, worse, expected):
         gap = min(gap, UNDECIDED_COST)
-    apart = _difference(better, worse)
+    apart = difference(better, worse)
     if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
         return np.zeros((6, 6))
     return _spread(apart, _doubt_at(gap))
@@ -89,7 +89,7 @@ def doubt_over(claimed: Rigid[Camera, Marker], other: Rigid[Camera, Marker], *, 
 
     `gap` as in `doubt_between`; at 0 it is as probable.
     """
-    return _spread(_difference(claimed, other), _doubt_at(gap))
+    return _spread(difference(claimed, other), _doubt_at(gap))
 
 
 def _doubt_at(gap: float) -> float:
@@ -130,7 +130,7 @@ def _turned_over(
     return bool(is_far and _turn_rad(worse, expected) < np.radians(NEAR_TURN_DEG))
 
 
-def _difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
+def difference(a: Rigid[Camera, Marker], b: Rigid[Camera, Marker]) -> Array:
     """What takes pose `a` to pose `b`, in the coordinates of the covariance."""
     return np.concatenate(
         [b.translation_mm - a.translation_mm, vector_from_rotation(b.rotation @ a.rotation.T)]

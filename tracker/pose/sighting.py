@@ -42,6 +42,8 @@ class Seen:
         found_by: "search" (whole image, no prior) or "track" (where it was expected).
         lead_sd2: by how much this image and those before speak for this pose against the other planar
             solution, in squared residuals by their variance; infinite where no other fits.
+        unexplained_ratio: of what its fit leaves of the pixels, the share (of the variance) that is not the
+            image's noise, 0..1: it comes again in the next image. 1 where edges told alone.
         light: the uneven light that its pixels were explained in; None where it is even, or edges told alone.
         is_in_noise: whether it is like the model only where noise, shadow and highlights do not hide it.
     """
@@ -56,6 +58,7 @@ class Seen:
     fit_error_px2: float
     found_by: FoundBy
     lead_sd2: float = float("inf")
+    unexplained_ratio: float = 1.0
     light: KnownLight | None = None
     is_in_noise: bool = False
 

@@ -36,6 +36,8 @@ MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 2.2, 0.055, 
 UNTOLD_FACTOR, UNTOLD_CONTRAST_RATIO = 0.6, 0.02
 # Costs count each pixel as if it erred alone; half of that is left when the model's own errors are in.
 COST_SHARE = 0.5
+# The noise is known to a fifth. What is left beyond that is no noise.
+NOISE_AT_MOST = 1.2
 # Where edges and the images before speak so clearly for one of the two solutions, pixels need not be asked of
 # the other. Edges alone may be wrong: smear moves them.
 CLEAR_LEAD_SD2 = 100.0
@@ -113,6 +115,7 @@ def with_whole_shape(
         camera_from_marker=pose,
         pose_covariance=covariance,
         lead_sd2=lead,
+        unexplained_ratio=_unexplained(fits[first], pixels.noise_grey),
         light=fits[first].light,
     )
 
@@ -147,6 +150,12 @@ def _is_exact(one: WholeFit, noise_grey: float) -> bool:
         and one.scale_grey < left
         and one.explained_ratio > LEAST_EXPLAINED_RATIO
     )
+
+
+def _unexplained(one: WholeFit, noise_grey: float) -> float:
+    """The share (of the variance) of what a fit leaves that is no noise, 0..1."""
+    left, noise = one.scale_grey**2, (NOISE_AT_MOST * noise_grey) ** 2
+    return (left - noise) / left if left > noise else 0.0
 
 
 def _beyond_residuals(one: WholeFit, noise_grey: float) -> Array:

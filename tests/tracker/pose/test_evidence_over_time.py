@@ -1,0 +1,117 @@
+"""What images say for one of the planar solutions adds up only as far as it is new in each of them."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from tests.benchmarks.scenes.conditions import BASE
+from tests.benchmarks.scenes.faces import FACES
+from tests.benchmarks.scenes.placing import scene_at
+from tests.benchmarks.scenes.scene import Scene, image_of
+from tests.tracker.pipeline.stepped import pose_of
+from tests.tracker.scenes import seen
+from tests.tracker.small_scenes import RIG, Image, trackers_by_face
+from tests.tracker.small_scenes import pose_of as somewhere
+from tracker import Seen, Sighting
+from tracker.geometry import Camera, Marker, Rigid
+from tracker.geometry.kernels import turn_between
+from tracker.pose import Prior, other_solution
+from tracker.pose.prior import MOST_LEAD_SD2
+from tracker.pose.rivals import DECIDED_COST
+
+POSE = pose_of(side_px=26.0, tilt_deg=11.0)
+SAYS_SD2 = 6.0
+
+
+def _seen(pose: Rigid[Camera, Marker], *, lead_sd2: float, unexplained_ratio: float) -> Seen:
+    return Seen(
+        camera_from_marker=pose,
+        pose_covariance=np.eye(6),
+        corners_px=np.zeros((4, 2)),
+        score_ratio=1.0,
+        target_score_ratio=1.0,
+        model_coverage_ratio=1.0,
+        target_coverage_ratio=1.0,
+        fit_error_px2=0.0,
+        found_by="track",
+        lead_sd2=lead_sd2,
+        unexplained_ratio=unexplained_ratio,
+    )
+
+
+def _lead_after(images: int, unexplained_ratio: float) -> float:
+    """Of the last of so many images that each say the same for the same solution."""
+    prior, lead = Prior(), 0.0
+    for k in range(images):
+        lead = SAYS_SD2 + prior.lead_sd2
+        prior.learn(_seen(POSE, lead_sd2=lead, unexplained_ratio=unexplained_ratio), k / 30.0)
+    return lead
+
+
+@pytest.mark.parametrize("unexplained_ratio", [0.25, 0.5, 0.8])
+def test_images_that_agree_say_as_much_together_as_is_new_in_them(unexplained_ratio: float) -> None:
+    assert _lead_after(60, unexplained_ratio) == pytest.approx(SAYS_SD2 / unexplained_ratio, rel=0.02)
+
+
+def test_where_noise_explains_all_that_is_left_images_decide_together_and_where_it_does_not_none_does() -> (
+    None
+):
+    assert _lead_after(10, 0.0) == pytest.approx(SAYS_SD2 + MOST_LEAD_SD2)
+    assert _lead_after(60, 1.0) == SAYS_SD2
+
+
+def test_an_image_that_cannot_be_explained_takes_little_from_what_clean_ones_said() -> None:
+    prior = Prior()
+    prior.learn(_seen(POSE, lead_sd2=40.0, unexplained_ratio=0.0), 0.0)
+    prior.learn(_seen(POSE, lead_sd2=prior.lead_sd2 + 3.0, unexplained_ratio=1.0), 1 / 30.0)
+    assert prior.lead_sd2 == pytest.approx(0.9 * MOST_LEAD_SD2)
+    assert prior.lead_before_sd2 == MOST_LEAD_SD2
+
+
+def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> None:
+    before_sd2 = 10.0
+    for unexplained_ratio, kept_sd2 in ((0.0, 0.9 * 5.0), (1.0, 0.0)):
+        prior = Prior()
+        prior.learn(_seen(POSE, lead_sd2=before_sd2 / 0.9, unexplained_ratio=0.0), 0.0)
+        assert prior.lead_sd2 == pytest.approx(before_sd2)
+        # By 5 more than all before: the other solution.
+        turned = _seen(other_solution(POSE), lead_sd2=5.0, unexplained_ratio=unexplained_ratio)
+        prior.learn(turned, 1 / 30.0)
+        assert prior.lead_sd2 == pytest.approx(kept_sd2)
+
+
+def _still(seed: int, *, of_one_field: bool) -> Iterator[tuple[Scene, Image]]:
+    """Images of a small marker that rests; of one field: each second row is that above it."""
+    random = np.random.default_rng([seed, 7])
+    pose = somewhere(random, *((27.0, (10.0, 55.0)) if of_one_field else (20.0, (4.0, 12.0))))
+    for k in range(12):
+        scene = scene_at(RIG, FACES[seed % len(FACES)], BASE, (pose,), seed=seed, image_number=k)
+        image = image_of(scene)
+        if of_one_field:
+            image[1::2] = image[:-1:2]
+        yield scene, image
+
+
+def _off_deg(scene: Scene, sighting: Sighting) -> float:
+    found, true = seen(sighting).camera_from_marker.rotation, scene.boards[0].pose.rotation
+    return float(np.degrees(turn_between(np.ascontiguousarray(found), np.ascontiguousarray(true))))
+
+
+def test_doubled_rows_make_no_wrong_tilt_sure_over_time_and_good_images_make_the_right_one_sure() -> None:
+    trackers, sure = trackers_by_face(), {True: [0, 0], False: [0, 0]}
+    for seed in range(36):
+        tracker = trackers[FACES[seed % len(FACES)].name]
+        for of_one_field in (True, False):
+            leads, off_deg = [], []
+            for k, (scene, image) in enumerate(_still(seed, of_one_field=of_one_field)):
+                at_s = 20.0 * seed + 10.0 * of_one_field + k / 30.0
+                sighting = tracker.step(image, captured_at_s=at_s)[FACES[seed % len(FACES)].name]
+                if isinstance(sighting, Seen):
+                    leads.append(sighting.lead_sd2)
+                    off_deg.append(_off_deg(scene, sighting))
+            if leads and leads[0] < DECIDED_COST <= leads[-1]:
+                sure[of_one_field][off_deg[-1] > 5.0] += 1
+    assert sure[True][1] == 0
+    assert sure[False][1] == 0
+    assert sure[False][0] > 5
