@@ -76,6 +76,8 @@ class CameraConfig(Section):
     height: Annotated[int, Field(ge=16, le=4320)] | None = None
     rate_hz: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
     """Asked of a local camera; the rate of a folder, and of a file that has none (30 if left out)."""
+    readout_ms: Annotated[float, Field(ge=0.0, le=200.0)] = 0.0
+    """From when the first row of an image is read to the last one; 0 of a global shutter."""
 
 
 class RehearsalEventConfig(Section):

@@ -106,6 +106,7 @@ class Preparation:
         score_settings: when a marker counts as found.
         most_tip_sd_mm: how unsure a tip may be that is shown.
         smoothing: how much poses are steadied.
+        readout_s: from when the first row of an image is read to the last one; 0 of a global shutter.
         theatre: the rehearsal's, None for every other source.
         withheld: why no number is given although all is known; None when nothing is in the way.
         registered_from_s: see `CaseSetup`.
@@ -121,6 +122,7 @@ class Preparation:
     score_settings: ScoreSettings
     most_tip_sd_mm: float
     smoothing: SteadySettings = field(default_factory=SteadySettings)
+    readout_s: float = 0.0
     theatre: "Theatre | None" = None
     withheld: AbsentReason | None = None
     registered_from_s: float | None = None
@@ -197,7 +199,11 @@ class Preparation:
     def tracker_for(self, setup: Setup) -> Tracker:
         """A new tracker of these markers, which knows nothing of images before."""
         return Tracker(
-            camera=setup.camera, models=self.models, settings=self.score_settings, clock=time.perf_counter
+            camera=setup.camera,
+            models=self.models,
+            settings=self.score_settings,
+            clock=time.perf_counter,
+            readout_s=self.readout_s,
         )
 
     def _setup(self, camera: CameraModel, *, calibrated: bool) -> Setup:
@@ -241,12 +247,14 @@ def build_setup(config: Config) -> Preparation:
         score_settings=scores,
         most_tip_sd_mm=config.limits.most_tip_sd_mm,
         smoothing=smoothing,
+        readout_s=config.camera.readout_ms / 1000.0,
     )
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
         theatre = theatre_of(config.rehearsal)
         brought = (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)
         named = config.reference.marker or ("" if theatre.reference is None else theatre.reference.name)
-        unknowing = replace(bare, models=(*brought, *models), theatre=theatre, reference=named)
+        # Its camera has a global shutter, whatever the settings say of a real one.
+        unknowing = replace(bare, models=(*brought, *models), theatre=theatre, reference=named, readout_s=0.0)
         return _with_what_it_brings(unknowing, theatre) if config.rehearsal.brings_setup else unknowing
     return bare
 

@@ -111,6 +111,16 @@ def test_without_a_camera_file_no_millimetre_is_claimed(tmp_path: Path) -> None:
     assert setup.camera.matrix[0, 0] == pytest.approx(768.0)
 
 
+def test_how_long_a_camera_reads_its_rows_reaches_the_tracker_and_not_the_rehearsal(tmp_path: Path) -> None:
+    given = config(tmp_path, calibrated=True)
+    for source, readout_s in (("0", 0.016), ("rehearsal", 0.0)):
+        camera = given.camera.model_copy(update={"source": source, "readout_ms": 16.0})
+        preparation = build_setup(given.model_copy(update={"camera": camera}))
+        assert preparation.readout_s == readout_s
+        assert preparation.setup is not None
+        assert preparation.tracker_for(preparation.setup).readout_s == readout_s
+
+
 def test_without_plan_and_registration_both_are_absent_with_their_reason(tmp_path: Path) -> None:
     setup = build_setup(config(tmp_path, calibrated=True)).setup
     assert setup is not None

@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from tracker.appearance import textures_of
 from tracker.camera import CameraModel
+from tracker.errors import InvalidInput
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.marker import (
     MarkerModel,
@@ -22,8 +23,11 @@ from tracker.pipeline.image import Patch, grey_of, pixels_of
 from tracker.pipeline.look_out import LookOut
 from tracker.pipeline.practice import practice_picture
 from tracker.pipeline.search import Search
-from tracker.pose import Pixels, Prior, Seen, Sighting, one_for_each_place
+from tracker.pose import Pixels, Prior, Readout, Seen, Sighting, one_for_each_place
 from tracker.stages import Stages
+
+# Slower cameras give under five images a second.
+LONGEST_READOUT_S = 0.2
 
 
 class Tracker:
@@ -34,11 +38,21 @@ class Tracker:
 
     Attributes:
         stage_ms: time of each stage of the last image, by name; empty where no clock was given.
+        readout_s: as it was given.
 
     The first tracker of a process loads the compiled loops, so that no image has to wait for them.
 
+    Args:
+        camera: of all images.
+        models: of the markers, each with a name and a shape of its own.
+        settings: what is accepted.
+        clock: seconds, to time the stages by.
+        readout_s: from when the first row of an image is read to the last one; 0 of a global shutter. What
+            moves meanwhile is sheared: its pose is told without that, as far as its motion is known, and
+            with the rest in its covariance. A pose is of the time at which the marker's centre is read.
+
     Raises:
-        InvalidInput: MARKER_NAMES_NOT_UNIQUE, or MARKERS_ALIKE.
+        InvalidInput: MARKER_NAMES_NOT_UNIQUE, MARKERS_ALIKE, or READOUT_INVALID.
     """
 
     _has_loaded: ClassVar[bool] = False
@@ -50,8 +64,12 @@ class Tracker:
         models: Sequence[MarkerModel],
         settings: ScoreSettings | None = None,
         clock: Callable[[], float] | None = None,
+        readout_s: float = 0.0,
     ) -> None:
         refuse_alike(models)
+        _refuse_readout(readout_s)
+        self.readout_s = readout_s
+        self._readout = Readout(camera=camera, seconds=readout_s) if readout_s > 0.0 else None
         self.camera = camera
         self.models = tuple(models)
         self.settings = settings or ScoreSettings()
@@ -117,8 +135,10 @@ class Tracker:
         lost_names = {model.name for model in lost}
         seen |= self._look_out.look(pixels, [model for model in missing if model.name not in lost_names])
         seen = one_for_each_place(seen)
-        for name, prior in self._priors.items():
-            now = seen[name]
+        for model in self.models:
+            name, prior = model.name, self._priors[model.name]
+            at_s = None if again[name] else captured_at_s
+            now = seen[name] = self._undone(model, seen[name], at_s)
             prior.learn(now, captured_at_s, is_again=again[name])
             if isinstance(now, Seen) and not again[name]:
                 self._patches[name].keep(pixels.image, now.corners_px)
@@ -136,6 +156,7 @@ class Tracker:
         """
         said = self._search_of(self._pixels(image), self.models).to_the_end(thorough=True)
         seen = one_for_each_place(said)
+        seen = {model.name: self._undone(model, seen[model.name], None) for model in self.models}
         self.stage_ms = self._stages.taken_ms
         return seen
 
@@ -149,13 +170,32 @@ class Tracker:
         self, pixels: Pixels, model: MarkerModel, captured_at_s: float, *, is_again: bool
     ) -> Sighting | None:
         """The marker where it is expected; None when nothing is expected there."""
-        expected = self._priors[model.name].expected(captured_at_s, is_again=is_again)
+        prior = self._priors[model.name]
+        expected = prior.expected(captured_at_s, is_again=is_again)
+        if expected is not None and self._readout is not None:
+            expected = self._readout.expected(expected, prior.rates, side_mm=model.side_mm)
         return None if expected is None else self._fitter.near(pixels, model, expected, found_by="track")
 
     def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:
         return self._priors[model.name].expected(captured_at_s)
 
+    def _undone(self, model: MarkerModel, sighting: Sighting, at_s: float | None) -> Sighting:
+        """The same without what reading the image row by row did to it; `at_s` as `Readout.undone` has it."""
+        if self._readout is None or not isinstance(sighting, Seen):
+            return sighting
+        return self._readout.undone(sighting, self._priors[model.name], at_s, side_mm=model.side_mm)
+
     def _search_of(self, pixels: Pixels, models: Sequence[MarkerModel]) -> Search:
         """A search that has not begun."""
         which = [self.models.index(model) for model in models]
         return Search(pixels, models, self._templates[which], fitter=self._fitter)
+
+
+def _refuse_readout(readout_s: float) -> None:
+    if not 0.0 <= readout_s <= LONGEST_READOUT_S:
+        raise InvalidInput(
+            "READOUT_INVALID",
+            f"reading an image row by row would take {readout_s * 1e3:g} ms",
+            f"Give what its data sheet says, 0 (a global shutter) to {LONGEST_READOUT_S * 1e3:g} ms.",
+            {"readout_ms": readout_s * 1e3},
+        )

@@ -5,6 +5,7 @@ from tracker.pose.occurrence import Occurrence, corners_px_at, occurrence_near, 
 from tracker.pose.places import are_turned, one_for_each_place, worth_of
 from tracker.pose.planar import other_solution, pose_from_corners
 from tracker.pose.prior import Prior
+from tracker.pose.readout import Readout
 from tracker.pose.refinement import Fit, refined_pose
 from tracker.pose.sighting import FoundBy, Seen, Sighting, Unseen, UnseenReason
 from tracker.pose.steady import Steady, SteadyPose, SteadySettings
@@ -18,6 +19,7 @@ __all__ = [
     "Occurrence",
     "Pixels",
     "Prior",
+    "Readout",
     "Scene",
     "Seen",
     "Sighting",

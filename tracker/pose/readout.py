@@ -1,0 +1,136 @@
+"""A marker that moves while a camera reads its image row by row (a rolling shutter)."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tracker.camera import CameraModel
+from tracker.camera.kernels import square_seen
+from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
+from tracker.pose.kernels import fit_square
+from tracker.pose.planar import FIT_ROUNDS, other_solution
+from tracker.pose.prior import Prior
+from tracker.pose.rivals import Expected, difference
+from tracker.pose.sighting import Seen
+
+# When a corner is read depends on where it is seen, and that on when it is read.
+ROUNDS = 3
+# A motion is the mean of an interval between images: at its end it differs by about half of what it changed,
+# and never by less than a hand trembles (sd).
+CHANGED_RATIO, LEAST_SPEED_MM_S, LEAST_TURNING_RAD_S = 0.5, 8.0, float(np.radians(6.0))
+# Of a hand of which nothing is known but that it holds a drill (sd).
+HAND_SPEED_MM_S, HAND_TURNING_RAD_S = 100.0, float(np.radians(40.0))
+# The shift of four points stands for that of the whole shape, whose edges lie nearer to its centre than the
+# corners do: about so much of the way. The rest moves the centre by about so much of the shift, and by more
+# of what turning shifts: that bends.
+POINTS_RATIO, STRETCHED_RATIO, BENT_RATIO = 0.8, 0.03, 0.2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Motion:
+    """How a marker moves in the camera's frame.
+
+    Attributes:
+        rates: (6,) [mm/s, rad/s], of its centre, then of its turn.
+        sd: (6,), of each of them.
+    """
+
+    rates: Array
+    sd: Array
+
+    @classmethod
+    def of_a_hand(cls) -> "Motion":
+        """One of which nothing is known."""
+        return cls(rates=np.zeros(6), sd=np.repeat([HAND_SPEED_MM_S, HAND_TURNING_RAD_S], 3))
+
+    @classmethod
+    def after(cls, rates: Array, rates_before: Array) -> "Motion":
+        """At the end of an interval with these mean rates (6,), after one with those."""
+        least = np.repeat([LEAST_SPEED_MM_S, LEAST_TURNING_RAD_S], 3)
+        changed = CHANGED_RATIO * (rates - rates_before)
+        return cls(rates=rates, sd=np.hypot(changed, least))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Readout:
+    """Turns poses into what such a camera makes of them, and back. A pose is that of when its centre is read.
+
+    A marker that moves meanwhile is sheared and stretched. Small as it is in the image, that is nearly what
+    another pose would do to it: that pose is found, and is turned back here by the shift of four points.
+
+    Attributes:
+        camera: with a rolling shutter.
+        seconds: from the first row of an image to the last one.
+    """
+
+    camera: CameraModel
+    seconds: float
+
+    def expected(self, true: Expected, rates: Array, *, side_mm: float) -> Expected:
+        """The pose to expect in the image, of a marker that moves at these rates (6,)."""
+        imaged: Rigid[Camera, Marker] = true
+        for _ in range(ROUNDS):
+            shift = self._shift(true, rates, self._delays_s(imaged, side_mm), side_mm)
+            imaged = _shifted(true, shift, side_mm)
+        rotation, translation = imaged.rotation, imaged.translation_mm
+        return replace(true, rotation=rotation, translation_mm=translation, rival=other_solution(imaged))
+
+    def undone(self, seen: Seen, prior: Prior, at_s: float | None, *, side_mm: float) -> Seen:
+        """The same where the marker truly was. What is not known of its motion is in its covariance.
+
+        `at_s` is when; None where nothing is to be learnt of its motion.
+        """
+        imaged = seen.camera_from_marker
+        delays_s = self._delays_s(imaged, side_mm)
+
+        def still(rates: Array) -> Rigid[Camera, Marker]:
+            return _shifted(imaged, -self._shift(imaged, rates, delays_s, side_mm), side_mm)
+
+        rates: Array | None = prior.rates
+        for _ in range(ROUNDS):
+            rates = None if rates is None or at_s is None else prior.rates_to(still(rates), at_s)
+        motion = Motion.of_a_hand() if rates is None else Motion.after(rates, prior.rates)
+        pose, covariance = still(motion.rates), seen.pose_covariance.copy()
+        turning = np.where(np.arange(6) < 3, 0.0, motion.rates)
+        for ratio, of in ((STRETCHED_RATIO, motion.rates), (BENT_RATIO, turning)):
+            shift = self._shift(imaged, of, delays_s, side_mm)
+            rest_mm = ratio * float(np.abs(shift).max() * imaged.translation_mm[2])
+            covariance[:3, :3] += rest_mm**2 * np.eye(3)
+        for one in np.diag(motion.sd):
+            apart = difference(pose, still(motion.rates + one))
+            covariance += np.outer(apart, apart)
+        return replace(seen, camera_from_marker=pose, pose_covariance=covariance)
+
+    def _delays_s(self, imaged: Rigid[Camera, Marker], side_mm: float) -> Array:
+        """How long after the centre the four points (4,) are read."""
+        pose, lens = (imaged.rotation, imaged.translation_mm), self.camera.lens
+        rows = square_seen(*pose, lens, POINTS_RATIO * side_mm)[:, 1] - square_seen(*pose, lens, 0.0)[0, 1]
+        return np.asarray(rows * (self.seconds / self.camera.size_wh_px[1]))
+
+    def _shift(self, pose: Rigid[Camera, Marker], rates: Array, delays_s: Array, side_mm: float) -> Array:
+        """By how much the four points (4, 2) of a marker that moves are shifted, on the plane at z = 1."""
+        arms = _arms(pose, side_mm)
+        points = arms + pose.translation_mm
+        speeds = rates[:3] + np.cross(rates[3:], arms)
+        depths = points[:, 2:]
+        flow = (speeds[:, :2] - points[:, :2] / depths * speeds[:, 2:]) / depths
+        return np.asarray(flow * delays_s[:, None])
+
+
+def _arms(pose: Rigid[Camera, Marker], side_mm: float) -> Array:
+    """From the marker's centre to the four points (4, 3), in the camera's frame."""
+    h = 0.5 * POINTS_RATIO * side_mm
+    flat = np.array([[-h, h, 0.0], [h, h, 0.0], [h, -h, 0.0], [-h, -h, 0.0]])
+    return np.asarray(flat @ pose.rotation.T)
+
+
+def _shifted(pose: Rigid[Camera, Marker], shift: Array, side_mm: float) -> Rigid[Camera, Marker]:
+    """The pose whose four points are at those of this one, shifted (4, 2) on the plane at z = 1."""
+    points = _arms(pose, side_mm) + pose.translation_mm
+    target = np.ascontiguousarray(points[:, :2] / points[:, 2:] + shift)
+    rotation, translation = pose.rotation.copy(), pose.translation_mm.copy()
+    left = fit_square(target, 0.5 * POINTS_RATIO * side_mm, rotation, translation, FIT_ROUNDS)
+    facing = translation[2] > 0.0 and float(rotation[:, 2] @ translation) < 0.0
+    if not (np.isfinite(left) and facing):
+        return pose
+    return Rigid(rotation=nearest_rotation(rotation), translation_mm=translation)
