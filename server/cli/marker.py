@@ -2,6 +2,7 @@
 
 import itertools
 import re
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,13 +28,17 @@ NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignOrder:
-    """What was asked for; see the options of `coaxial marker design`."""
+    """What was asked for; see the options of `coaxial marker design`.
+
+    Attributes:
+        seed: None for the one of the name.
+    """
 
     background: str | None
     side_mm: float
     output: Path
     name: str
-    seed: int
+    seed: int | None
     proposals: int
     images: int
     replace: bool
@@ -43,6 +48,11 @@ class DesignOrder:
         """SVG, PDF and model image."""
         svg, pdf, png = (self.output / f"{self.name}.{kind}" for kind in ("svg", "pdf", "png"))
         return svg, pdf, png
+
+    @property
+    def drawn_from(self) -> int:
+        """The seed; where none was typed that of the name, because two markers of one shape are mistaken."""
+        return zlib.crc32(self.name.encode()) if self.seed is None else self.seed
 
 
 def design_marker(order: DesignOrder, *, as_json: bool) -> int:
@@ -73,7 +83,7 @@ def design_marker(order: DesignOrder, *, as_json: bool) -> int:
         settings=settings,
         film=film,
         files=tuple(map(str, order.files)),
-        made={"seed": order.seed, "proposals": order.proposals},
+        made={"seed": order.drawn_from, "proposals": order.proposals},
     )
     if as_json:
         typer.echo(json_of(report))
@@ -147,7 +157,7 @@ def _refuse_output(order: DesignOrder) -> None:
 
 def _designed(order: DesignOrder, film: Film | None, settings: ScoreSettings, steps: Steps) -> Design:
     # First the page: a side that cannot be printed must not cost a minute.
-    first = next(proposed_shapes(order.seed))
+    first = next(proposed_shapes(order.drawn_from))
     marker_sheet(first, side_mm=order.side_mm, name=order.name)
     searches = 0 if film is None else SEARCHED * len(film.numbers)
     return best_design(
@@ -161,7 +171,7 @@ def _designed(order: DesignOrder, film: Film | None, settings: ScoreSettings, st
 
 
 def _proposed(order: DesignOrder, steps: Steps) -> Iterator[Shape]:
-    for shape in itertools.islice(proposed_shapes(order.seed), order.proposals):
+    for shape in itertools.islice(proposed_shapes(order.drawn_from), order.proposals):
         steps.advance("proposing shapes", order.proposals)
         yield shape
 

@@ -32,7 +32,14 @@ def design(
     side_mm: SideOption = 25.0,
     output: OutputOption = Path(),
     name: Annotated[str, typer.Option(help="Name of the marker, and of its files.")] = "marker",
-    seed: Annotated[int, typer.Option(help="Another seed proposes other shapes.", min=0)] = 1,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            help="Another seed proposes other shapes; it comes from the name if left out, so that "
+            "another name has another shape.",
+            min=0,
+        ),
+    ] = None,
     proposals: Annotated[int, typer.Option(help="Shapes that are compared.", min=4, max=20_000)] = 300,
     images: ImagesOption = 120,
     replace: Annotated[

@@ -24,7 +24,7 @@ def typed(*words: str | Path) -> tuple[int, str]:
     return result.exit_code, result.stdout
 
 
-ORDER = ("design", "--proposals", "20", "--side-mm", "25.4", "--output")
+ORDER = ("design", "--seed", "1", "--proposals", "20", "--side-mm", "25.4", "--output")
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +66,28 @@ def test_the_same_seed_gives_the_same_files(design: Path, tmp_path: Path) -> Non
     typed(*ORDER, tmp_path / "again")
     for file in design.iterdir():
         assert (tmp_path / "again" / file.name).read_bytes() == file.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("seed", "alike"),
+    [
+        pytest.param([], False, id="from-the-name"),
+        pytest.param(["--seed", "1"], True, id="typed"),
+    ],
+)
+def test_another_name_has_another_shape_unless_a_seed_is_typed(
+    tmp_path: Path, seed: list[str], alike: bool
+) -> None:
+    for name in ("drill", "awl"):
+        typed("design", "--proposals", "4", "--output", tmp_path, "--name", name, *seed)
+    drill, awl = (load_marker_image(tmp_path / f"{name}.png") for name in ("drill", "awl"))
+    assert (drill.shape == awl.shape and bool((drill == awl).all())) is alike
+
+
+def test_a_name_has_the_same_shape_on_every_machine(tmp_path: Path) -> None:
+    status, text = typed("design", "--proposals", "4", "--output", tmp_path, "--name", "drill", "--json")
+    assert status in (0, 1)
+    assert json.loads(text)["seed"] == 2716645360
 
 
 def test_a_marker_that_is_there_is_replaced_only_where_that_is_said(tmp_path: Path) -> None:
