@@ -148,8 +148,12 @@ class Preparation:
         """The setup when the camera is calibrated; otherwise it waits for the size of the first image."""
         return None if self.camera is None else self._setup(self.camera, calibrated=True)
 
-    def setup_for(self, size_wh_px: tuple[int, int]) -> Setup:
+    def setup_for(self, size_wh_px: tuple[int, int], *, image: str | None = None) -> Setup:
         """The setup for images of this size.
+
+        Args:
+            size_wh_px: width and height.
+            image: which one has it, if that can be told.
 
         Raises:
             CalibrationError: CAMERA_SIZE_MISMATCH, the camera was calibrated at another size.
@@ -160,9 +164,10 @@ class Preparation:
             (width, height), (width_file, height_file) = size_wh_px, self.camera.size_wh_px
             raise CalibrationError(
                 "CAMERA_SIZE_MISMATCH",
-                f"images are {width}x{height} px, but the camera was calibrated at "
-                f"{width_file}x{height_file} px",
-                "Set the camera to the calibrated size, or calibrate it at this one; nothing is scaled.",
+                f"{'images are' if image is None else f'{image} is'} {width}x{height} px, but the camera was "
+                f"calibrated at {width_file}x{height_file} px",
+                ("" if image is None else "Leave the image out if another camera took it. ")
+                + "Set the camera to the calibrated size, or calibrate it at this one; nothing is scaled.",
                 {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_file, height_file]},
             )
         return self._setup(self.camera, calibrated=True)

@@ -73,7 +73,11 @@ class FolderSource:
         if self._pace is not None:
             self._pace.wait_until_due(source_time_s)
         shot = Shot(
-            image=image, number=self._number, captured_at_s=time.monotonic(), source_time_s=source_time_s
+            image=image,
+            number=self._number,
+            captured_at_s=time.monotonic(),
+            source_time_s=source_time_s,
+            file=file.name,
         )
         self._number += 1
         self._given += 1

@@ -19,12 +19,14 @@ class Shot:
         captured_at_s: monotonic time at the grab.
         source_time_s: the source's own time: a file's timestamp, the theatre's clock; for a live source
             the same as captured_at_s.
+        file: name of the image's own file; None where it has none.
     """
 
     image: npt.NDArray[np.uint8]
     number: int
     captured_at_s: float
     source_time_s: float
+    file: str | None = None
 
 
 class Source(Protocol):

@@ -140,7 +140,7 @@ class _Summary:
         """What is written of one image: a line a marker."""
         height, width = shot.image.shape[:2]
         if self._tracker is None or self._setup is None or self._setup.camera.size_wh_px != (width, height):
-            self._setup = preparation.setup_for((width, height))
+            self._setup = preparation.setup_for((width, height), image=_named(shot))
             self._tracker = preparation.tracker_for(self._setup)
         sightings = self._tracker.step(shot.image, captured_at_s=shot.source_time_s, whole=True)
         stage_ms = {"reading": read_ms, **self._tracker.stage_ms}
@@ -182,6 +182,11 @@ class _Summary:
     def _why_not(self, name: str) -> str:
         reasons = ", ".join(f"{reason} {count}" for reason, count in self._reasons[name].most_common())
         return f" (not in the others: {reasons})" if reasons else ""
+
+
+def _named(shot: Shot) -> str:
+    """The image by the number that its line has, and by its file."""
+    return f"image {shot.number}" + ("" if shot.file is None else f" ({shot.file})")
 
 
 def _sighting(sighting: Sighting, *, calibrated: bool) -> dict[str, Any]:

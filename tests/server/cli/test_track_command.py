@@ -1,0 +1,54 @@
+"""`coaxial track` over a folder whose images are not all alike, and into a file that is there."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from server.cli import app
+from tracker.errors import NavigationError
+
+CAMERA = """\
+matrix: [[80.0, 0.0, 31.5], [0.0, 80.0, 23.5], [0.0, 0.0, 1.0]]
+distortion: [0.0, 0.0, 0.0, 0.0]
+size_wh_px: [64, 48]
+"""
+
+
+@pytest.fixture
+def marker(tmp_path: Path) -> Path:
+    picture = np.zeros((40, 40), np.uint8)
+    picture[10:20, 10:] = 255
+    cv2.imwrite(str(tmp_path / "m.png"), picture)
+    return tmp_path / "m.png"
+
+
+def folder_of(path: Path, **sizes_wh_px: tuple[int, int]) -> Path:
+    """Grey images by name, in a new folder."""
+    path.mkdir()
+    for name, (width, height) in sizes_wh_px.items():
+        cv2.imwrite(str(path / f"{name}.png"), np.full((height, width), 90, np.uint8))
+    return path
+
+
+def tracked(folder: Path, marker: Path, *words: str | Path) -> tuple[int, str]:
+    """The exit status, and what stands on standard error."""
+    typed = ("track", folder, "--marker", marker, "--side-mm", 40, *words)
+    result = CliRunner().invoke(app, [str(word) for word in typed])
+    if isinstance(result.exception, NavigationError):
+        # `server.cli.main` tells it, with status 2.
+        return 2, f"{result.exception.message}\n{result.exception.remedy}"
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result.exit_code, result.stderr
+
+
+def test_an_image_of_another_size_is_told_with_its_number_and_its_file(tmp_path: Path, marker: Path) -> None:
+    (tmp_path / "camera.yaml").write_text(CAMERA, encoding="utf-8")
+    images = folder_of(tmp_path / "images", a1=(64, 48), a2=(60, 48), a3=(64, 48))
+    status, text = tracked(images, marker, "--camera", tmp_path / "camera.yaml")
+    assert status == 2
+    message, remedy = text.split("\n")
+    assert message == "image 1 (a2.png) is 60x48 px, but the camera was calibrated at 64x48 px"
+    assert remedy.startswith("Leave the image out ")
