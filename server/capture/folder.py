@@ -1,8 +1,10 @@
 """A folder of images as a source, in the order that a person would sort them."""
 
+import itertools
 import re
 import threading
 import time
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,7 @@ from server.picture_file import decoded
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm")
 DEFAULT_RATE_HZ = 30.0
+MOST_NAMED = 3
 
 
 class FolderSource:
@@ -34,16 +37,21 @@ class FolderSource:
         self.name = str(folder)
         self.waits_for_taker = fast
         self.stalls = False
-        self.defect: CaptureError | None = None
         self._folder = folder
         self._loop = loop
         self._period_s = 1.0 / (rate_hz or DEFAULT_RATE_HZ)
         self._number = first_number
         self._pace = None if fast else Pace(stop=stop)
         self._files: list[Path] = []
+        self._reason_from_unusable: dict[Path, str] = {}
         self._next = 0
         self._given = 0
         self._given_in_pass = 0
+
+    @property
+    def defect(self) -> CaptureError | None:
+        """Which images cannot be used, and why; None while all can."""
+        return _unreadable(self._reason_from_unusable) if self._reason_from_unusable else None
 
     def open(self) -> None:
         """List the folder."""
@@ -104,11 +112,13 @@ class FolderSource:
         if not files:
             raise self._empty()
         self._files = sorted(files, key=natural_order)
+        for gone in self._reason_from_unusable.keys() - set(files):
+            del self._reason_from_unusable[gone]
         self._next = 0
         self._given_in_pass = 0
 
     def _decode(self, file: Path) -> npt.NDArray[np.uint8] | None:
-        """The image in a file; None, and a defect noted, when it has none."""
+        """The image in a file; None, and the reason noted, when it has none."""
         silence_codecs()
         image = None
         try:
@@ -117,15 +127,12 @@ class FolderSource:
             reason = f"its {len(content)} bytes are no picture that can be decoded"
         except OSError as error:
             reason = (error.strerror or "it cannot be read").lower()
-        if image is not None:
-            return image
-        self.defect = CaptureError(
-            "FOLDER_IMAGE_UNREADABLE",
-            f"the image {file} cannot be used: {reason}",
-            "Replace it or take it out of the folder; it is left out until then.",
-            {"file": str(file)},
-        )
-        return None
+        if image is None:
+            self._reason_from_unusable[file] = reason
+        else:
+            # It may have been replaced since the last time.
+            self._reason_from_unusable.pop(file, None)
+        return image
 
     def _empty(self) -> CaptureError:
         return CaptureError(
@@ -134,6 +141,27 @@ class FolderSource:
             "Put images into the folder, or name another one; it is tried again by itself.",
             {"folder": self.name, "images": 0},
         )
+
+
+def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
+    """One sentence for all of them, the first ones by name."""
+    first = list(itertools.islice(reason_from_file.items(), MOST_NAMED))
+    context = {"file": str(first[0][0]), "files": [str(file) for file, _ in first]}
+    count = len(reason_from_file)
+    if count == 1:
+        return CaptureError(
+            "FOLDER_IMAGE_UNREADABLE",
+            f"the image {first[0][0]} cannot be used: {first[0][1]}",
+            "Replace it or take it out of the folder; it is left out until then.",
+            {**context, "images": count},
+        )
+    rest = f" and {count - MOST_NAMED} more" if count > MOST_NAMED else ""
+    return CaptureError(
+        "FOLDER_IMAGE_UNREADABLE",
+        f"{count} images cannot be used: {', '.join(f'{file} ({reason})' for file, reason in first)}{rest}",
+        "Replace them or take them out of the folder; they are left out until then.",
+        {**context, "images": count},
+    )
 
 
 def natural_order(path: Path) -> list[tuple[int, int, str]]:

@@ -172,7 +172,9 @@ def track(
 ) -> None:
     """Track every image of a video, as fast as possible and none skipped.
 
-    The JSON file gets its name when it is complete; until then, or if the run is cut, it is FILE.part.
+    The JSON file gets its name when all images that can be read are in it.
+    Where some cannot, they are told, with exit status 2.
+    Until then, or if the run is stopped or refused, it is FILE.part.
     """
     from server.cli.options import Given  # noqa: PLC0415  loaded when needed, see above
     from server.cli.track import track_video  # noqa: PLC0415

@@ -41,7 +41,7 @@ log = structlog.get_logger(__name__)
 def track_video(
     given: Given, *, json_file: str | None, images: int | None, log_json: bool, debug: bool
 ) -> int:
-    """Track every image, and give the exit status: 0, 2 when the video was not whole, 130 when stopped.
+    """Track every image, and give the exit status: 0, 2 when some cannot be read, 130 when stopped.
 
     Raises:
         NavigationError: an option, the video, a marker or the camera file cannot be used.

@@ -123,6 +123,38 @@ def test_a_bad_image_is_left_out_and_told(tmp_path: Path, stop: threading.Event)
     assert "2.png" in source.defect.message
 
 
+def test_all_bad_images_are_told_the_first_ones_by_name(tmp_path: Path, stop: threading.Event) -> None:
+    images = write_images(tmp_path / "f", {"10.png": 10, "11.png": 30})
+    whole = (images / "10.png").read_bytes()
+    for name in ("1", "2", "3", "4"):
+        (images / f"{name}.png").write_bytes(whole[: len(whole) // 2])
+    source = folder(images, stop)
+    assert len(read_all(source)) == 2
+    assert source.defect is not None
+    assert source.defect.message.startswith("4 images cannot be used: ")
+    assert [name in source.defect.message for name in ("1.png", "2.png", "3.png", "4.png")] == [
+        *(True, True, True, False)
+    ]
+    assert source.defect.message.endswith(" and 1 more")
+
+
+def test_a_bad_image_that_is_replaced_or_taken_away_is_told_no_more(
+    tmp_path: Path, stop: threading.Event
+) -> None:
+    images = write_images(tmp_path / "f", {"3.png": 30})
+    for name in ("1.png", "2.png"):
+        (images / name).write_bytes(b"")
+    source = folder(images, stop, loop=True)
+    source.open()
+    source.read()
+    assert source.defect is not None
+    assert "2 images" in source.defect.message
+    write_images(images, {"1.png": 10})
+    (images / "2.png").unlink()
+    source.read()
+    assert source.defect is None
+
+
 def test_a_folder_that_grows_gives_the_new_images_at_its_next_turn(
     tmp_path: Path, stop: threading.Event
 ) -> None:

@@ -1,5 +1,6 @@
 """`coaxial track` over a folder whose images are not all alike, and into a file that is there."""
 
+import json
 from pathlib import Path
 
 import cv2
@@ -23,6 +24,12 @@ def marker(tmp_path: Path) -> Path:
     picture[10:20, 10:] = 255
     cv2.imwrite(str(tmp_path / "m.png"), picture)
     return tmp_path / "m.png"
+
+
+@pytest.fixture(autouse=True)
+def quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No log of the command: its stream ends with the command, the process and its other tests do not."""
+    monkeypatch.setattr("server.cli.track.configure_logging", lambda _settings: None)
 
 
 def folder_of(path: Path, **sizes_wh_px: tuple[int, int]) -> Path:
@@ -52,3 +59,19 @@ def test_an_image_of_another_size_is_told_with_its_number_and_its_file(tmp_path:
     message, remedy = text.split("\n")
     assert message == "image 1 (a2.png) is 60x48 px, but the camera was calibrated at 64x48 px"
     assert remedy.startswith("Leave the image out ")
+
+
+def test_every_image_that_cannot_be_read_is_told_and_what_can_be_is_whole(
+    tmp_path: Path, marker: Path
+) -> None:
+    images = folder_of(tmp_path / "images", **dict.fromkeys(("1", "2", "3", "4"), (64, 48)))
+    (images / "1.png").write_bytes((images / "1.png").read_bytes()[:60])
+    (images / "3.png").write_bytes(b"")
+    status, text = tracked(images, marker, "--json", tmp_path / "o.jsonl")
+    assert status == 2
+    assert "2 images cannot be used: " in text
+    assert f"{images / '1.png'} (its 60 bytes are" in text
+    assert f"{images / '3.png'} (its 0 bytes are" in text
+    lines = (tmp_path / "o.jsonl").read_text(encoding="utf-8").splitlines()
+    assert [json.loads(line)["image_number"] for line in lines] == [1, 3]
+    assert not (tmp_path / "o.jsonl.part").exists()
