@@ -165,6 +165,10 @@ def track(
             help="Write a JSON line for each image and marker; '-' is standard output.", metavar="FILE"
         ),
     ] = None,
+    replace: Annotated[
+        bool,
+        typer.Option("--replace", help="Write over a JSON file of the same name.", show_default=False),
+    ] = False,
     images: Annotated[int | None, typer.Option(help="Stop after so many images.", min=1)] = None,
     config: ConfigOption = None,
     log_json: LogJsonOption = False,
@@ -189,7 +193,9 @@ def track(
         loop=False,
         rate="fast",
     )
-    status = track_video(given, json_file=json, images=images, log_json=log_json, debug=debug)
+    status = track_video(
+        given, json_file=json, replace=replace, images=images, log_json=log_json, debug=debug
+    )
     raise typer.Exit(status)
 
 

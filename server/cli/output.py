@@ -53,7 +53,7 @@ class Lines:
 
 
 @contextlib.contextmanager
-def lines_to(json_file: str | None, *, inputs: Iterable[Path]) -> Iterator[Lines | None]:
+def lines_to(json_file: str | None, *, inputs: Iterable[Path], replace: bool) -> Iterator[Lines | None]:
     """Where lines go; None where none are wanted.
 
     A file has its name only once it is complete, until then it ends in .part. What is no ordinary file (a
@@ -62,9 +62,10 @@ def lines_to(json_file: str | None, *, inputs: Iterable[Path]) -> Iterator[Lines
     Args:
         json_file: a path, "-" for standard output, or None.
         inputs: what is read meanwhile, and must not be written over.
+        replace: whether a file of that name may be written over. An empty one always may.
 
     Raises:
-        InvalidInput: OUTPUT_IS_INPUT, OUTPUT_NOT_WRITABLE, or OUTPUT_NOT_WRITTEN.
+        InvalidInput: OUTPUT_IS_INPUT, OUTPUT_EXISTS, OUTPUT_NOT_WRITABLE, or OUTPUT_NOT_WRITTEN.
     """
     if json_file is None:
         yield None
@@ -79,6 +80,8 @@ def lines_to(json_file: str | None, *, inputs: Iterable[Path]) -> Iterator[Lines
     replaced = path.is_file() or not path.exists()
     written = path.with_name(path.name + PART) if replaced else path
     _refuse_input(json_file, (path, written), inputs)
+    if replaced and not replace:
+        _refuse_older(json_file, path)
     file = _opened(written)
     lines = Lines(file, name=str(written), on_disk=replaced)
     try:
@@ -133,6 +136,17 @@ def _opened(path: Path) -> IO[str]:
             "Give a file in a folder that exists and may be written, or - for standard output.",
             {"file": str(path)},
         ) from error
+
+
+def _refuse_older(json_file: str, path: Path) -> None:
+    size = path.stat().st_size if path.exists() else 0
+    if size:
+        raise InvalidInput(
+            "OUTPUT_EXISTS",
+            f"there is a file {json_file} already, of {size} bytes",
+            "Give another one with --json, or --replace if it is not used any more.",
+            {"file": json_file, "bytes": size},
+        )
 
 
 def _refuse_input(json_file: str, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:

@@ -39,7 +39,13 @@ log = structlog.get_logger(__name__)
 
 
 def track_video(
-    given: Given, *, json_file: str | None, images: int | None, log_json: bool, debug: bool
+    given: Given,
+    *,
+    json_file: str | None,
+    replace: bool,
+    images: int | None,
+    log_json: bool,
+    debug: bool,
 ) -> int:
     """Track every image, and give the exit status: 0, 2 when some cannot be read, 130 when stopped.
 
@@ -64,13 +70,13 @@ def track_video(
     silences = () if theatre is None else theatre.settings.events
     source = source_from_config(config, stop=threading.Event(), renderer=renderer, silences=silences)
     summary = _Summary()
-    inputs = _read_files(given, config)
+    output = lines_to(json_file, inputs=_read_files(given, config), replace=replace)
     try:
         with Stopping().caught() as stopping:
             # A signal waits for the end of the image: inside a compiled loop it would end in a traceback.
             stopping.call_when_asked(_let_a_second_one_end_it)
             source.open()
-            with lines_to(json_file, inputs=inputs) as lines, _progress(_count(config, images)) as advance:
+            with output as lines, _progress(_count(config, images)) as advance:
                 for shot, read_ms in _shots(source, images, stopping):
                     for line in summary.lines_of(shot, read_ms, preparation):
                         if lines is not None:

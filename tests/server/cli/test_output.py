@@ -13,7 +13,7 @@ from tracker.errors import InvalidInput
 
 
 def write(target: str | Path, *lines: str, inputs: tuple[Path, ...] = ()) -> None:
-    with lines_to(str(target), inputs=inputs) as out:
+    with lines_to(str(target), inputs=inputs, replace=False) as out:
         assert out is not None
         for line in lines:
             out.write(line)
@@ -22,7 +22,7 @@ def write(target: str | Path, *lines: str, inputs: tuple[Path, ...] = ()) -> Non
 def test_a_file_has_its_name_once_it_is_whole(tmp_path: Path) -> None:
     file = tmp_path / "o.jsonl"
     file.write_text("old\n")
-    with lines_to(str(file), inputs=()) as out:
+    with lines_to(str(file), inputs=(), replace=True) as out:
         assert out is not None
         out.write("new")
         assert file.read_text() == "old\n"
@@ -30,10 +30,28 @@ def test_a_file_has_its_name_once_it_is_whole(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [file]
 
 
+def test_a_file_that_is_there_is_written_over_only_where_that_is_said(tmp_path: Path) -> None:
+    file = tmp_path / "o.jsonl"
+    file.write_text("old\n")
+    with pytest.raises(InvalidInput) as told:
+        write(file, "new")
+    assert told.value.code == "OUTPUT_EXISTS"
+    assert str(file) in told.value.message
+    assert "--replace" in told.value.remedy
+    assert (file.read_text(), list(tmp_path.iterdir())) == ("old\n", [file])
+
+
+def test_an_empty_file_holds_nothing_and_is_written(tmp_path: Path) -> None:
+    file = tmp_path / "o.jsonl"
+    file.touch()
+    write(file, "new")
+    assert file.read_text() == "new\n"
+
+
 def test_what_was_cut_keeps_the_old_file_and_is_named_a_part(tmp_path: Path) -> None:
     file = tmp_path / "o.jsonl"
     file.write_text("old\n")
-    output = lines_to(str(file), inputs=())
+    output = lines_to(str(file), inputs=(), replace=True)
     out = output.__enter__()
     assert out is not None
     out.write("half")

@@ -75,3 +75,15 @@ def test_every_image_that_cannot_be_read_is_told_and_what_can_be_is_whole(
     lines = (tmp_path / "o.jsonl").read_text(encoding="utf-8").splitlines()
     assert [json.loads(line)["image_number"] for line in lines] == [1, 3]
     assert not (tmp_path / "o.jsonl.part").exists()
+
+
+def test_tracking_again_writes_over_the_lines_only_where_that_is_said(tmp_path: Path, marker: Path) -> None:
+    images = folder_of(tmp_path / "images", a=(64, 48))
+    lines = tmp_path / "pivot.jsonl"
+    lines.write_text("yesterday\n", encoding="utf-8")
+    status, text = tracked(images, marker, "--json", lines)
+    assert status == 2
+    assert "--replace" in text
+    assert lines.read_text(encoding="utf-8") == "yesterday\n"
+    assert tracked(images, marker, "--json", lines, "--replace")[0] == 0
+    assert json.loads(lines.read_text(encoding="utf-8"))["image_number"] == 0
