@@ -74,9 +74,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--n", type=_count, default=default.images, help="scenes of each condition of the limits"
     )
-    parser.add_argument("--seed", type=int, default=default.seed, help="of the first scene of the limits")
+    parser.add_argument("--seed", type=_seed, default=default.seed, help="of the first scene of the limits")
     parser.add_argument("--runs", type=int, default=default.runs, help="calibrations of each kind of tool")
-    parser.add_argument("--viewers", type=_seeds, default=default.viewers, help="of the load, as 1,10,30")
+    parser.add_argument("--viewers", type=_viewers, default=default.viewers, help="of the load, as 1,10,30")
     parser.add_argument("--write", action="store_true", help="write the tables into the README")
     return parser
 
@@ -116,8 +116,27 @@ def _names(text: str) -> tuple[str, ...]:
     return tuple(name.strip() for name in text.split(",") if name.strip())
 
 
+def _seed(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"'{text}' is no seed, needed a whole number of 0 or more")
+    return int(text)
+
+
 def _seeds(text: str) -> tuple[int, ...]:
-    return tuple(int(seed) for seed in text.split(","))
+    return _numbers(text, least=0)
+
+
+def _viewers(text: str) -> tuple[int, ...]:
+    return _numbers(text, least=1)
+
+
+def _numbers(text: str, *, least: int) -> tuple[int, ...]:
+    numbers = [int(word) if word.strip().isdecimal() else -1 for word in text.split(",")]
+    if min(numbers) < least:
+        raise argparse.ArgumentTypeError(
+            f"'{text}' has something else than whole numbers of {least} or more, needed some as 1,2,3"
+        )
+    return tuple(numbers)
 
 
 if __name__ == "__main__":

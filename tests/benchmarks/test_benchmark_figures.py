@@ -172,3 +172,27 @@ def test_no_scenes_are_no_measurement(count: str, capsys: pytest.CaptureFixture[
     with pytest.raises(SystemExit):
         _parser().parse_args(["limits", "--n", count])
     assert f"{count} scenes, needed 1 or more" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        pytest.param(["--seed", "-1"], "'-1' is no seed, needed a whole number of 0 or more", id="a-seed"),
+        pytest.param(["--seed", "x"], "'x' is no seed, needed a whole number of 0 or more", id="a-word"),
+        pytest.param(["--seeds", "x"], "numbers of 0 or more, needed some as 1,2,3", id="seeds"),
+        pytest.param(["--seeds", "1,-2"], "numbers of 0 or more, needed some as 1,2,3", id="one-of-two"),
+        pytest.param(["--seeds", "1,"], "numbers of 0 or more, needed some as 1,2,3", id="an-open-end"),
+        pytest.param(["--viewers", "0"], "numbers of 1 or more, needed some as 1,2,3", id="nobody"),
+    ],
+)
+def test_what_is_no_number_of_its_kind_is_told_with_its_form(
+    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        _parser().parse_args(["limits", *words])
+    assert told in capsys.readouterr().err
+
+
+def test_seeds_and_viewers_are_numbers_with_commas() -> None:
+    given = _parser().parse_args(["load", "--seeds", "0, 7", "--viewers", "1,30", "--seed", "0"])
+    assert (given.seeds, given.viewers, given.seed) == ((0, 7), (1, 30), 0)
