@@ -16,6 +16,7 @@ from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
 from server.cli.register_commands import register_app
 from server.cli.tool_commands import pivot, spin, tip_check
+from server.cli.track_words import TRACK_HELP
 from server.cli.verify_commands import verify
 
 BAD_INPUT = 2
@@ -150,7 +151,7 @@ def run(
     run_dashboard(given, log_json=log_json, debug=debug, new_operator_link=new_operator_link)
 
 
-@app.command()
+@app.command(help=TRACK_HELP)
 def track(
     video: Annotated[
         str, typer.Argument(help="A video file, a folder of images, or 'rehearsal'.", metavar="VIDEO")
@@ -162,7 +163,8 @@ def track(
     json: Annotated[
         str | None,
         typer.Option(
-            help="Write a JSON line for each image and marker; '-' is standard output.", metavar="FILE"
+            help="Write a JSON line for each image and marker, see above; '-' is standard output.",
+            metavar="FILE",
         ),
     ] = None,
     replace: Annotated[
@@ -174,12 +176,7 @@ def track(
     log_json: LogJsonOption = False,
     debug: DebugOption = False,
 ) -> None:
-    """Track every image of a video, as fast as possible and none skipped.
-
-    The JSON file gets its name when all images that can be read are in it.
-    Where some cannot, they are told, with exit status 2.
-    Until then, or if the run is stopped or refused, it is FILE.part.
-    """
+    """Track every image of a video, as fast as possible and none skipped."""
     from server.cli.options import Given  # noqa: PLC0415  loaded when needed, see above
     from server.cli.track import track_video  # noqa: PLC0415
 

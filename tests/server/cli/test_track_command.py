@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from server.capture.folder import DEFAULT_RATE_HZ
 from server.cli import app
 from tracker.errors import NavigationError
+from tracker.pose.sighting import UnseenReason
 
 CAMERA = """\
 matrix: [[80.0, 0.0, 31.5], [0.0, 80.0, 23.5], [0.0, 0.0, 1.0]]
@@ -87,3 +89,12 @@ def test_tracking_again_writes_over_the_lines_only_where_that_is_said(tmp_path: 
     assert lines.read_text(encoding="utf-8") == "yesterday\n"
     assert tracked(images, marker, "--json", lines, "--replace")[0] == 0
     assert json.loads(lines.read_text(encoding="utf-8"))["image_number"] == 0
+
+
+def test_help_says_what_stands_in_a_line() -> None:
+    text = " ".join(CliRunner().invoke(app, ["track", "--help"], env={"COLUMNS": "80"}).output.split())
+    for reason in UnseenReason:
+        assert f"{reason.value}: " in text
+    assert f"at {DEFAULT_RATE_HZ:g} Hz if that is left out" in text
+    assert "pose_covariance: 6x6 in mm and rad, translation first, then rotation as a small" in text
+    assert "left-multiplied rotation vector in the camera's frame" in text
