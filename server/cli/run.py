@@ -56,6 +56,7 @@ def _serve(
     from server.cli.door import Door  # noqa: PLC0415
     from server.cli.kept import Kept  # noqa: PLC0415
     from server.loop.tracked import Tracked  # noqa: PLC0415
+    from server.marker_remarks import warn_of_markers  # noqa: PLC0415
     from server.setup import build_setup  # noqa: PLC0415
 
     with ExitStack() as ending:
@@ -66,6 +67,7 @@ def _serve(
         door = Door.of(config, kept.store, new_operator_link=new_operator_link)
         preparation = build_setup(config)
         _warn_without_markers(preparation)
+        warn_of_markers(preparation.models)
         from server.alarms import AlarmDesk, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415

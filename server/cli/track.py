@@ -27,6 +27,7 @@ from server.cli.stopping import Stopping
 from server.config import Config
 from server.errors import CaptureError
 from server.logs import LogSettings, configure_logging
+from server.marker_remarks import warn_of_markers
 from server.setup import Preparation, build_setup
 from tracker.errors import InvalidInput
 from tracker.navigation import Setup
@@ -62,6 +63,7 @@ def track_video(
             "Give a video file, a folder of images or 'rehearsal'; for a live source use 'coaxial run'.",
         )
     preparation = _with_a_marker(build_setup(config))
+    warn_of_markers(preparation.models)
     theatre = preparation.theatre
     if theatre is not None:
         cycle = round(theatre.cycle_s * config.rehearsal.rate_hz)
@@ -183,7 +185,8 @@ class _Summary:
         )
         calibrated = self._setup is None or self._setup.camera_calibrated
         blind = "" if calibrated else "; no millimetres, as no camera file was given (--camera)"
-        return f"{self._images} images: {seen or 'nothing'}; median ms: {whole}{times}{blind}"
+        images = f"{self._images} image{'' if self._images == 1 else 's'}"
+        return f"{images}: {seen or 'nothing'}; median ms: {whole}{times}{blind}"
 
     def _why_not(self, name: str) -> str:
         reasons = ", ".join(f"{reason} {count}" for reason, count in self._reasons[name].most_common())

@@ -85,6 +85,13 @@ class MarkerModel:
         h = self.side_mm / 2.0
         return np.array([[-h, h, 0.0], [h, h, 0.0], [h, -h, 0.0], [-h, -h, 0.0]])
 
+    @property
+    def own_likeness(self) -> tuple[float, float]:
+        """How like itself it is after quarter turns, and as its mirror image however turned, -1..1."""
+        small = _small(self.square)
+        mirrored = small[:, ::-1]
+        return max(_turned(small)), max(_correlation(small, np.rot90(mirrored, turns)) for turns in range(4))
+
     def level_for(self, side_px: float) -> ActiveEdges:
         """The active edges for a marker of about this size in the image."""
         size = log(max(side_px, 1.0))
@@ -159,10 +166,13 @@ def _correlation(a: Array, b: Array) -> float:
     return float(np.corrcoef(a.ravel(), b.ravel())[0, 1])
 
 
+def _turned(small: Array) -> list[float]:
+    """How like itself a picture is after one, two and three quarter turns."""
+    return [_correlation(small, np.rot90(small, turns)) for turns in (1, 2, 3)]
+
+
 def _refuse_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
-    small = _small(square)
-    for turns in (1, 2, 3):
-        alike = _correlation(small, np.rot90(small, turns))
+    for turns, alike in enumerate(_turned(_small(square)), start=1):
         if alike > MOST_SYMMETRY:
             raise InvalidInput(
                 "MARKER_SYMMETRIC",
