@@ -137,8 +137,8 @@ class Tracker:
         seen = one_for_each_place(seen)
         for model in self.models:
             name, prior = model.name, self._priors[model.name]
-            at_s = None if again[name] else captured_at_s
-            now = seen[name] = self._undone(model, seen[name], at_s)
+            now = self._undone(model, seen[name], prior, captured_at_s, is_again=again[name])
+            seen[name] = now
             prior.learn(now, captured_at_s, is_again=again[name])
             if isinstance(now, Seen) and not again[name]:
                 self._patches[name].keep(pixels.image, now.corners_px)
@@ -156,7 +156,7 @@ class Tracker:
         """
         said = self._search_of(self._pixels(image), self.models).to_the_end(thorough=True)
         seen = one_for_each_place(said)
-        seen = {model.name: self._undone(model, seen[model.name], None) for model in self.models}
+        seen = {model.name: self._undone(model, seen[model.name]) for model in self.models}
         self.stage_ms = self._stages.taken_ms
         return seen
 
@@ -179,11 +179,19 @@ class Tracker:
     def _expected(self, model: MarkerModel, captured_at_s: float) -> Rigid[Camera, Marker] | None:
         return self._priors[model.name].expected(captured_at_s)
 
-    def _undone(self, model: MarkerModel, sighting: Sighting, at_s: float | None) -> Sighting:
-        """The same without what reading the image row by row did to it; `at_s` as `Readout.undone` has it."""
+    def _undone(
+        self,
+        model: MarkerModel,
+        sighting: Sighting,
+        prior: Prior | None = None,
+        at_s: float = 0.0,
+        *,
+        is_again: bool = False,
+    ) -> Sighting:
+        """The same without what reading the image row by row did to it; for the rest see `Readout.undone`."""
         if self._readout is None or not isinstance(sighting, Seen):
             return sighting
-        return self._readout.undone(sighting, self._priors[model.name], at_s, side_mm=model.side_mm)
+        return self._readout.undone(sighting, prior, at_s, side_mm=model.side_mm, is_again=is_again)
 
     def _search_of(self, pixels: Pixels, models: Sequence[MarkerModel]) -> Search:
         """A search that has not begun."""

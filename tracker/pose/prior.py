@@ -1,6 +1,6 @@
 """What the last images let expect of the next."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -31,7 +31,8 @@ class Prior:
     """A marker's last pose, how sure it is, its light and its motion. Mutable: the tracker's window.
 
     `lead_before_sd2` is what the images before the last one spoke for. `at_s` is of the last image, and
-    `again_at_s` of when it came last: later, where it came again. `rates` (6,) [mm/s, rad/s] are its motion.
+    `again_at_s` of when it came last: later, where it came again. `rates` (6,) [mm/s, rad/s] are its motion,
+    if that is known, and `rates_before` those an image earlier.
     """
 
     pose: Rigid[Camera, Marker] | None = None
@@ -40,7 +41,8 @@ class Prior:
     light: KnownLight | None = None
     at_s: float = 0.0
     again_at_s: float = 0.0
-    rates: Array = field(default_factory=lambda: np.zeros(6))
+    rates: Array | None = None
+    rates_before: Array | None = None
 
     def expected(self, at_s: float, *, is_again: bool = False) -> Expected | None:
         """Where the marker should be at this time; None when nobody can know.
@@ -51,9 +53,10 @@ class Prior:
         if self.pose is None or not 0.0 < at_s - self.again_at_s <= LONGEST_AHEAD_S:
             return None
         ahead = 0.0 if is_again else min(at_s - self.at_s, LONGEST_AHEAD_S)
-        translation = self.pose.translation_mm + self.rates[:3] * ahead
+        moved = np.zeros(6) if self.rates is None else self.rates * ahead
+        translation = self.pose.translation_mm + moved[:3]
         rotation = self.pose.rotation.copy()
-        turn_by(rotation, self.rates[3:] * ahead)
+        turn_by(rotation, moved[3:])
         if translation[2] <= 1.0 or float(rotation[:, 2] @ translation) >= 0.0:
             return None
         pose: Rigid[Camera, Marker] = Rigid(rotation=rotation, translation_mm=translation)
@@ -78,8 +81,7 @@ class Prior:
                 self.pose = None
             return
         self._weigh(sighting)
-        rates = self.rates_to(sighting.camera_from_marker, at_s)
-        self.rates = np.zeros(6) if rates is None else rates
+        self.rates_before, self.rates = self.rates, self.rates_to(sighting.camera_from_marker, at_s)
         self.pose, self.at_s, self.again_at_s = sighting.camera_from_marker, at_s, at_s
         self.light = sighting.light
 

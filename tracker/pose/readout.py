@@ -44,10 +44,10 @@ class Motion:
         return cls(rates=np.zeros(6), sd=np.repeat([HAND_SPEED_MM_S, HAND_TURNING_RAD_S], 3))
 
     @classmethod
-    def after(cls, rates: Array, rates_before: Array) -> "Motion":
-        """At the end of an interval with these mean rates (6,), after one with those."""
+    def after(cls, rates: Array, rates_before: Array | None) -> "Motion":
+        """At the end of an interval with these mean rates (6,), after one with those, if they are known."""
         least = np.repeat([LEAST_SPEED_MM_S, LEAST_TURNING_RAD_S], 3)
-        changed = CHANGED_RATIO * (rates - rates_before)
+        changed = CHANGED_RATIO * (rates if rates_before is None else rates - rates_before)
         return cls(rates=rates, sd=np.hypot(changed, least))
 
 
@@ -66,8 +66,10 @@ class Readout:
     camera: CameraModel
     seconds: float
 
-    def expected(self, true: Expected, rates: Array, *, side_mm: float) -> Expected:
-        """The pose to expect in the image, of a marker that moves at these rates (6,)."""
+    def expected(self, true: Expected, rates: Array | None, *, side_mm: float) -> Expected:
+        """The pose to expect in the image, of a marker that moves at these rates (6,), if they are known."""
+        if rates is None:
+            return true
         imaged: Rigid[Camera, Marker] = true
         for _ in range(ROUNDS):
             shift = self._shift(true, rates, self._delays_s(imaged, side_mm), side_mm)
@@ -75,10 +77,17 @@ class Readout:
         rotation, translation = imaged.rotation, imaged.translation_mm
         return replace(true, rotation=rotation, translation_mm=translation, rival=other_solution(imaged))
 
-    def undone(self, seen: Seen, prior: Prior, at_s: float | None, *, side_mm: float) -> Seen:
+    def undone(
+        self, seen: Seen, prior: Prior | None, at_s: float, *, side_mm: float, is_again: bool = False
+    ) -> Seen:
         """The same where the marker truly was. What is not known of its motion is in its covariance.
 
-        `at_s` is when; None where nothing is to be learnt of its motion.
+        Args:
+            seen: in the image of this time, `at_s`.
+            prior: what the images before tell of its motion; None where there are none.
+            at_s: when.
+            side_mm: of the marker.
+            is_again: the image is the last one once more.
         """
         imaged = seen.camera_from_marker
         delays_s = self._delays_s(imaged, side_mm)
@@ -86,10 +95,14 @@ class Readout:
         def still(rates: Array) -> Rigid[Camera, Marker]:
             return _shifted(imaged, -self._shift(imaged, rates, delays_s, side_mm), side_mm)
 
-        rates: Array | None = prior.rates
-        for _ in range(ROUNDS):
-            rates = None if rates is None or at_s is None else prior.rates_to(still(rates), at_s)
-        motion = Motion.of_a_hand() if rates is None else Motion.after(rates, prior.rates)
+        motion = Motion.of_a_hand()
+        if prior is not None and is_again and prior.rates is not None:
+            motion = Motion.after(prior.rates, prior.rates_before)
+        elif prior is not None and not is_again:
+            rates: Array | None = np.zeros(6) if prior.rates is None else prior.rates
+            for _ in range(ROUNDS):
+                rates = None if rates is None else prior.rates_to(still(rates), at_s)
+            motion = motion if rates is None else Motion.after(rates, prior.rates)
         pose, covariance = still(motion.rates), seen.pose_covariance.copy()
         turning = np.where(np.arange(6) < 3, 0.0, motion.rates)
         for ratio, of in ((STRETCHED_RATIO, motion.rates), (BENT_RATIO, turning)):

@@ -172,7 +172,7 @@ def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
         app, ["track", str(film), "--marker", str(marker), "--side-mm", "4", "--json", str(lines)]
     )
     assert result.exit_code == 130, result.output
-    assert "Stopped: 1 images" in result.stderr
+    assert "Stopped: 1 image:" in result.stderr
     assert len((tmp_path / "o.jsonl.part").read_text(encoding="utf-8").splitlines()) == 1
     assert not lines.exists()
 

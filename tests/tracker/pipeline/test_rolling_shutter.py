@@ -126,6 +126,19 @@ def test_a_marker_at_rest_is_told_as_by_any_other_camera_and_hardly_less_surely(
     assert float(np.degrees(sd[1][3:]).max()) < 0.25
 
 
+def test_an_image_that_comes_again_shows_the_marker_where_it_was() -> None:
+    tracker = Tracker(camera=RIG.camera, models=[FACE.model], readout_s=READOUT_S)
+    for at_s, _, image in _shown(1):
+        once = tracker.step(image, captured_at_s=at_s)[FACE.name]
+        again = tracker.step(image.copy(), captured_at_s=at_s + 0.5 / RATE_HZ)[FACE.name]
+        assert isinstance(once, Seen)
+        assert isinstance(again, Seen)
+        moved_mm = again.camera_from_marker.translation_mm - once.camera_from_marker.translation_mm
+        assert float(np.linalg.norm(moved_mm)) < 0.1
+        # What is not known of its motion a copy does not tell, of the first image least of all.
+        assert (np.diag(again.pose_covariance) > 0.8 * np.diag(once.pose_covariance)).all()
+
+
 @pytest.mark.parametrize("readout_s", [-0.001, 0.3, float("nan")])
 def test_a_readout_that_no_camera_has_is_refused(readout_s: float) -> None:
     with pytest.raises(InvalidInput, match="ms") as caught:

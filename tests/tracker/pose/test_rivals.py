@@ -74,6 +74,7 @@ def test_a_prior_that_took_the_wrong_solution_gives_it_up_within_a_few_images() 
         seen = _fitted(_noisy(k), prior.expected(k / 30))
         prior.learn(seen, k / 30)
         off_deg.append(_turned_deg(seen.camera_from_marker, TRUTH))
+        assert prior.rates is not None
         turning_deg_s.append(float(np.degrees(np.linalg.norm(prior.rates[3:]))))
     assert off_deg[0] > 20.0, "one image alone does not speak loud enough"
     assert max(off_deg[4:]) < 5.0
