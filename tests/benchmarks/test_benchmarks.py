@@ -14,10 +14,10 @@ from tests.benchmarks.offline import Offline, claim_of, measure_offline, setup_o
 from tests.benchmarks.readme import README, with_section
 from tests.benchmarks.sections import SECTIONS
 from tests.benchmarks.tables import Table, median, pair
+from tests.tracker.scenes import perfectly_seen
 from tracker.geometry import Rigid
 from tracker.navigation import navigate
 from tracker.pipeline import Tracker
-from tracker.pose import Seen
 from tracker.rehearsal import Phase, Theatre, TheatreSettings
 
 WORKING_S = tuple(13.0 + number / 30.0 for number in range(8))
@@ -36,17 +36,7 @@ def measured(theatre: Theatre) -> Offline:
 
 def true_claim(theatre: Theatre, at_s: float) -> Claim:
     truth = theatre.truth_at(at_s)
-    seen = Seen(
-        camera_from_marker=truth.camera_from_marker,
-        pose_covariance=np.eye(6) * 1e-6,
-        corners_px=truth.corners_px,
-        score_ratio=1.0,
-        target_score_ratio=1.0,
-        model_coverage_ratio=1.0,
-        target_coverage_ratio=1.0,
-        fit_error_px2=0.0,
-        found_by="track",
-    )
+    seen = perfectly_seen(truth.camera_from_marker, corners_px=truth.corners_px)
     claim = claim_of(setup_of(theatre), np.zeros((720, 1280, 3), np.uint8), seen)
     assert isinstance(claim, Claim)
     return claim
@@ -120,16 +110,8 @@ def test_a_claim_beside_the_marker_is_false_and_one_of_its_parts_in_view_is_righ
 
 def test_a_pose_too_unsure_to_place_the_tip_counts_as_withheld(theatre: Theatre) -> None:
     truth = theatre.truth_at(13.0)
-    unsure = Seen(
-        camera_from_marker=truth.camera_from_marker,
-        pose_covariance=np.eye(6) * 100.0,
-        corners_px=truth.corners_px,
-        score_ratio=1.0,
-        target_score_ratio=1.0,
-        model_coverage_ratio=1.0,
-        target_coverage_ratio=1.0,
-        fit_error_px2=0.0,
-        found_by="track",
+    unsure = perfectly_seen(
+        truth.camera_from_marker, covariance=np.eye(6) * 100.0, corners_px=truth.corners_px
     )
     said = claim_of(setup_of(theatre), np.zeros((720, 1280, 3), np.uint8), unsure)
     judged = judge(theatre, 13.0, said)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from tracker import CameraModel, MarkerModel, Seen, Sighting
 from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector
+from tracker.pose import FoundBy
 
 Image8 = npt.NDArray[np.uint8]
 
@@ -232,6 +233,27 @@ def poorly_lit(
     lit = lit + 160.0 * np.exp(-0.5 * (x * x + y * y) / (0.25 * side_px) ** 2)
     noisy = 0.4 * lit + random.normal(0.0, 5.0, lit.shape)
     return np.asarray(np.clip(np.rint(noisy), 0, 255), dtype=np.uint8)
+
+
+def perfectly_seen(
+    pose: Rigid[Camera, Marker],
+    *,
+    covariance: Array | None = None,
+    corners_px: Array | None = None,
+    found_by: FoundBy = "track",
+) -> Seen:
+    """A marker at this pose, of which all edges were found; very sure, if nothing else is said."""
+    return Seen(
+        camera_from_marker=pose,
+        pose_covariance=1e-6 * np.eye(6) if covariance is None else covariance,
+        corners_px=np.zeros((4, 2)) if corners_px is None else corners_px,
+        score_ratio=1.0,
+        target_score_ratio=1.0,
+        model_coverage_ratio=1.0,
+        target_coverage_ratio=1.0,
+        fit_error_px2=0.0,
+        found_by=found_by,
+    )
 
 
 def seen(sighting: Sighting) -> Seen:

@@ -110,7 +110,11 @@ class Scene:
 
 def image_of(scene: Scene) -> npt.NDArray[np.uint8]:
     """The image (h, w) that the camera gives of a scene, the same each time."""
-    mean = mean_of(scene)
+    return recorded(mean_of(scene), scene)
+
+
+def recorded(mean: Floats, scene: Scene) -> npt.NDArray[np.uint8]:
+    """What the camera makes of these mean grey levels (h, w): with its noise and its answer, in 8 bits."""
     condition = scene.condition
     noise = np.random.default_rng(list(scene.noise_seed)).standard_normal(mean.shape, dtype=np.float32)
     variance = condition.read_noise_grey**2 + np.clip(mean, 0.0, FULL_SCALE) * _shot(condition)

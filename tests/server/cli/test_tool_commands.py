@@ -18,6 +18,7 @@ from server.errors import ConfigError
 from server.setup import build_setup
 from tests.real_data import real_data_file
 from tests.tracker.pose.tool.pivoted import AXIS, Hand, pivoted, spun
+from tests.tracker.scenes import perfectly_seen
 from tracker.errors import NavigationError
 from tracker.geometry import Array, Rigid
 from tracker.navigation import ToolInView, navigate
@@ -147,16 +148,8 @@ def settings(folder: Path, file: Path, **changes: object) -> Path:
 
 
 def seen_at(translation_mm: Array) -> Seen:
-    return Seen(
-        camera_from_marker=Rigid(rotation=np.diag([1.0, -1.0, -1.0]), translation_mm=translation_mm),
-        pose_covariance=np.eye(6) * 1e-6,
-        corners_px=np.zeros((4, 2)),
-        score_ratio=1.0,
-        target_score_ratio=1.0,
-        model_coverage_ratio=1.0,
-        target_coverage_ratio=1.0,
-        fit_error_px2=0.0,
-        found_by="search",
+    return perfectly_seen(
+        Rigid(rotation=np.diag([1.0, -1.0, -1.0]), translation_mm=translation_mm), found_by="search"
     )
 
 

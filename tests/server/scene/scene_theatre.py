@@ -16,6 +16,7 @@ from starlette.routing import Route
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.scene import mount_scene
 from server.stream.viewers import ViewerKind, Viewers
+from tests.tracker.scenes import perfectly_seen
 from tracker.camera import CameraModel
 from tracker.geometry import Camera, Rigid, Tool, Vertebra, rotation_between
 from tracker.navigation import Absent, AbsentReason, Setup, navigate
@@ -86,17 +87,7 @@ class Theatre:
         marker = (
             camera_from_vertebra @ vertebra_from_tool @ self.setup.tools["drill"].marker_from_tool.inverse
         )
-        return Seen(
-            camera_from_marker=marker,
-            pose_covariance=np.eye(6) * 1e-4,
-            corners_px=np.zeros((4, 2)),
-            score_ratio=1.0,
-            target_score_ratio=1.0,
-            model_coverage_ratio=1.0,
-            target_coverage_ratio=1.0,
-            fit_error_px2=0.0,
-            found_by="track",
-        )
+        return perfectly_seen(marker, covariance=np.eye(6) * 1e-4)
 
     def unregistered(self) -> "Theatre":
         """The same before registration."""

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from tests.tracker.scenes import perfectly_seen
 from tracker import Seen, Sighting, Unseen, UnseenReason
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.navigation import Absent, AbsentReason, Setup, Watched, Watching
@@ -19,16 +20,8 @@ REFERENCE: Rigid[Camera, Marker] = Rigid.from_vector([2.6, 0.3, 0.2], [60.0, 20.
 
 
 def seen(pose: Rigid[Camera, Marker]) -> Seen:
-    return Seen(
-        camera_from_marker=pose,
-        pose_covariance=np.eye(6) * 1e-6,
-        corners_px=np.array([[600.0, 300.0], [640.0, 300.0], [640.0, 340.0], [600.0, 340.0]]),
-        score_ratio=1.0,
-        target_score_ratio=1.0,
-        model_coverage_ratio=1.0,
-        target_coverage_ratio=1.0,
-        fit_error_px2=0.0,
-        found_by="track",
+    return perfectly_seen(
+        pose, corners_px=np.array([[600.0, 300.0], [640.0, 300.0], [640.0, 340.0], [600.0, 340.0]])
     )
 
 

@@ -20,7 +20,7 @@ from tests.benchmarks.scenes.scene import (
     Scene,
     Window,
     mean_of,
-    noise_variance_grey2,
+    recorded,
     window_mean_of,
 )
 from tests.tracker.small_scenes import Image
@@ -45,16 +45,14 @@ def _image(pose_at: Callable[[float], Pose], scene: Scene, at_s: float) -> Image
     left, first = np.maximum(scene.corners_px.min(axis=0) - beyond_px, 0.0).astype(int).tolist()
     most = [width, height - ROWS_AT_ONCE]
     right, last = np.minimum(scene.corners_px.max(axis=0) + beyond_px, most).astype(int).tolist()
-    mean = mean_of(scene).astype(np.float64)
+    mean = mean_of(scene)
     for row in range(first, last, ROWS_AT_ONCE):
         delay_s = (row + 0.5 * (ROWS_AT_ONCE - 1) - centre_row) / height * READOUT_S
         later = pose_at(at_s + delay_s)
         strip = Window(left=left, top=row, size_wh=(right - left, ROWS_AT_ONCE))
         seen = window_mean_of(replace(scene, boards=(Board(face=FACE, poses=(later,)),)), strip)
         mean[row : row + ROWS_AT_ONCE, left:right] = seen
-    noise = np.random.default_rng(list(scene.noise_seed)).standard_normal(mean.shape)
-    grey = mean + np.sqrt(noise_variance_grey2(mean, BASE)) * noise
-    return np.clip(np.rint(grey), 0.0, 255.0).astype(np.uint8)
+    return recorded(mean, scene)
 
 
 @cache

@@ -1,6 +1,7 @@
 """What images say for one of the planar solutions adds up only as far as it is new in each of them."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from tests.benchmarks.scenes.faces import FACES
 from tests.benchmarks.scenes.placing import scene_at
 from tests.benchmarks.scenes.scene import Scene, image_of
 from tests.tracker.pipeline.stepped import pose_of
-from tests.tracker.scenes import seen
+from tests.tracker.scenes import perfectly_seen, seen
 from tests.tracker.small_scenes import RIG, Image, trackers_by_face
 from tests.tracker.small_scenes import pose_of as somewhere
 from tracker import Seen, Sighting
@@ -25,19 +26,8 @@ SAYS_SD2 = 6.0
 
 
 def _seen(pose: Rigid[Camera, Marker], *, lead_sd2: float, unexplained_ratio: float) -> Seen:
-    return Seen(
-        camera_from_marker=pose,
-        pose_covariance=np.eye(6),
-        corners_px=np.zeros((4, 2)),
-        score_ratio=1.0,
-        target_score_ratio=1.0,
-        model_coverage_ratio=1.0,
-        target_coverage_ratio=1.0,
-        fit_error_px2=0.0,
-        found_by="track",
-        lead_sd2=lead_sd2,
-        unexplained_ratio=unexplained_ratio,
-    )
+    said = perfectly_seen(pose)
+    return replace(said, lead_sd2=lead_sd2, unexplained_ratio=unexplained_ratio)
 
 
 def _lead_after(images: int, unexplained_ratio: float) -> float:

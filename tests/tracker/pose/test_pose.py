@@ -15,6 +15,7 @@ from tests.tracker.scenes import (
     corners_px_of,
     facing,
     facing_at_px,
+    perfectly_seen,
     rendered,
     seen,
 )
@@ -282,16 +283,8 @@ def test_a_marker_that_is_hidden_for_an_image_is_expected_where_it_was_going() -
 
 def _sighting(at_mm: list[float]) -> Seen:
     pose = facing(at_mm, tilt_deg=10)
-    return Seen(
-        camera_from_marker=pose,
-        pose_covariance=np.eye(6),
-        corners_px=corners_px_of(CAMERA, pose),
-        score_ratio=1.0,
-        target_score_ratio=1.0,
-        model_coverage_ratio=1.0,
-        target_coverage_ratio=1.0,
-        fit_error_px2=0.0,
-        found_by="search",
+    return perfectly_seen(
+        pose, covariance=np.eye(6), corners_px=corners_px_of(CAMERA, pose), found_by="search"
     )
 
 

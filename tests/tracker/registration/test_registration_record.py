@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.tracker.scenes import perfectly_seen
 from tracker import CameraModel, Seen, Unseen, UnseenReason
 from tracker.errors import RegistrationError
 from tracker.geometry import (
@@ -52,17 +53,7 @@ SETUP = Setup(
     ),
     reference="patient",
 )
-SEEN = Seen(
-    camera_from_marker=CAMERA_FROM_REFERENCE,
-    pose_covariance=OF_REFERENCE,
-    corners_px=np.zeros((4, 2)),
-    score_ratio=1.0,
-    target_score_ratio=1.0,
-    model_coverage_ratio=1.0,
-    target_coverage_ratio=1.0,
-    fit_error_px2=0.0,
-    found_by="track",
-)
+SEEN = perfectly_seen(CAMERA_FROM_REFERENCE, covariance=OF_REFERENCE)
 
 
 def concluded(setup: Setup, sighting: Seen | Unseen) -> NavigationSnapshot:
