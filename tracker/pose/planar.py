@@ -1,5 +1,7 @@
 """The pose of a square from its four corners: both of its solutions."""
 
+from dataclasses import dataclass
+
 import cv2
 import numpy as np
 
@@ -34,15 +36,33 @@ def pose_from_corners(
         return None
     best, least = None, np.inf
     for pose in (start, other_solution(start)):
-        rotation, translation = pose.rotation.copy(), pose.translation_mm.copy()
-        left = fit_square(corners, h, rotation, translation, FIT_ROUNDS)
-        # The printed face looks at the camera, and the camera looks at the marker.
-        facing = translation[2] > 0.0 and float(rotation[:, 2] @ translation) < 0.0
-        if facing and left < least:
-            best, least = (rotation, translation), left
-    if best is None:
-        return None
-    return Rigid(rotation=nearest_rotation(best[0]), translation_mm=best[1])
+        fitted = fitted_square(corners, pose, side_mm=side_mm)
+        if fitted is not None and fitted.left < least:
+            best, least = fitted, fitted.left
+    return None if best is None else best.pose
+
+
+@dataclass(frozen=True, slots=True)
+class FittedSquare:
+    """Where a fit to four corners ended, in front of the camera; `left` is the sum of squares that remain."""
+
+    rotation: Array
+    translation_mm: Array
+    left: float
+
+    @property
+    def pose(self) -> Rigid[Camera, Marker]:
+        """The same with its rotation free of rounding: made of the best one alone, as it takes its time."""
+        return Rigid(rotation=nearest_rotation(self.rotation), translation_mm=self.translation_mm)
+
+
+def fitted_square(corners: Array, start: Rigid[Camera, Marker], *, side_mm: float) -> FittedSquare | None:
+    """The pose near a start at which a square's corners (4, 2) are seen on the plane at z = 1, if any is."""
+    rotation, translation = start.rotation.copy(), start.translation_mm.copy()
+    left = float(fit_square(corners, side_mm / 2.0, rotation, translation, FIT_ROUNDS))
+    # The printed face looks at the camera, and the camera looks at the marker.
+    facing = translation[2] > 0.0 and float(rotation[:, 2] @ translation) < 0.0
+    return FittedSquare(rotation, translation, left) if facing and np.isfinite(left) else None
 
 
 def _foreshortened(homography: Array) -> Rigid[Camera, Marker] | None:

@@ -96,11 +96,9 @@ class Prior:
         if float(velocity @ velocity) < MOST_SPEED_MM_S**2:
             rates[:3] = velocity
         # From one planar solution to the other is no turn of the hand.
-        before = (self.pose, other_solution(self.pose))
-        turns = [float(turn_between(now.rotation, pose.rotation)) for pose in before]
-        nearer = before[turns[1] < turns[0]]
-        if min(turns) < MOST_TURN_RAD:
-            rates[3:] = vector_from_rotation(now.rotation @ nearer.rotation.T) / interval
+        before = other_solution(self.pose) if _is_turned_over(now, self.pose) else self.pose
+        if float(turn_between(now.rotation, before.rotation)) < MOST_TURN_RAD:
+            rates[3:] = vector_from_rotation(now.rotation @ before.rotation.T) / interval
         return rates
 
     def _weigh(self, seen: Seen) -> None:
@@ -109,14 +107,19 @@ class Prior:
         What no noise explains comes again in each image, as of a drop on the marker or of doubled rows: as a
         share of what is left it says in how many images that agree there is something new.
         """
-        before = self.lead_sd2 if seen.found_by == "track" and self.pose is not None else 0.0
-        says = seen.lead_sd2 - before
-        if before > 0.0 and self.pose is not None:
-            turned_over = other_solution(self.pose)
-            if is_nearer(seen.camera_from_marker, turned_over, self.pose):
-                says, before = seen.lead_sd2 + before, -before
+        before = 0.0 if seen.found_by == "search" or self.pose is None else self.lead_sd2
+        is_against = (
+            before > 0.0 and self.pose is not None and _is_turned_over(seen.camera_from_marker, self.pose)
+        )
+        known = -before if is_against else before
+        says = seen.lead_sd2 - known
         if says > 0.0:
             images = min(1.0 / max(seen.unexplained_ratio, 1e-9), IMAGES_KEPT)
             says *= (images - 1.0) / (IMAGES_KEPT - 1.0)
-        self.lead_before_sd2 = abs(before)
-        self.lead_sd2 = min(KEPT_LEAD_RATIO * max(before + says, 0.0), MOST_LEAD_SD2)
+        self.lead_before_sd2 = before
+        self.lead_sd2 = min(KEPT_LEAD_RATIO * max(known + says, 0.0), MOST_LEAD_SD2)
+
+
+def _is_turned_over(now: Rigid[Camera, Marker], before: Rigid[Camera, Marker]) -> bool:
+    """Whether a pose is nearer to the other solution of the one before."""
+    return is_nearer(now, other_solution(before), before)

@@ -6,9 +6,8 @@ import numpy as np
 
 from tracker.camera import CameraModel
 from tracker.camera.kernels import square_seen
-from tracker.geometry import Array, Camera, Marker, Rigid, nearest_rotation
-from tracker.pose.kernels import fit_square
-from tracker.pose.planar import FIT_ROUNDS, other_solution
+from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.pose.planar import fitted_square, other_solution
 from tracker.pose.prior import Prior
 from tracker.pose.rivals import Expected, difference
 from tracker.pose.sighting import Seen
@@ -141,9 +140,5 @@ def _shifted(pose: Rigid[Camera, Marker], shift: Array, side_mm: float) -> Rigid
     """The pose whose four points are at those of this one, shifted (4, 2) on the plane at z = 1."""
     points = _arms(pose, side_mm) + pose.translation_mm
     target = np.ascontiguousarray(points[:, :2] / points[:, 2:] + shift)
-    rotation, translation = pose.rotation.copy(), pose.translation_mm.copy()
-    left = fit_square(target, 0.5 * POINTS_RATIO * side_mm, rotation, translation, FIT_ROUNDS)
-    facing = translation[2] > 0.0 and float(rotation[:, 2] @ translation) < 0.0
-    if not (np.isfinite(left) and facing):
-        return pose
-    return Rigid(rotation=nearest_rotation(rotation), translation_mm=translation)
+    fitted = fitted_square(target, pose, side_mm=POINTS_RATIO * side_mm)
+    return pose if fitted is None else fitted.pose
