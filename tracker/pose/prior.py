@@ -115,7 +115,9 @@ class Prior:
         says = seen.lead_sd2 - known
         if says > 0.0:
             images = min(1.0 / max(seen.unexplained_ratio, 1e-9), IMAGES_KEPT)
-            says *= (images - 1.0) / (IMAGES_KEPT - 1.0)
+            share = (images - 1.0) / (IMAGES_KEPT - 1.0)
+            # An infinite lead, too, says nothing new where all that is left comes again.
+            says = says * share if share > 0.0 else 0.0
         self.lead_before_sd2 = before
         self.lead_sd2 = min(KEPT_LEAD_RATIO * max(known + says, 0.0), MOST_LEAD_SD2)
 

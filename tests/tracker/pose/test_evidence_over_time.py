@@ -59,6 +59,14 @@ def test_an_image_that_cannot_be_explained_takes_little_from_what_clean_ones_sai
     assert prior.lead_before_sd2 == MOST_LEAD_SD2
 
 
+def test_edges_alone_that_fit_one_solution_only_say_nothing_for_the_next_images() -> None:
+    prior = Prior()
+    prior.learn(_seen(POSE, lead_sd2=float("inf"), unexplained_ratio=1.0), 0.0)
+    assert prior.lead_sd2 == 0.0
+    prior.learn(_seen(POSE, lead_sd2=float("inf"), unexplained_ratio=0.0), 1 / 30.0)
+    assert prior.lead_sd2 == MOST_LEAD_SD2
+
+
 def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> None:
     before_sd2 = 10.0
     for unexplained_ratio, kept_sd2 in ((0.0, 0.9 * 5.0), (1.0, 0.0)):
