@@ -16,7 +16,7 @@ from server.stream.fitting.texts import Texts
 from server.stream.live_socket import watch_live
 from server.stream.view_socket import View, watch_view
 from server.stream.viewers import ViewerKind, Viewers
-from tests.server.stream.made_time import Page, run_in_made_time
+from tests.server.stream.made_time import LoopTime, Page, run_in_made_time
 from tracker.navigation import NavigationSnapshot
 
 RATE_HZ = 30.0
@@ -36,14 +36,6 @@ class MadePictures(Pictures):
     async def of(self, instant: Instant, size: Size) -> bytes:
         self.made.add((instant.sequence, size))
         return b"\xff" * BYTES[size]
-
-
-class LoopTime:
-    """Stands in for the module `time` where sendings are timed."""
-
-    @staticmethod
-    def monotonic() -> float:
-        return asyncio.get_running_loop().time()
 
 
 @dataclasses.dataclass

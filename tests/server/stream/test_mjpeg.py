@@ -1,5 +1,6 @@
 """MJPEG from a real server: at once, never one late, never frozen, and a stalled viewer costs nothing."""
 
+import dataclasses
 import http.client
 import json
 import re
@@ -13,8 +14,15 @@ import numpy as np
 import pytest
 from fastapi import FastAPI
 
+from server.app import AppParts, create_app
+from server.config import Config, LimitsConfig
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus
-from server.stream.mjpeg import with_comment
+from server.stream import mjpeg
+from server.stream.fitting.pictures import Pictures
+from server.stream.fitting.sizes import Choice
+from server.stream.mjpeg import Video, with_comment
+from server.stream.viewers import ViewerKind, Viewers
+from tests.server.stream.made_time import LoopTime, run_in_made_time
 
 LiveInstant = Callable[..., Instant]
 Serve = Callable[[FastAPI], int]
@@ -39,13 +47,23 @@ class Watching:
         data = b""
         while not data.endswith(b"\r\n" + PART_HEAD):
             data += self.response.read(1)
-        jpeg = data[: -len(b"\r\n" + PART_HEAD)]
-        found = re.search(rb"\xff\xfe(..)(\{.*?\})", jpeg, re.DOTALL)
-        assert found is not None
-        return json.loads(found[2]), jpeg[: found.start()] + jpeg[found.end() :]
+        return facts_in(data[: -len(b"\r\n" + PART_HEAD)])
 
     def close(self) -> None:
         self._connection.close()
+
+
+def facts_in(jpeg: bytes) -> tuple[dict[str, Any], bytes]:
+    """The facts in the comment of a JPEG, and the JPEG without them."""
+    found = re.search(rb"\xff\xfe(..)(\{.*?\})", jpeg, re.DOTALL)
+    assert found is not None
+    return json.loads(found[2]), jpeg[: found.start()] + jpeg[found.end() :]
+
+
+@pytest.fixture
+def app(hub: LiveHub) -> FastAPI:
+    """An application to which no image of these tests is old, however long the machine takes."""
+    return create_app(AppParts(hub=hub, config=Config(limits=LimitsConfig(video_stale_after_ms=10_000.0))))
 
 
 @pytest.fixture
@@ -145,12 +163,26 @@ def test_when_tracking_dies_a_card_replaces_the_last_image(
 
 
 def test_when_nobody_says_anything_any_more_a_card_replaces_the_last_image(
-    hub: LiveHub, live_instant: LiveInstant, watch: Callable[[], Watching]
+    live_instant: LiveInstant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    hub.publish(live_instant(0))
-    viewer = watch()
-    assert viewer.picture()[0]["image_number"] == 1000
-    assert viewer.picture()[0] == {"image_number": None}
+    monkeypatch.setattr(mjpeg, "time", LoopTime)
+    viewers, hub, said = Viewers(), LiveHub(), live_instant(0)
+    assert said.snapshot is not None
+    # 30 ms old when it comes: at the end of the viewer's patience it is older than 500 ms.
+    snapshot = dataclasses.replace(said.snapshot, captured_at_s=-0.03)
+    video = Video(hub=hub, viewers=viewers, pictures=Pictures(quality=80), stale_after_ms=500.0)
+    came: list[tuple[float, int | None]] = []
+
+    async def run() -> None:
+        hub.publish(dataclasses.replace(said, snapshot=snapshot))
+        with viewers.watching(ViewerKind.MJPEG, Choice.AUTO) as viewer:
+            async for picture in video.pictures(viewer):
+                came.append((LoopTime.monotonic(), facts_in(picture)[0]["image_number"]))
+                if len(came) == 3:
+                    break
+
+    run_in_made_time(run())
+    assert came == [(0.0, 1000), (pytest.approx(0.5), None), (pytest.approx(1.5), None)]
 
 
 def test_a_stalled_viewer_is_let_go_and_delays_nobody(
