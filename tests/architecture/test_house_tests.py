@@ -1,0 +1,67 @@
+"""How the tests are run: each file once, and each part's failure is the run's."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+FILES = (
+    "tests/tracker/test_scenes.py",
+    "tests/tracker/test_more_scenes.py",
+    "tests/tracker/pose/test_pose.py",
+    "tests/server/test_page_in_browser.py",
+    "tests/browser/test_dashboard.py",
+)
+# Writes down what each pytest was asked for, and fails where it is asked for what fails.
+PYTHON = """#!/bin/sh
+echo "$*" >>called
+case "$*" in *"$FAILS"*) exit "$WITH";; esac
+"""
+
+
+def run(folder: Path, *narrowed: str, fails: str = "nothing", code: int = 1) -> tuple[int, list[str]]:
+    """The code at which the run ends, and what each part of it was asked for."""
+    for file in FILES:
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
+        (folder / file).touch()
+    (folder / ".venv" / "log").mkdir(parents=True)
+    python = folder / "python"
+    python.write_text(PYTHON)
+    python.chmod(0o755)
+    ended = subprocess.run(
+        ["sh", str(ROOT / ".make" / "run-tests"), "./python", "4", *narrowed],
+        cwd=folder,
+        env={"PATH": "/usr/bin:/bin", "FAILS": fails, "WITH": str(code)},
+        check=False,
+        capture_output=True,
+    )
+    return ended.returncode, (folder / "called").read_text().splitlines()
+
+
+def test_each_file_of_tests_is_run_once(tmp_path: Path) -> None:
+    code, called = run(tmp_path)
+    assert code == 0
+    first, *others, judged = called
+    assert len(others) == 2
+    scenes = next(asked for asked in others if "-m browser" not in asked)
+    browser = next(asked for asked in others if "-m browser" in asked)
+    # The first part runs all that is found, but what needs a browser and what it is told to leave out.
+    assert "-m not browser" in first
+    left_out = {word.removeprefix("--ignore=") for word in first.split() if word.startswith("--ignore=")}
+    assert left_out == set(FILES[:2]) == {word for word in scenes.split() if word.endswith(".py")}
+    assert {"tests/browser", FILES[3]} <= set(browser.split())
+    assert judged.startswith(".make/some-test-passed .venv/log/pytest")
+
+
+@pytest.mark.parametrize("fails", ["not browser", "pytest-scenes.xml", "-m browser", "some-test-passed"])
+def test_the_run_fails_with_any_of_its_parts(tmp_path: Path, fails: str) -> None:
+    code, called = run(tmp_path, fails=fails)
+    assert code != 0
+    assert len(called) == (4 if fails == "some-test-passed" else 3)
+
+
+def test_what_is_narrowed_runs_in_two_parts_of_which_one_may_be_empty(tmp_path: Path) -> None:
+    code, called = run(tmp_path, "tests/server", fails="-m browser", code=5)
+    assert code == 0
+    assert ["tests/server" in asked for asked in called] == [True, True, False]
