@@ -87,7 +87,10 @@ class Block:
 
     def distance_mm(self, points_mm: Array) -> Array:
         """See `Part`."""
-        return np.asarray((np.abs(points_mm - self.centre_mm) - np.array(self.half_mm)).max(axis=1))
+        x, y, z = (
+            np.abs(at - c) - h for at, c, h in zip(points_mm.T, self.centre_mm, self.half_mm, strict=True)
+        )
+        return np.asarray(np.maximum(np.maximum(x, y), z))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,7 +112,8 @@ class Rod:
         along = self.end_mm - self.start_mm
         from_start = points_mm - self.start_mm
         share = np.clip(from_start @ along / (along @ along), 0.0, 1.0)
-        return np.asarray(np.linalg.norm(from_start - share[:, None] * along, axis=1) - self.radius_mm)
+        x, y, z = (at - share * by for at, by in zip(from_start.T, along, strict=True))
+        return np.asarray(np.sqrt(x * x + y * y + z * z) - self.radius_mm)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
