@@ -77,7 +77,7 @@ def test_a_connection_without_a_request_is_cut(
 def test_a_later_request_whose_head_trickles_is_cut(
     app: FastAPI, serve: Callable[[FastAPI], int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(ViewerProtocol, "request_within_s", 0.3)
+    monkeypatch.setattr(ViewerProtocol, "request_within_s", 1.0)
     port = serve(app)
     with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as slow:
         slow.sendall(b"GET /api/dashboard HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
@@ -100,7 +100,7 @@ def test_a_socket_outlives_the_wait_for_a_request(
     live_instant: Callable[..., Instant],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(ViewerProtocol, "request_within_s", 0.2)
+    monkeypatch.setattr(ViewerProtocol, "request_within_s", 1.0)
     port = serve(app)
     hub.publish(live_instant(1))
     with socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S) as viewer:
