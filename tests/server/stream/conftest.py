@@ -10,7 +10,7 @@ from fastapi.testclient import TestClient
 from starlette.testclient import WebSocketTestSession
 
 from server.app import AppParts, create_app
-from server.config import Config
+from server.config import Config, LimitsConfig
 from server.live import Instant, LiveHub
 from server.overlay import encode_jpeg
 from tracker.navigation import NavigationSnapshot
@@ -24,6 +24,12 @@ def hub() -> LiveHub:
 @pytest.fixture
 def app(hub: LiveHub) -> FastAPI:
     return create_app(AppParts(hub=hub, config=Config()))
+
+
+@pytest.fixture
+def patient_app(hub: LiveHub) -> FastAPI:
+    """The same, to which no image of a test is old, however long the machine takes."""
+    return create_app(AppParts(hub=hub, config=Config(limits=LimitsConfig(video_stale_after_ms=10_000.0))))
 
 
 @pytest.fixture

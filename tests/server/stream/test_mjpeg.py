@@ -14,8 +14,6 @@ import numpy as np
 import pytest
 from fastapi import FastAPI
 
-from server.app import AppParts, create_app
-from server.config import Config, LimitsConfig
 from server.live import Instant, LiveHub, ProcessState, ProcessStatus
 from server.stream import mjpeg
 from server.stream.fitting.pictures import Pictures
@@ -61,14 +59,8 @@ def facts_in(jpeg: bytes) -> tuple[dict[str, Any], bytes]:
 
 
 @pytest.fixture
-def app(hub: LiveHub) -> FastAPI:
-    """An application to which no image of these tests is old, however long the machine takes."""
-    return create_app(AppParts(hub=hub, config=Config(limits=LimitsConfig(video_stale_after_ms=10_000.0))))
-
-
-@pytest.fixture
-def port(app: FastAPI, serve: Serve) -> int:
-    return serve(app)
+def port(patient_app: FastAPI, serve: Serve) -> int:
+    return serve(patient_app)
 
 
 @pytest.fixture

@@ -5,10 +5,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from fastapi import FastAPI
 from playwright.sync_api import Browser
 
-from server.app import AppParts, create_app
-from server.config import Config, LimitsConfig
 from server.live import Instant, LiveHub
 from server.overlay import encode_jpeg
 from tracker.navigation import NavigationSnapshot
@@ -27,14 +26,14 @@ IS_SHOWN = """bright => {
 
 def test_the_browser_shows_an_image_without_waiting_for_the_next(
     browser: Browser,
-    serve: Callable[..., int],
+    hub: LiveHub,
+    patient_app: FastAPI,
+    serve: Callable[[FastAPI], int],
     snapshot_of: Callable[..., NavigationSnapshot],
     instant_of: Callable[..., Instant],
 ) -> None:
-    hub = LiveHub()
     # No card within this test: it would be the next part, and hide that the browser waits for it.
-    patient = Config(limits=LimitsConfig(video_stale_after_ms=10_000.0))
-    port = serve(create_app(AppParts(hub=hub, config=patient)))
+    port = serve(patient_app)
 
     def publish(sequence: int, bright: int) -> None:
         snapshot = snapshot_of(size_wh_px=(64, 36), captured_at_s=time.monotonic())
