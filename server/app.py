@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
+from functools import partial
 
 from fastapi import Depends, FastAPI
 
@@ -129,6 +130,7 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     _add_guards(app, parts)
     app.state.pictures = pictures
+    app.state.video_language = config.video.language
     app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
     app.include_router(live_router(hub))
     _add_people(app, parts)
@@ -158,7 +160,8 @@ def create_app(parts: AppParts) -> FastAPI:
 def picture_of(app: FastAPI) -> Picture:
     """How each image is drawn and encoded: once for all who watch through this application."""
     pictures = app.state.pictures
-    return Picture(draw=draw_overlay, encode=pictures.encode, wanted=pictures.wants_full)
+    draw = partial(draw_overlay, language=app.state.video_language)
+    return Picture(draw=draw, encode=pictures.encode, wanted=pictures.wants_full)
 
 
 def _add_guards(app: FastAPI, parts: AppParts) -> None:

@@ -273,6 +273,8 @@ class VideoConfig(Section):
     """The picture that goes out."""
 
     jpeg_quality: Annotated[int, Field(ge=1, le=100)] = 80
+    language: Literal["en", "de"] = "en"
+    """Of the words that are burned into the picture; a page has the language of its browser."""
     most_viewers: Annotated[int, Field(ge=1, le=10_000)] = 64
     """Who may watch at once, of pictures and numbers; as many again may watch the 3-D scene."""
 

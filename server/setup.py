@@ -18,7 +18,7 @@ from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
-from tracker.navigation import Absent, AbsentReason, Guide, Setup
+from tracker.navigation import Absent, AbsentReason, DrillLimits, Guide, Setup
 from tracker.navigation.clearance import choose_wall
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
@@ -105,6 +105,7 @@ class Preparation:
         reference: name of the marker that is fixed to the patient; empty when there is none.
         score_settings: when a marker counts as found.
         most_tip_sd_mm: how unsure a tip may be that is shown.
+        limits: of a drill, beside those of its pedicle.
         smoothing: how much poses are steadied.
         readout_s: from when the first row of an image is read to the last one; 0 of a global shutter.
         theatre: the rehearsal's, None for every other source.
@@ -127,6 +128,7 @@ class Preparation:
     withheld: AbsentReason | None = None
     registered_from_s: float | None = None
     guide: Guide | None = None
+    limits: DrillLimits = field(default_factory=DrillLimits)
 
     def guide_along(self, channel: Channel) -> Guide:
         """What a drill in this channel is held against: the case's bone, the rehearsal's, or the channel."""
@@ -222,6 +224,7 @@ class Preparation:
             screw=None if self.guide is None else self.guide.screw,
             withheld=self.withheld,
             most_tip_sd_mm=self.most_tip_sd_mm,
+            limits=self.limits,
         )
 
 
@@ -251,6 +254,9 @@ def build_setup(config: Config) -> Preparation:
         reference=config.reference.marker or "",
         score_settings=scores,
         most_tip_sd_mm=config.limits.most_tip_sd_mm,
+        limits=DrillLimits(
+            warning_distance_mm=config.alarms.warning_distance_mm, breach_ratio=config.alarms.breach_ratio
+        ),
         smoothing=smoothing,
         readout_s=config.camera.readout_ms / 1000.0,
     )

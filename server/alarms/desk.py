@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from datetime import datetime
+from math import inf
 
 from server.alarms.entries import entry_of
 from server.alarms.log import AlarmLog, NoLog
@@ -26,6 +27,9 @@ from tracker.navigation.alarms import (
     observed_of,
     remembered,
 )
+
+# A clock that is disciplined by NTP drifts less than this between two looks.
+MAX_CLOCK_DRIFT_S = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,6 +99,7 @@ class AlarmDesk:
         self._camera_works = True
         self._facts = ProcedureFacts()
         self._hold_asked_by = ""
+        self._unix_offset_s = inf
         # Called after a change that no image brought, so that it is published at once.
         self.tell: Callable[[], None] = lambda: None
 
@@ -222,10 +227,20 @@ class AlarmDesk:
         )
 
     def _kept(self, picture: AlarmPicture, *, by: str = "") -> AlarmPicture:
+        now = self._wall_clock()
+        offset_s = now.timestamp() - self._clock()
+        # Held, so that the time of an event does not jump by a second from message to message; replaced when
+        # the wall clock was set, or the computer slept.
+        if not abs(offset_s - self._unix_offset_s) < MAX_CLOCK_DRIFT_S:
+            self._unix_offset_s = offset_s
+        picture = replace(picture, unix_offset_s=self._unix_offset_s)
         if picture.events:
-            at = utc_text(self._wall_clock())
             events = [replace(one, by=one.by or _doer(one, by)) for one in picture.events]
-            self._log.append([entry_of(event, at=at, snapshot=self._snapshot) for event in events])
+            entries = [
+                entry_of(event, at=utc_text(now), unix_offset_s=self._unix_offset_s, snapshot=self._snapshot)
+                for event in events
+            ]
+            self._log.append(entries)
         return picture
 
 

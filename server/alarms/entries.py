@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from server.texts import alarm_text
 from tracker.navigation import Absent, Deviation, NavigationSnapshot
-from tracker.navigation.alarms import TRAITS, AlarmEvent
+from tracker.navigation.alarms import Alarm, AlarmEvent
 
 Line = Mapping[str, object]
 
@@ -22,23 +23,20 @@ class Entry:
     by: str
 
 
-def entry_of(event: AlarmEvent, *, at: str, snapshot: NavigationSnapshot | None) -> Entry:
-    """The log's line for a change: when, what, value and limit, who, and where the drill was.
+def entry_of(
+    event: AlarmEvent, *, at: str, unix_offset_s: float, snapshot: NavigationSnapshot | None
+) -> Entry:
+    """The log's line for a change: when, what, value and limit, who, where the drill was, and in words.
 
     Args:
         event: the change.
         at: the wall clock, UTC, ISO 8601.
+        unix_offset_s: to be added to the event's times to have Unix time.
         snapshot: of the newest image at that moment.
     """
-    condition, measure = event.condition, event.measure
     line: dict[str, object] = {"at": at, "at_s": event.at_s, "change": event.change.value}
-    if condition is not None:
-        line["number"] = event.number
-        line["condition"] = condition.value
-        line["priority"] = TRAITS[condition].priority.value
-        line["kind"] = TRAITS[condition].kind.value
-    if measure is not None:
-        line["value"], line["limit"], line["unit"] = measure.value, measure.limit, measure.unit
+    if event.alarm is not None:
+        line |= _alarm(event.alarm, unix_offset_s=unix_offset_s)
     if event.by:
         line["by"] = event.by
     if event.pause_s:
@@ -47,6 +45,30 @@ def entry_of(event: AlarmEvent, *, at: str, snapshot: NavigationSnapshot | None)
         line["image_number"] = snapshot.image_number
         line["tools"] = {name: _tool(snapshot, name) for name in snapshot.tools}
     return Entry(line=line, by=event.by)
+
+
+def _alarm(alarm: Alarm, *, unix_offset_s: float) -> Line:
+    """The alarm in numbers and in words, as page and video have them."""
+    words = alarm_text(alarm, unix_offset_s=unix_offset_s)
+    line: dict[str, object] = {
+        "number": alarm.number,
+        "condition": alarm.condition.value,
+        "priority": alarm.priority.value,
+        "kind": alarm.kind.value,
+        "presence": alarm.presence.value,
+        "title": dict(words.title),
+        "sentence": dict(words.sentence),
+    }
+    if alarm.measure is not None:
+        measure = alarm.measure
+        line["value"], line["limit"], line["unit"] = measure.value, measure.limit, measure.unit
+    if alarm.worst is not None:
+        line["worst"] = alarm.worst.value
+    if alarm.worst_site is not None:
+        site = alarm.worst_site
+        line["worst_depth_mm"] = site.depth_mm
+        line["worst_wall"] = None if site.wall is None else site.wall.value
+    return line
 
 
 def _tool(snapshot: NavigationSnapshot, name: str) -> Line:

@@ -1,9 +1,9 @@
 """The overlay: what is known, burned into a copy of the image, and encoded once for all who watch.
 
-words.py    which words and numbers the panel says        (pure: snapshot -> text)
+words.py    which words and numbers the panel shows       (pure: snapshot -> text)
 view.py     points of the camera's frame -> runs of pixels that may be drawn
 ink.py      lines with a dark halo, text on a dark ground
-channel.py, drill.py, panel.py, bullseye.py, verdict.py, alarm_band.py   what is drawn
+channel.py, drill.py, panel.py, bullseye.py, headline.py, alarm_band.py   what is drawn
 draw.py     all of it in order
 card.py     the picture that says that there is no picture
 """

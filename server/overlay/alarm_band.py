@@ -1,35 +1,69 @@
 """The alarm of the highest priority, burned into the picture: marks, word and numbers, at its upper edge."""
 
-from server.overlay.alarm_words import MARKS, alarm_words
-from server.overlay.ink import REGULAR, SEMIBOLD, WHITE, Image, ground, text, text_width_px
+from collections.abc import Mapping
+
+from server.overlay.ink import REGULAR, SEMIBOLD, WHITE, Box, Image, ground, text, text_width_px
+from server.texts import Language, Text, alarm_text
 from tracker.navigation.alarms import AlarmPicture, AlarmState, Priority
 
 # BGR; the words say the same, because colour alone says nothing to one man in twelve.
 COLOURS = {Priority.HIGH: (110, 110, 255), Priority.MEDIUM: (77, 216, 255), Priority.LOW: (242, 211, 111)}
+# The font has no triangles: as many exclamation marks as the page has marks.
+MARKS = {Priority.HIGH: "!!!", Priority.MEDIUM: "!!", Priority.LOW: "!"}
+STATES: Mapping[AlarmState, Text] = {
+    AlarmState.ACKNOWLEDGED: {"en": "acknowledged", "de": "quittiert"},
+    AlarmState.LATCHED: {"en": "over, not acknowledged", "de": "vorbei, nicht quittiert"},
+}
 TOP_PX = 44.0
 STATE_PX = 40.0
 SENTENCE_PX = 22.0
+STATE_ROW_PX, SENTENCE_ROW_PX = 58.0, 31.0
+FIRST_BASE_PX, SENTENCE_BASE_PX = 42.0, 32.0
 PADDING_PX = 14.0
 
 
-def draw_alarm_band(image: Image, alarms: AlarmPicture, *, scale: float) -> None:
-    """Draw the first alarm, and how many more there are; nothing when there is none."""
+def draw_alarm_band(
+    image: Image,
+    alarms: AlarmPicture,
+    *,
+    scale: float,
+    language: Language = "en",
+    beside: Box | None = None,
+) -> None:
+    """Draw the first alarm, and how many more there are; nothing when there is none.
+
+    Args:
+        image: drawn into.
+        alarms: of this moment.
+        scale: 1 for an image 720 px high.
+        language: of the words.
+        beside: what lies at the left and must not be covered; the band moves to its right where they would
+            meet.
+    """
     top = alarms.top
     if top is None:
         return
-    words = alarm_words(top)
+    words = alarm_text(top, unix_offset_s=alarms.unix_offset_s)
     more = f"  +{len(alarms.alarms) - 1}" if len(alarms.alarms) > 1 else ""
-    known = " (acknowledged)" if top.state is AlarmState.ACKNOWLEDGED else ""
-    # The font has no triangles: as many exclamation marks as the page has marks.
-    head = f"{'!' * len(MARKS[top.priority.value])} {words.state}{known}{more}"
-    rows = ((head, STATE_PX, SEMIBOLD, COLOURS[top.priority]), (words.sentence, SENTENCE_PX, REGULAR, WHITE))
-    room = image.shape[1] - 4.0 * PADDING_PX * scale
-    widths = [text_width_px(words, size_px=size * scale, weight=weight) for words, size, weight, _ in rows]
+    known = f" ({STATES[top.state][language]})" if top.state in STATES else ""
+    # What is over is no alarm any more: it has no marks, and no colour.
+    is_over = top.state is AlarmState.LATCHED
+    marks, colour = ("", WHITE) if is_over else (f"{MARKS[top.priority]} ", COLOURS[top.priority])
+    rows = [(f"{marks}{words.title[language]}{known}{more}", STATE_PX, SEMIBOLD)]
+    rows += [
+        (line, SENTENCE_PX, REGULAR) for line in (words.sentence[language], words.remedy[language]) if line
+    ]
+    above, pad = TOP_PX * scale, PADDING_PX * scale
+    below = above + (STATE_ROW_PX + SENTENCE_ROW_PX * (len(rows) - 1)) * scale
+    meets = beside is not None and beside.top_px < below
+    left_most = (beside.right_px if beside is not None and meets else 0.0) + pad
+    room = image.shape[1] - 3.0 * pad - left_most
+    widths = [text_width_px(line, size_px=size * scale, weight=weight) for line, size, weight in rows]
     width = min(max(widths), room)
-    left, above = (image.shape[1] - width) / 2.0, TOP_PX * scale
-    pad = PADDING_PX * scale
-    ground(image, left - pad, above, left + width + pad, above + 90.0 * scale)
-    for (said, size, weight, colour), wide, base in zip(rows, widths, (42.0, 76.0), strict=True):
+    middle = max(image.shape[1] / 2.0, left_most + pad + width / 2.0)
+    ground(image, middle - width / 2.0 - pad, above, middle + width / 2.0 + pad, below)
+    for index, ((line, size, weight), wide) in enumerate(zip(rows, widths, strict=True)):
         fitting = size * scale * min(1.0, room / max(wide, 1.0))
-        at = ((image.shape[1] - min(wide, room)) / 2.0, above + base * scale)
-        text(image, said, at, colour, size_px=fitting, weight=weight)
+        base = above + (FIRST_BASE_PX + SENTENCE_BASE_PX * index) * scale
+        at = (middle - min(wide, room) / 2.0, base)
+        text(image, line, at, colour if index == 0 else WHITE, size_px=fitting, weight=weight)

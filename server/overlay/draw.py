@@ -8,11 +8,12 @@ from server.overlay.alarm_band import draw_alarm_band
 from server.overlay.bullseye import Inset, Target, draw_bullseye, reach_of
 from server.overlay.channel import draw_channel
 from server.overlay.drill import draw_drill, draw_marker
+from server.overlay.headline import draw_headline
 from server.overlay.ink import Image
 from server.overlay.panel import MARGIN_PX, WIDTH_PX, draw_panel, draw_small_print
-from server.overlay.verdict import draw_verdict
 from server.overlay.view import View
-from server.overlay.words import Panel, panel_of
+from server.overlay.words import panel_of
+from server.texts import Language
 from tracker.errors import InvalidInput
 from tracker.navigation import Absent, Deviation, NavigationSnapshot, seen_along
 from tracker.navigation.alarms import QUIET, AlarmPicture
@@ -28,7 +29,11 @@ FARTHEST_AHEAD_MM = 150.0
 
 
 def draw_overlay(
-    image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot, alarms: AlarmPicture = QUIET
+    image: npt.NDArray[np.uint8],
+    snapshot: NavigationSnapshot,
+    alarms: AlarmPicture = QUIET,
+    *,
+    language: Language = "en",
 ) -> Image:
     """The image with all that is known at its instant burned in; the image handed in is never written.
 
@@ -38,7 +43,8 @@ def draw_overlay(
     Args:
         image: uint8, BGR (h, w, 3) or grey (h, w), the very image of this snapshot.
         snapshot: what was concluded from it.
-        alarms: what they say of it.
+        alarms: of that moment.
+        language: of all words.
 
     Raises:
         InvalidInput: OVERLAY_SIZE, image and snapshot do not belong together.
@@ -58,12 +64,17 @@ def draw_overlay(
     for name, sighting in snapshot.sightings.items():
         if isinstance(sighting, Seen):
             draw_marker(drawn, name, sighting, scale=scale)
-    panel = panel_of(snapshot)
+    panel = panel_of(snapshot, alarms, language)
     top_px = draw_panel(drawn, panel, scale=scale)
-    top_px = _draw_inset(drawn, snapshot, panel.tool, below_px=top_px, scale=scale)
-    _draw_verdict(drawn, panel, below_px=top_px, scale=scale)
+    beside = None
+    if panel.readings:
+        top_px = _draw_inset(drawn, snapshot, snapshot.shown_tool, below_px=top_px, scale=scale)
+        left_px, bottom_px = MARGIN_PX * scale, top_px - GAP_PX * scale
+        beside = draw_headline(
+            drawn, panel.headline, language, left_px=left_px, bottom_px=bottom_px, scale=scale
+        )
     draw_small_print(drawn, snapshot, scale=scale)
-    draw_alarm_band(drawn, alarms, scale=scale)
+    draw_alarm_band(drawn, alarms, scale=scale, language=language, beside=beside)
     return drawn
 
 
@@ -87,7 +98,7 @@ def _draw_inset(
     Answers the top in px of what is drawn by now.
     """
     channel = snapshot.setup.channel
-    if not tool or isinstance(channel, Absent):
+    if isinstance(channel, Absent):
         return below_px
     placed = snapshot.vertebra_from_tool(tool)
     if isinstance(placed, Absent):
@@ -114,19 +125,6 @@ def _draw_inset(
         ),
     )
     return top_px
-
-
-def _draw_verdict(image: Image, panel: Panel, *, below_px: float, scale: float) -> None:
-    if panel.verdict is None:
-        return
-    draw_verdict(
-        image,
-        panel.verdict,
-        left_px=MARGIN_PX * scale,
-        bottom_px=below_px - GAP_PX * scale,
-        width_px=WIDTH_PX * scale,
-        scale=scale,
-    )
 
 
 def _ahead_mm(deviation: Deviation | Absent) -> float:

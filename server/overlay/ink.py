@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import cv2
@@ -19,6 +20,10 @@ DRILL_ORANGE: Colour = (20, 150, 255)
 WHITE: Colour = (255, 255, 255)
 QUIET: Colour = (205, 205, 205)
 HALO: Colour = (20, 16, 12)
+# To an eye that does not tell red from green, words and shapes say the same.
+GREEN: Colour = (176, 224, 111)
+YELLOW: Colour = (77, 216, 255)
+RED: Colour = (110, 110, 255)
 
 SUBPIXEL_BITS = 4
 FARTHEST_PX = 20_000.0
@@ -29,6 +34,14 @@ LEFT = cv2.PUT_TEXT_ALIGN_LEFT
 NEVER_WRAPPED = (0, 1 << 15)
 
 _fonts = threading.local()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """Top and right edge of a rectangle that is drawn, for what must not lie over it."""
+
+    top_px: float
+    right_px: float
 
 
 def stroke(image: Image, runs: Sequence[Array], colour: Colour, *, width_px: float) -> None:

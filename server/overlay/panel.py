@@ -3,16 +3,18 @@
 from server.overlay.ink import (
     DRILL_ORANGE,
     QUIET,
+    RED,
     REGULAR,
     SEMIBOLD,
     WHITE,
+    YELLOW,
     Image,
     ground,
     text,
     text_width_px,
 )
 from server.overlay.words import RESEARCH_SOFTWARE, Panel, Reading
-from tracker.navigation import Absent, NavigationSnapshot
+from tracker.navigation import Absent, NavigationSnapshot, Status
 
 # For an image 720 px high; all of it grows with the image.
 MARGIN_PX = 16.0
@@ -28,6 +30,7 @@ PADDING_PX = 14.0
 NOTE_PX = 24.0
 # What a label takes beside its number; a longer number is written smaller.
 LEAST_LABEL_PX = 62.0
+FIGURE_COLOURS = {Status.OVER: YELLOW, Status.THROUGH: RED}
 
 
 def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
@@ -47,10 +50,12 @@ def draw_panel(image: Image, panel: Panel, *, scale: float) -> float:
         for index, reading in enumerate(panel.readings):
             _draw_reading(image, reading, left + PADDING_PX * scale, top + ROW_PX * index * scale, scale)
         return top
-    rows = [(panel.state, STATE_PX * scale, SEMIBOLD, DRILL_ORANGE)]
-    rows += [(detail, DETAIL_PX * scale, REGULAR, WHITE) for detail in panel.details]
+    headline, language = panel.headline, panel.language
+    rows = [(headline.title[language], STATE_PX * scale, SEMIBOLD, DRILL_ORANGE)]
+    details = [words for words in (headline.detail[language], headline.event[language]) if words]
+    rows += [(words, DETAIL_PX * scale, REGULAR, WHITE) for words in details]
     width = max(text_width_px(words, size_px=size, weight=weight) for words, size, weight, _ in rows)
-    top = float(bottom - (62.0 + 34.0 * len(panel.details)) * scale)
+    top = float(bottom - (62.0 + 34.0 * len(details)) * scale)
     ground(image, left, top, left + width + 2.0 * PADDING_PX * scale, bottom)
     base = top + 46.0 * scale
     for words, size, weight, colour in rows:
@@ -72,7 +77,8 @@ def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale
     number_size = NUMBER_PX * scale * min(1.0, room / max(width, 1.0))
     start = right - unit_width - min(width, room)
     base = top + 46.0 * scale
-    end = text(image, reading.value, (start, base), WHITE, size_px=number_size, weight=SEMIBOLD)
+    colour = FIGURE_COLOURS.get(reading.status, WHITE)
+    end = text(image, reading.value, (start, base), colour, size_px=number_size, weight=SEMIBOLD)
     text(image, reading.unit, (end + gap, base), QUIET, size_px=unit_size, weight=REGULAR)
     lines = [(reading.label, LABEL_PX, SEMIBOLD), (reading.hint, SMALL_PX, REGULAR)]
     for (words, size, weight), raised in zip(lines, (20.0 if reading.hint else 0.0, 0.0), strict=True):

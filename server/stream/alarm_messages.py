@@ -1,7 +1,11 @@
 """The alarms as they go over the wire, in the same message as the image that they were looked for in."""
 
-from server.overlay.alarm_words import alarm_words
+from datetime import UTC, datetime
+
+from server.clock import utc_text
+from server.stream.assessment_messages import TextMessage, text_message
 from server.stream.message import Message
+from server.texts import alarm_text
 from tracker.navigation.alarms import (
     Alarm,
     AlarmPicture,
@@ -10,8 +14,12 @@ from tracker.navigation.alarms import (
     Kind,
     Measure,
     Priority,
+    Showing,
+    Site,
     Sound,
 )
+from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.directions import Wall
 
 
 class MeasureMessage(Message):
@@ -23,6 +31,17 @@ class MeasureMessage(Message):
     """Of both; "%" for a probability, empty for a count."""
 
 
+class SiteMessage(Message):
+    """Where in the bone a number was measured."""
+
+    depth_mm: float
+    """Of the tip, past the entry plane."""
+    wall: Wall | None
+    against: MeasuredAgainst | None
+    tool: str | None
+    """Null where there is only one."""
+
+
 class AlarmMessage(Message):
     """One alarm that is to be seen."""
 
@@ -32,17 +51,30 @@ class AlarmMessage(Message):
     priority: Priority
     kind: Kind
     state: AlarmState
+    presence: Showing
+    """Whether the newest moment shows it by its limit alone, without hysteresis; an alarm that is no longer
+    present is described in the past tense and has no instruction."""
+    raised_at: str
+    """UTC, ISO 8601."""
     raised_s_ago: float
     measure: MeasureMessage | None
     """The newest number; null where it is no matter of a number."""
+    site: SiteMessage | None
     worst: MeasureMessage | None
     """Since it was raised."""
+    worst_at: str | None
+    worst_site: SiteMessage | None
     acknowledged_by: str
     by: str
     """Who asks, where somebody does."""
-    sentence: str
-    """In English: what happened, in numbers."""
-    remedy: str
+    title: TextMessage
+    """In capitals."""
+    sentence: TextMessage
+    """What is, or was, in numbers."""
+    remedy: TextMessage
+    """Empty where nothing is to be done but to acknowledge."""
+    known: TextMessage
+    """Who has acknowledged it; empty where nobody has."""
 
 
 class AlarmsMessage(Message):
@@ -57,7 +89,7 @@ class AlarmsMessage(Message):
     pause_left_s: float
     """How long the sound stays paused, if nothing new comes; 0 when it is not."""
     alarms: list[AlarmMessage]
-    """The highest first."""
+    """What stands before what is over; of these the highest first."""
 
 
 def alarms_message(picture: AlarmPicture, *, now_s: float) -> AlarmsMessage:
@@ -67,25 +99,32 @@ def alarms_message(picture: AlarmPicture, *, now_s: float) -> AlarmsMessage:
         sound=picture.sound,
         sound_number=picture.sound_number,
         pause_left_s=max(0.0, picture.paused_until_s - now_s),
-        alarms=[_alarm(alarm, now_s=now_s) for alarm in picture.alarms],
+        alarms=[_alarm(alarm, now_s=now_s, unix_offset_s=picture.unix_offset_s) for alarm in picture.alarms],
     )
 
 
-def _alarm(alarm: Alarm, *, now_s: float) -> AlarmMessage:
-    words = alarm_words(alarm)
+def _alarm(alarm: Alarm, *, now_s: float, unix_offset_s: float) -> AlarmMessage:
+    words = alarm_text(alarm, unix_offset_s=unix_offset_s)
     return AlarmMessage(
         number=alarm.number,
         condition=alarm.condition,
         priority=alarm.priority,
         kind=alarm.kind,
         state=alarm.state,
+        presence=alarm.presence,
+        raised_at=_utc(alarm.raised_at_s + unix_offset_s),
         raised_s_ago=max(0.0, now_s - alarm.raised_at_s),
         measure=_measure(alarm.measure),
+        site=_site(alarm.site),
         worst=_measure(alarm.worst),
+        worst_at=None if alarm.worst is None else _utc(alarm.worst_at_s + unix_offset_s),
+        worst_site=_site(alarm.worst_site),
         acknowledged_by=alarm.acknowledged_by,
         by=alarm.by,
-        sentence=words.sentence,
-        remedy=words.remedy,
+        title=text_message(words.title),
+        sentence=text_message(words.sentence),
+        remedy=text_message(words.remedy),
+        known=text_message(words.known),
     )
 
 
@@ -93,3 +132,13 @@ def _measure(measure: Measure | None) -> MeasureMessage | None:
     if measure is None:
         return None
     return MeasureMessage(value=measure.value, limit=measure.limit, unit=measure.unit)
+
+
+def _site(site: Site | None) -> SiteMessage | None:
+    if site is None:
+        return None
+    return SiteMessage(depth_mm=site.depth_mm, wall=site.wall, against=site.against, tool=site.tool or None)
+
+
+def _utc(unix_s: float) -> str:
+    return utc_text(datetime.fromtimestamp(unix_s, tz=UTC))

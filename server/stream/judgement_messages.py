@@ -7,7 +7,7 @@ from pydantic import Field
 
 from server.stream.message import Message
 from server.stream.place_messages import AbsentMessage, absent_message
-from tracker.navigation import Absent, Deviation, Verdict, verdict_of
+from tracker.navigation import Absent, Deviation
 from tracker.navigation.certainty import Certain, Chance, Judged, Spread
 from tracker.navigation.clearance import Closest, DrillClearance, MeasuredAgainst, NotEntered
 from tracker.navigation.directions import Wall
@@ -113,7 +113,6 @@ class JudgementMessage(Message):
     """Clearance, uncertainty, and what both mean together."""
 
     kind: Literal["judgement"] = "judgement"
-    verdict: Verdict
     clearance: ClearanceMessage
     chance: ChanceMessage
     spread: SpreadMessage
@@ -142,7 +141,6 @@ def judgement_message(judged: Judged | Absent) -> JudgementMessage | AbsentMessa
     if isinstance(judged, Absent):
         return absent_message(judged)
     return JudgementMessage(
-        verdict=verdict_of(judged),
         clearance=_clearance(judged.clearance),
         chance=_chance(judged.now, judged.soon, judged.at_end, judged.past_planned_ratio),
         spread=_spread(judged.spread),

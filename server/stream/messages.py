@@ -7,8 +7,10 @@ header of each image on `/ws/view`, and answered by `GET /api/live`.
 
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
+from server.stream.assessment_messages import HeadlineMessage, headline_message
 from server.stream.message import Message as Message  # noqa: PLC0414  the doors take it from here
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
+from server.texts import headline_of
 
 
 class TroubleMessage(Message):
@@ -53,6 +55,8 @@ class LiveMessage(Message):
     process: ProcessMessage
     snapshot: SnapshotMessage | None
     """Null before the first image and while capture or tracking is dead."""
+    headline: HeadlineMessage
+    """Of this image, with the alarms beside it."""
     alarms: AlarmsMessage
     """With this image looked at."""
 
@@ -68,6 +72,7 @@ def live_message(instant: Instant, *, now_s: float, shown_scale_ratio: float = 1
         snapshot=None
         if instant.snapshot is None
         else snapshot_message(instant.snapshot, instant.server_ms, now_s=now_s),
+        headline=headline_message(headline_of(instant.snapshot, instant.alarms)),
         alarms=alarms_message(instant.alarms, now_s=now_s),
     )
 

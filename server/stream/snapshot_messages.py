@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import Field
 
 from server.stream.along_messages import AlongMessage, along_message
+from server.stream.assessment_messages import AssessmentMessage, assessment_message
 from server.stream.judgement_messages import (
     DeviationMessage,
     JudgementMessage,
@@ -35,13 +36,14 @@ from tracker.registration import AnchoredTo, Method
 
 
 class ToolStateMessage(Message):
-    """One tool by name: where it is, how far from the channel, and what that means."""
+    """One tool by name: where it is, how far from the channel, what that means, and the figures as shown."""
 
     name: str
     marker: str
     pose: Annotated[ToolMessage | AbsentMessage, Field(discriminator="kind")]
     deviation: Annotated[DeviationMessage | AbsentMessage, Field(discriminator="kind")]
     judgement: Annotated[JudgementMessage | AbsentMessage, Field(discriminator="kind")]
+    assessment: Annotated[AssessmentMessage | AbsentMessage, Field(discriminator="kind")]
     along: AlongMessage | None
     """The drill in the view along the channel; null where there is no deviation."""
 
@@ -83,6 +85,8 @@ class SnapshotMessage(Message):
     watched: WatchMessage
     markers: list[MarkerMessage]
     tools: list[ToolStateMessage]
+    shown_tool: str | None
+    """Whose figures are shown: of those that have any, the most severe verdict; null where none has."""
     stage_ms: dict[str, float]
     """Time of each stage, of the tracking process and of the server."""
     skipped_images: int
@@ -117,6 +121,7 @@ def snapshot_message(
             for name, sighting in snapshot.sightings.items()
         ],
         tools=[_tool_state(snapshot, name) for name in snapshot.tools],
+        shown_tool=snapshot.shown_tool or None,
         stage_ms={**snapshot.stage_ms, **server_ms},
         skipped_images=snapshot.skipped_images,
     )
@@ -129,6 +134,7 @@ def _tool_state(snapshot: NavigationSnapshot, name: str) -> ToolStateMessage:
         pose=tool_message(snapshot.tools[name]),
         deviation=deviation_message(snapshot.deviations[name]),
         judgement=judgement_message(snapshot.judgements[name]),
+        assessment=assessment_message(snapshot.assessments[name]),
         along=along_message(snapshot, name),
     )
 

@@ -45,7 +45,9 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     theatre.tell("deep")
     band(page, "high")
     expect(page.get_by_test_id("alarm-top")).to_contain_text(
-        re.compile(r"▲▲▲ HIGH TOO DEEP.*: 3\.0 mm \(limit 0\.0 mm\).*Stop and draw the drill back", re.DOTALL)
+        re.compile(
+            r"▲▲▲ HIGH TOO DEEP.*Tip 3\.0 mm past the planned depth\. Stop\. Withdraw the drill\.", re.DOTALL
+        )
     )
     page.wait_for_function("() => window.heard.length > 0")
     assert page.evaluate("window.heard") == [{"seconds": 7.0, "loop": True}]
@@ -62,7 +64,7 @@ def test_an_alarm_is_seen_heard_paused_acknowledged_and_goes(theatre: Theatre, w
     page.get_by_test_id("acknowledge").click()
     band(page, "high", "acknowledged")
     page.wait_for_function("() => window.heard.at(-1) === 'stopped'")
-    expect(page.get_by_test_id("alarm-top")).to_contain_text("acknowledged by screen")
+    expect(page.get_by_test_id("alarm-top")).to_contain_text("Acknowledged by screen")
     theatre.tell("live")
     band(page, "none", "normal")
 

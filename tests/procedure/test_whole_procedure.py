@@ -142,8 +142,12 @@ def breach_in(heard: Iterator[Heard]) -> dict[str, Any]:
         assert (breach["priority"], breach["state"]) == ("high", "active")
         assert one.message["alarms"]["sound"] == "high"
         clearance = one.drill["judgement"]["clearance"]["now"]
-        assert clearance["clearance_mm"] == breach["measure"]["value"] < 0.0
-        assert one.drill["judgement"]["verdict"] == "through"
+        wall = one.drill["assessment"]["figures"]["wall"]
+        assert breach["presence"] == "yes"
+        assert wall["value"] == breach["measure"]["value"] < 0.0
+        assert wall["value"] == pytest.approx(clearance["clearance_mm"], abs=0.1)
+        assert one.drill["assessment"]["verdict"] == "through_wall"
+        assert one.message["headline"]["title"]["en"].startswith("THROUGH ")
         return breach
     raise AssertionError("no message any more")
 

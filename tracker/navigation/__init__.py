@@ -1,9 +1,20 @@
 """From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
 
 from tracker.navigation.along import AlongChannel, half_axes_95_mm, seen_along
+from tracker.navigation.assessment import (
+    Assessment,
+    Correction,
+    Direction,
+    DrillLimits,
+    Figure,
+    FigureName,
+    Status,
+    Verdict,
+    assess,
+)
 from tracker.navigation.concluding import navigate
 from tracker.navigation.deviation import Deviation, deviation_from_channel
-from tracker.navigation.guide import Guide, ScrewSize, Verdict, verdict_of
+from tracker.navigation.guide import Guide, ScrewSize
 from tracker.navigation.moves import MovesSeen, moves_seen_by
 from tracker.navigation.snapshot import (
     Absent,
@@ -21,22 +32,29 @@ __all__ = [
     "Absent",
     "AbsentReason",
     "AlongChannel",
+    "Assessment",
+    "Correction",
     "Deviation",
+    "Direction",
+    "DrillLimits",
+    "Figure",
+    "FigureName",
     "Guide",
     "MovesSeen",
     "NavigationSnapshot",
     "PlacedVertebra",
     "ScrewSize",
     "Setup",
+    "Status",
     "Steadying",
     "ToolInView",
     "Verdict",
     "Watched",
     "Watching",
+    "assess",
     "deviation_from_channel",
     "half_axes_95_mm",
     "moves_seen_by",
     "navigate",
     "seen_along",
-    "verdict_of",
 ]

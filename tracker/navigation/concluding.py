@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tracker.geometry import Anchor, Array, Camera, Marker, Rigid, chained_covariance, point_covariance_mm2
+from tracker.navigation.assessment import Assessment, assess
 from tracker.navigation.certainty import Judged, Placed
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.navigation.guide import Guide, placed_tool
@@ -173,6 +174,15 @@ def _judged(
     return guide.judged(placed, tool, setup.channel)
 
 
+def _assessed(setup: Setup, deviation: Deviation | Absent, judged: Judged | Absent) -> Assessment | Absent:
+    """The figures of a tool, or why it has none."""
+    if isinstance(deviation, Absent):
+        return deviation
+    if isinstance(setup.channel, Absent):
+        return setup.channel
+    return assess(deviation, None if isinstance(judged, Absent) else judged, setup.channel, setup.limits)
+
+
 def navigate(
     *,
     setup: Setup,
@@ -200,6 +210,12 @@ def navigate(
         for name, tool in setup.tools.items()
     }
     deviations = {name: tool_deviation(setup, tool, vertebra) for name, tool in tools.items()}
+    judgements = {
+        name: one
+        if isinstance(one, Absent)
+        else _judged(setup, guide, vertebra, sightings[setup.tools[name].marker], name, steady.get(name))
+        for name, one in deviations.items()
+    }
     return NavigationSnapshot(
         image_number=image_number,
         captured_at_s=captured_at_s,
@@ -209,12 +225,8 @@ def navigate(
         vertebra=vertebra,
         tools=tools,
         deviations=deviations,
-        judgements={
-            name: one
-            if isinstance(one, Absent)
-            else _judged(setup, guide, vertebra, sightings[setup.tools[name].marker], name, steady.get(name))
-            for name, one in deviations.items()
-        },
+        judgements=judgements,
+        assessments={name: _assessed(setup, one, judgements[name]) for name, one in deviations.items()},
         watched=watched,
         stage_ms=stage_ms,
         skipped_images=skipped_images,

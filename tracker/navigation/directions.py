@@ -21,8 +21,8 @@ class Wall(StrEnum):
 
     MEDIAL = "medial"
     LATERAL = "lateral"
-    SUPERIOR = "superior"
-    INFERIOR = "inferior"
+    CRANIAL = "cranial"
+    CAUDAL = "caudal"
     ANTERIOR = "anterior"
 
 
@@ -54,7 +54,7 @@ class Directions:
             return Wall.ANTERIOR
         if abs(parts[1]) >= abs(parts[2]):
             return Wall.MEDIAL if parts[1] > 0.0 else Wall.LATERAL
-        return Wall.SUPERIOR if parts[2] > 0.0 else Wall.INFERIOR
+        return Wall.CRANIAL if parts[2] > 0.0 else Wall.CAUDAL
 
 
 def side_of(channel: Channel) -> Side:

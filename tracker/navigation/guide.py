@@ -1,15 +1,13 @@
-"""What a drill is held against in one pedicle, and what comes of it: on its way, off it, unsure, through."""
+"""What a drill is measured against in one pedicle: wall, room and screw."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 from tracker.geometry import Array, Camera, Marker, Tool, Vertebra, inverse_slopes, slopes_of_product
 from tracker.navigation.certainty import Drill, Judged, Placed, Room, judge, marker_from_tool
-from tracker.navigation.clearance import Nearest, WallField
+from tracker.navigation.clearance import WallField
 from tracker.navigation.clearance.outline import field_of_channel
 from tracker.plan import Channel
 from tracker.plan.pedicle import Side
-from tracker.plan.screw import GertzbeinRobbins
 from tracker.pose import ToolModel
 
 
@@ -53,30 +51,6 @@ class Guide:
             screw_radius_mm=None if self.screw is None else self.screw.radius_mm,
         )
         return judge(tool, channel, self.wall, room, drill, side=self.side, wall_sd_mm=self.wall_sd_mm)
-
-
-class Verdict(StrEnum):
-    """What one image says of the drill, in a word; the worst that is true."""
-
-    THROUGH = "through"  # a part of the drill is through the wall, or past the planned depth
-    UNSURE = "unsure"  # 95 % of the uncertainty does not fit into what the pedicle leaves
-    OFF = "off"  # the direction at hand would break through the wall, or misses the channel
-    ON = "on"  # within the channel, and the direction at hand stays within the bone
-
-
-def verdict_of(judged: Judged) -> Verdict:
-    """The verdict on a drill; never `ON` where the uncertainty is larger than what the pedicle leaves."""
-    clearance = judged.clearance
-    now, channel = clearance.now, clearance.channel
-    if clearance.past_planned_mm > 0.0 or (isinstance(now, Nearest) and now.clearance_mm < 0.0):
-        return Verdict.THROUGH
-    if not judged.certain.enough:
-        return Verdict.UNSURE
-    leaves = isinstance(channel, Nearest) and channel.clearance_mm < 0.0
-    at_end = clearance.at_end
-    # A direction that comes nowhere near the pedicle breaks no wall, and is no way to it.
-    stays = isinstance(at_end, Nearest) and at_end.grade is GertzbeinRobbins.A
-    return Verdict.ON if stays and not leaves else Verdict.OFF
 
 
 def placed_tool(

@@ -18,6 +18,7 @@ from tracker.geometry import (
     Tool,
     Vertebra,
 )
+from tracker.navigation.assessment import Assessment, DrillLimits
 from tracker.navigation.certainty import Judged
 from tracker.navigation.deviation import Deviation
 from tracker.navigation.guide import ScrewSize
@@ -81,6 +82,7 @@ class Setup:
         reference: name of the marker that is fixed to the patient; empty when there is none.
         withheld: why no number is given although all of this is known; None when nothing is in the way.
         most_tip_sd_mm: a tip that is less sure than this (root of the trace of its covariance) is not placed.
+        limits: of a drill, beside those of its pedicle.
     """
 
     camera: CameraModel
@@ -92,6 +94,7 @@ class Setup:
     screw: ScrewSize | None = None
     withheld: AbsentReason | None = None
     most_tip_sd_mm: float = 3.0
+    limits: DrillLimits = field(default_factory=DrillLimits)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,6 +156,8 @@ class NavigationSnapshot:
         tools: by tool name.
         deviations: by tool name, of the tool from the channel.
         judgements: by tool name, clearance, uncertainty and chance of a breach; there with the deviation.
+        assessments: by tool name, the figures that are shown, with their limits and the verdict; there with
+            the deviation. Headline, alarms, overlay, bull's-eye, wire and log read them from here.
         watched: what the images before add to it.
         stage_ms: time of each stage by the name it has in the code.
         skipped_images: how many images the source gave that were never looked at, since the start.
@@ -167,9 +172,19 @@ class NavigationSnapshot:
     tools: Mapping[str, ToolInView | Absent]
     deviations: Mapping[str, Deviation | Absent]
     judgements: Mapping[str, Judged | Absent]
+    assessments: Mapping[str, Assessment | Absent]
     stage_ms: Mapping[str, float]
     skipped_images: int
     watched: Watched = UNWATCHED
+
+    @property
+    def shown_tool(self) -> str:
+        """The tool whose figures are shown: of those that have any, the one with the most severe verdict.
+
+        Of equal ones the first in the order of the setup. Empty where no tool has figures.
+        """
+        ranks = {name: one.rank for name, one in self.assessments.items() if isinstance(one, Assessment)}
+        return max(ranks, key=lambda name: ranks[name], default="")
 
     def vertebra_from_tool(self, tool: str) -> Rigid[Vertebra, Tool] | Absent:
         """Where a tool is in the plan; Absent where it has no numbers either, for the same reason."""

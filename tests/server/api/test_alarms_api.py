@@ -69,8 +69,10 @@ def test_an_alarm_from_its_image_to_its_end(door: Door) -> None:
     (alarm,) = live["alarms"]["alarms"]
     assert live["snapshot"]["image_number"] == 3
     assert (alarm["condition"], alarm["priority"], alarm["state"]) == ("PAST_DEPTH", "high", "active")
-    assert alarm["sentence"].startswith("the tip is 0.")
-    assert alarm["remedy"] == "Stop and draw the drill back."
+    assert alarm["presence"] == "yes"
+    assert alarm["sentence"]["en"].startswith("Tip 0.")
+    assert alarm["remedy"]["en"] == "Stop. Withdraw the drill."
+    assert live["headline"]["verdict"] == "too_deep"
     assert live["alarms"]["sound"] == "high"
     paused = door.post("pause", by="nurse", seconds=60)
     assert (paused["sound"], paused["pause_left_s"]) == ("silent", 60.0)
@@ -86,6 +88,7 @@ def test_an_alarm_from_its_image_to_its_end(door: Door) -> None:
         ("acknowledged", "M. Ito"),
     ]
     assert lines[0]["tools"]["drill"]["depth_mm"] == pytest.approx(40.5, abs=0.5)
+    assert lines[0]["sentence"] == alarm["sentence"]
 
 
 def test_live_socket_and_view_socket_carry_the_alarms_of_their_image(door: Door) -> None:

@@ -8,18 +8,12 @@ import numpy as np
 import pytest
 
 from server.live import Instant
+from server.stream.assessment_messages import AssessmentMessage
 from server.stream.judgement_messages import JudgementMessage, NearestMessage, NotEnteredMessage
 from server.stream.messages import live_message
 from server.stream.place_messages import AbsentMessage, VertebraMessage
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
-from tracker.navigation import (
-    AbsentReason,
-    MovesSeen,
-    NavigationSnapshot,
-    Verdict,
-    Watched,
-    verdict_of,
-)
+from tracker.navigation import AbsentReason, Assessment, MovesSeen, NavigationSnapshot, Watched
 from tracker.navigation.certainty import Judged
 from tracker.navigation.clearance import Nearest
 from tracker.navigation.watch import NeverSeen, SceneState
@@ -50,7 +44,6 @@ def test_the_judgement_is_sent_as_it_was_made(snapshot_of: SnapshotOf) -> None:
     now = judged.clearance.now
     assert isinstance(now, Nearest)
     sent = _judgement(snapshot)
-    assert sent.verdict is verdict_of(judged)
     assert isinstance(sent.clearance.now, NearestMessage)
     assert sent.clearance.now.clearance_mm == now.clearance_mm
     assert sent.clearance.now.wall is now.wall
@@ -61,19 +54,28 @@ def test_the_judgement_is_sent_as_it_was_made(snapshot_of: SnapshotOf) -> None:
 
 
 @pytest.mark.parametrize(
-    ("theatre", "verdict"),
+    "theatre",
     [
-        pytest.param({"tip_in_vertebra_mm": (0.0, 0.0, 12.0), "tilt_rad": 0.0}, Verdict.ON, id="on-the-axis"),
-        pytest.param({"tilt_rad": 0.3}, Verdict.THROUGH, id="through-the-wall"),
-        pytest.param(
-            {"tip_in_vertebra_mm": (0.0, 0.0, 12.0), "tilt_rad": 0.0, "pose_variance": 2.0},
-            Verdict.UNSURE,
-            id="unsure-though-on-the-axis",
-        ),
+        pytest.param({"tip_in_vertebra_mm": (0.0, 0.0, 12.0), "tilt_rad": 0.0}, id="on-the-axis"),
+        pytest.param({"tilt_rad": 0.3}, id="through-the-wall"),
+        pytest.param({"tilt_rad": 1.5707963}, id="across"),
+        pytest.param({"tip_in_vertebra_mm": (0.0, 0.0, -8.0), "pose_variance": 2.0}, id="outside"),
     ],
 )
-def test_the_verdict_is_sent(snapshot_of: SnapshotOf, theatre: dict[str, object], verdict: Verdict) -> None:
-    assert _judgement(snapshot_of(**theatre)).verdict is verdict
+def test_the_figures_and_their_verdict_are_sent_as_they_were_assessed(
+    snapshot_of: SnapshotOf, theatre: dict[str, object]
+) -> None:
+    snapshot = snapshot_of(**theatre)
+    assessed, sent = snapshot.assessments["drill"], _sent(snapshot).tools[0].assessment
+    assert isinstance(assessed, Assessment)
+    assert isinstance(sent, AssessmentMessage)
+    assert (sent.verdict, sent.wall, sent.against) == (assessed.verdict, assessed.wall, assessed.against)
+    for name, figure in assessed.figures.items():
+        message = getattr(sent.figures, name.value)
+        assert message.status is figure.status
+        for key in ("value", "limit", "error_95"):
+            number = getattr(figure, key)
+            assert getattr(message, key) == (number if np.isfinite(number) else None)
 
 
 def test_a_drill_outside_has_no_clearance(snapshot_of: SnapshotOf) -> None:

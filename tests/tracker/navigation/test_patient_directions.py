@@ -98,8 +98,8 @@ def test_the_plan_s_side_is_believed_over_the_way_the_channel_runs() -> None:
     [
         ((-1.0, 0.0, 0.0), Wall.MEDIAL),
         ((1.0, -0.5, 0.0), Wall.LATERAL),
-        ((0.1, 0.0, 1.0), Wall.SUPERIOR),
-        ((0.0, 0.0, -2.0), Wall.INFERIOR),
+        ((0.1, 0.0, 1.0), Wall.CRANIAL),
+        ((0.0, 0.0, -2.0), Wall.CAUDAL),
         ((0.3, -1.0, 0.3), Wall.ANTERIOR),
     ],
 )

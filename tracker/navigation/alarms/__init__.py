@@ -6,9 +6,9 @@ alarms. Priorities, sounds and states follow what manuals quote of IEC 60601-1-8
 
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority, Trait
 from tracker.navigation.alarms.engine import AlarmEngine
-from tracker.navigation.alarms.evidence import Measure
+from tracker.navigation.alarms.evidence import Measure, Showing
 from tracker.navigation.alarms.limits import MOST_PAUSE_S, AlarmLimits
-from tracker.navigation.alarms.observed import NOT_KNOWN, NotKnown, Observed, Reading
+from tracker.navigation.alarms.observed import NOT_KNOWN, NotKnown, Observed, Reading, Site
 from tracker.navigation.alarms.observing import Memory, observed_of, remembered
 from tracker.navigation.alarms.occurrence import AlarmState
 from tracker.navigation.alarms.picture import QUIET, Alarm, AlarmEvent, AlarmPicture, Change, Sound
@@ -33,6 +33,8 @@ __all__ = [
     "Observed",
     "Priority",
     "Reading",
+    "Showing",
+    "Site",
     "Sound",
     "Trait",
     "observed_of",

@@ -5,7 +5,7 @@ from math import inf, isfinite
 
 from tracker.errors import InvalidInput
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Priority
-from tracker.navigation.alarms.evidence import evidence_of
+from tracker.navigation.alarms.evidence import Evidence, Showing, evidence_of
 from tracker.navigation.alarms.limits import MOST_PAUSE_S, AlarmLimits
 from tracker.navigation.alarms.observed import Observed
 from tracker.navigation.alarms.occurrence import AlarmState, Moment, Occurrence, acknowledged, advanced
@@ -30,6 +30,7 @@ class AlarmEngine:
     def __init__(self, limits: AlarmLimits | None = None) -> None:
         self._limits = limits or AlarmLimits()
         self._occurrences = dict.fromkeys(Condition, Occurrence())
+        self._presence = dict.fromkeys(Condition, Showing.NO)
         self._numbers = dict.fromkeys(Condition, 0)
         self._number = 0
         self._image_number = -1
@@ -50,12 +51,20 @@ class AlarmEngine:
         at_s = self._forward(at_s)
         moment = self._moment(observed, at_s)
         for condition, was in self._occurrences.items():
-            evidence = evidence_of(condition, observed, self._limits, standing=was.is_standing)
+            evidence = self._evidence(condition, observed, was)
             now = advanced(was, evidence, TRAITS[condition], moment)
             if now is not was:
                 self._occurrences[condition] = now
                 self._note(condition, was, now)
         return self._concluded()
+
+    def _evidence(self, condition: Condition, observed: Observed, was: Occurrence) -> Evidence:
+        """What this moment says, with hysteresis; whether it is present by its limit alone is remembered."""
+        plain = evidence_of(condition, observed, self._limits, standing=False)
+        self._presence[condition] = plain.showing
+        if not was.is_standing:
+            return plain
+        return evidence_of(condition, observed, self._limits, standing=True)
 
     def acknowledge(self, numbers: Collection[int], *, by: str, at_s: float) -> AlarmPicture:
         """Somebody knows of the alarms with these numbers; what was raised since they looked is not meant."""
@@ -126,14 +135,8 @@ class AlarmEngine:
         self._tell(Change.LATCHED if latched else Change.CLEARED, condition, now)
 
     def _tell(self, change: Change, condition: Condition, now: Occurrence, *, by: str = "") -> None:
-        event = AlarmEvent(
-            at_s=self._at_s,
-            change=change,
-            number=self._numbers[condition],
-            condition=condition,
-            measure=now.measure,
-            by=by or now.by,
-        )
+        alarm = self._alarm(condition, now)
+        event = AlarmEvent(at_s=self._at_s, change=change, alarm=alarm, by=by or now.by)
         self._events.append(event)
 
     def _end_pause(self, change: Change, *, by: str = "") -> None:
@@ -145,7 +148,7 @@ class AlarmEngine:
     def _concluded(self) -> AlarmPicture:
         alarms = sorted(
             (
-                _alarm(self._numbers[condition], condition, occurrence)
+                self._alarm(condition, occurrence)
                 for condition, occurrence in self._occurrences.items()
                 if occurrence.state is not AlarmState.NORMAL
             ),
@@ -164,23 +167,26 @@ class AlarmEngine:
         )
         return self._picture
 
+    def _alarm(self, condition: Condition, occurrence: Occurrence) -> Alarm:
+        return Alarm(
+            number=self._numbers[condition],
+            condition=condition,
+            state=occurrence.state,
+            raised_at_s=occurrence.raised_at_s,
+            presence=self._presence[condition],
+            measure=occurrence.measure,
+            site=occurrence.site,
+            worst=occurrence.worst,
+            worst_at_s=occurrence.worst_at_s,
+            worst_site=occurrence.worst_site,
+            acknowledged_by=occurrence.acknowledged_by,
+            by=occurrence.by,
+        )
+
 
 _ORDER = {AlarmState.ACTIVE: 0, AlarmState.LATCHED: 1, AlarmState.ACKNOWLEDGED: 2}
 
 
-def _place(alarm: Alarm) -> tuple[int, int, int]:
-    """The highest first; of these what is active first; of these the newest."""
-    return (-alarm.priority.rank, _ORDER[alarm.state], -alarm.number)
-
-
-def _alarm(number: int, condition: Condition, occurrence: Occurrence) -> Alarm:
-    return Alarm(
-        number=number,
-        condition=condition,
-        state=occurrence.state,
-        raised_at_s=occurrence.raised_at_s,
-        measure=occurrence.measure,
-        worst=occurrence.worst,
-        acknowledged_by=occurrence.acknowledged_by,
-        by=occurrence.by,
-    )
+def _place(alarm: Alarm) -> tuple[bool, int, int, int]:
+    """What stands before what is over; of these the highest, of these what is active, of these the newest."""
+    return (alarm.state is AlarmState.LATCHED, -alarm.priority.rank, _ORDER[alarm.state], -alarm.number)

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tracker.navigation.alarms.conditions import TRAITS, Condition
 from tracker.navigation.alarms.limits import AlarmLimits
-from tracker.navigation.alarms.observed import NotKnown, Observed
+from tracker.navigation.alarms.observed import NotKnown, Observed, Site
 
 
 class Showing(StrEnum):
@@ -42,13 +42,15 @@ class Evidence:
     Attributes:
         showing: whether it is there.
         measure: the number that says so; None where it is no matter of a number, or it is not known.
-        depth_mm: how bad it is, for what sounds again when it gets worse; else 0.
+        severity: how bad it is, in the unit of the measure; larger is worse. 0 where there is no measure.
+        site: where in the bone the number was measured; None where it is no matter of a place.
         by: who asks, where somebody does.
     """
 
     showing: Showing
     measure: Measure | None = None
-    depth_mm: float = 0.0
+    severity: float = 0.0
+    site: Site | None = None
     by: str = ""
 
 
@@ -66,8 +68,12 @@ def evidence_of(condition: Condition, observed: Observed, limits: AlarmLimits, *
     return _JUDGES[condition](observed, limits, standing)
 
 
+def _showing(shows: bool) -> Showing:
+    return Showing.YES if shows else Showing.NO
+
+
 def _flag(shows: bool) -> Evidence:
-    return Evidence(showing=Showing.YES if shows else Showing.NO)
+    return Evidence(showing=_showing(shows))
 
 
 def _breach(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -76,7 +82,7 @@ def _breach(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence
         return UNKNOWN
     shows = clearance_mm < (limits.hysteresis_mm if standing else 0.0)
     measure = Measure(value=clearance_mm, limit=0.0, unit="mm")
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure, depth_mm=-clearance_mm)
+    return Evidence(showing=_showing(shows), measure=measure, severity=-clearance_mm, site=observed.wall_site)
 
 
 def _past_depth(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -85,7 +91,7 @@ def _past_depth(observed: Observed, limits: AlarmLimits, standing: bool) -> Evid
         return UNKNOWN
     shows = past_mm > (-limits.hysteresis_mm if standing else 0.0)
     measure = Measure(value=past_mm, limit=0.0, unit="mm")
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure, depth_mm=past_mm)
+    return Evidence(showing=_showing(shows), measure=measure, severity=past_mm, site=observed.depth_site)
 
 
 def _breach_likely(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -98,9 +104,9 @@ def _breach_likely(observed: Observed, limits: AlarmLimits, standing: bool) -> E
     measure = Measure(value=ratio * 100.0, limit=limit * 100.0, unit="%")
     # Also what is no number.
     if not ratio <= limit:
-        return Evidence(showing=Showing.YES, measure=measure)
+        return Evidence(showing=Showing.YES, measure=measure, severity=measure.value, site=observed.wall_site)
     stays = standing and ratio > limit - limits.breach_hysteresis_ratio
-    return Evidence(showing=Showing.YES if stays else Showing.NO, measure=measure)
+    return Evidence(showing=_showing(stays), measure=measure, severity=measure.value, site=observed.wall_site)
 
 
 def _clearance_low(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -113,14 +119,14 @@ def _clearance_low(observed: Observed, limits: AlarmLimits, standing: bool) -> E
     limit = limits.warning_distance_mm
     measure = Measure(value=clearance_mm, limit=limit, unit="mm")
     shows = clearance_mm < limit + (limits.hysteresis_mm if standing else 0.0)
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+    return Evidence(showing=_showing(shows), measure=measure, severity=-clearance_mm, site=observed.wall_site)
 
 
 def _unseen(unseen_s: float, limit_s: float, standing: bool) -> Evidence:
     measure = Measure(value=unseen_s, limit=limit_s, unit="s")
     # A marker that is back is missed in single images; those do not hold the alarm.
     shows = unseen_s > (min(BACK_IN_SIGHT_S, limit_s) if standing else limit_s)
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+    return Evidence(showing=_showing(shows), measure=measure, severity=measure.value)
 
 
 def _drill_unseen(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -138,7 +144,7 @@ def _camera_stalled(observed: Observed, limits: AlarmLimits, standing: bool) -> 
     limit_s = limits.camera_silent_after_s
     measure = Measure(value=observed.camera_silent_s, limit=limit_s, unit="s")
     shows = observed.camera_works and observed.camera_silent_s > limit_s
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+    return Evidence(showing=_showing(shows), measure=measure, severity=measure.value)
 
 
 def _pose_uncertain(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -151,7 +157,7 @@ def _pose_uncertain(observed: Observed, limits: AlarmLimits, standing: bool) -> 
     # A hysteresis larger than the limit could never be cleared.
     clears_at_mm = max(most_mm - limits.hysteresis_mm, 0.8 * most_mm)
     shows = not sd_mm <= (clears_at_mm if standing else most_mm)
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+    return Evidence(showing=_showing(shows), measure=measure, severity=measure.value)
 
 
 def _check_due(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -161,13 +167,13 @@ def _check_due(observed: Observed, limits: AlarmLimits, standing: bool) -> Evide
         return UNKNOWN
     measure = Measure(value=age_s / 60.0, limit=limits.check_due_after_s / 60.0, unit="min")
     shows = age_s > limits.check_due_after_s
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+    return Evidence(showing=_showing(shows), measure=measure, severity=measure.value)
 
 
 def _no_armed_screen(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     del limits, standing
     measure = Measure(value=float(observed.armed_screens), limit=1.0, unit="")
-    return Evidence(showing=Showing.NO if observed.armed_screens > 0 else Showing.YES, measure=measure)
+    return Evidence(showing=_showing(observed.armed_screens == 0), measure=measure)
 
 
 def _disk_nearly_full(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -177,13 +183,13 @@ def _disk_nearly_full(observed: Observed, limits: AlarmLimits, standing: bool) -
     least_mb = limits.least_free_disk_mb
     measure = Measure(value=free_mb, limit=least_mb, unit="MB")
     shows = free_mb < least_mb * (1.1 if standing else 1.0)
-    return Evidence(showing=Showing.YES if shows else Showing.NO, measure=measure)
+    return Evidence(showing=_showing(shows), measure=measure, severity=-free_mb)
 
 
 def _hold_asked(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     del limits, standing
     by = observed.hold_asked_by
-    return Evidence(showing=Showing.YES if by else Showing.NO, by=by)
+    return Evidence(showing=_showing(bool(by)), by=by)
 
 
 _JUDGES: Mapping[Condition, Judge] = MappingProxyType(

@@ -3,10 +3,30 @@
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.directions import Wall
+
 
 @dataclass(frozen=True, slots=True)
 class NotKnown:
     """A number that this moment does not say."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Site:
+    """Where in the bone a number was measured.
+
+    Attributes:
+        wall: the nearest one; None where it is no matter of a wall.
+        depth_mm: of the tip past the entry plane, as it is shown.
+        against: what the wall was measured against; None where it is no matter of a wall.
+        tool: which one, where there are several; else empty.
+    """
+
+    depth_mm: float
+    wall: Wall | None = None
+    against: MeasuredAgainst | None = None
+    tool: str = ""
 
 
 Reading: TypeAlias = float | NotKnown
@@ -25,7 +45,9 @@ class Observed:
         captured_at_s: of that image, the same clock as the time of the step.
         clearance_mm: from the drill's cylinder to the pedicle's wall, negative through it.
         breach_ratio: probability that it is through the wall, now or within its look-ahead.
+        wall_site: where that clearance was measured; None where it is not known.
         past_depth_mm: how far the tip is past the planned end; negative before it.
+        depth_site: where the tip is that is deepest; None where that is not known.
         tip_sd_mm: how unsure the tip is.
         most_tip_sd_mm: how unsure it may be, in this pedicle.
         drill_unseen_s: for how long the drill was not seen, up to the newest image; 0 while it is seen.
@@ -52,7 +74,9 @@ class Observed:
     captured_at_s: float = 0.0
     clearance_mm: Reading = NOT_KNOWN
     breach_ratio: Reading = NOT_KNOWN
+    wall_site: Site | None = None
     past_depth_mm: Reading = NOT_KNOWN
+    depth_site: Site | None = None
     tip_sd_mm: Reading = NOT_KNOWN
     most_tip_sd_mm: Reading = NOT_KNOWN
     drill_unseen_s: float = 0.0

@@ -1,17 +1,15 @@
 """From a snapshot to what the alarms look at; what lasts longer than an image is remembered here."""
 
 from dataclasses import dataclass, replace
+from math import isfinite
 
-from tracker.navigation.alarms.observed import NOT_KNOWN, Observed, Reading
-from tracker.navigation.certainty import Judged
-from tracker.navigation.clearance import Nearest
+from tracker.navigation.alarms.observed import Observed, Site
+from tracker.navigation.assessment import Assessment, FigureName, Status
 from tracker.navigation.deviation import Deviation
 from tracker.navigation.snapshot import Absent, AbsentReason, NavigationSnapshot
 from tracker.plan import Channel
 from tracker.pose import Seen
 
-# A tip farther than this from the channel's axis is not in this pedicle, however deep it is.
-BESIDE_MM = 30.0
 NOT_ENTERED_MM = 100.0
 NOT_REGISTERED = Absent(reason=AbsentReason.NOT_REGISTERED)
 REFERENCE_UNSEEN = Absent(reason=AbsentReason.REFERENCE_UNSEEN)
@@ -84,7 +82,6 @@ def observed_of(
         navigating=navigates,
         image_number=snapshot.image_number,
         captured_at_s=snapshot.captured_at_s,
-        past_depth_mm=_past_depth_mm(snapshot) if silent_s <= fresh_s else NOT_KNOWN,
         drill_unseen_s=unseen_s,
         drill_put_away=unseen_s > put_away_after_s,
         camera_silent_s=silent_s,
@@ -94,31 +91,61 @@ def observed_of(
         camera_in_place=AbsentReason.CAMERA_MOVED not in reasons,
         reference_in_place=AbsentReason.REFERENCE_MOVED not in reasons,
     )
-    return _with_judgements(observed, snapshot) if silent_s <= fresh_s else observed
+    return _with_figures(observed, snapshot) if silent_s <= fresh_s else observed
 
 
-def _with_judgements(observed: Observed, snapshot: NavigationSnapshot) -> Observed:
-    """With the worst of what was concluded of each tool: clearance, chance of a breach, how unsure it is."""
-    judged = [one for one in snapshot.judgements.values() if isinstance(one, Judged)]
-    if not judged:
+def _with_figures(observed: Observed, snapshot: NavigationSnapshot) -> Observed:
+    """With the worst figures of all tools: bone to the wall, depth, risk of a breach, uncertainty."""
+    assessed = {name: one for name, one in snapshot.assessments.items() if isinstance(one, Assessment)}
+    if not assessed:
         return observed
-    # A drill that has not entered the bone is as far from its walls as can be.
-    clearances = [
-        one.clearance.now.clearance_mm if isinstance(one.clearance.now, Nearest) else NOT_ENTERED_MM
-        for one in judged
-    ]
-    unsure = max(judged, key=lambda one: _unsure_mm(one) - one.certain.room_mm)
+    of_limits = [one for one in assessed.values() if one.against is not None]
+    deepest = max(assessed, key=lambda name: _past_mm(assessed[name], snapshot))
+    observed = replace(
+        observed,
+        past_depth_mm=_past_mm(assessed[deepest], snapshot),
+        depth_site=_site(snapshot, deepest, of_wall=False),
+    )
+    if not of_limits:
+        return observed
+    nearest = min(assessed, key=lambda name: _wall_mm(assessed[name]))
+    errors = [one.figures[FigureName.ERROR] for one in of_limits]
+    # Of a drill across the channel it is infinite, and says nothing of how sure its pose is.
+    finite = [error for error in errors if isfinite(error.value)]
+    if finite:
+        unsure = max(finite, key=lambda error: error.value - error.limit)
+        observed = replace(observed, tip_sd_mm=unsure.value, most_tip_sd_mm=unsure.limit)
     return replace(
         observed,
-        clearance_mm=min(clearances),
-        breach_ratio=max(max(one.now.through_ratio, one.soon.through_ratio) for one in judged),
-        tip_sd_mm=_unsure_mm(unsure),
-        most_tip_sd_mm=unsure.certain.room_mm,
+        clearance_mm=_wall_mm(assessed[nearest]),
+        wall_site=_site(snapshot, nearest, of_wall=True),
+        breach_ratio=max(one.figures[FigureName.RISK].value for one in of_limits) / 100.0,
     )
 
 
-def _unsure_mm(judged: Judged) -> float:
-    return max(judged.certain.entry_95_mm, judged.certain.isthmus_95_mm)
+def _wall_mm(assessment: Assessment) -> float:
+    """A drill that has not entered the bone is as far from its walls as can be."""
+    wall = assessment.figures[FigureName.WALL]
+    return NOT_ENTERED_MM if wall.status in (Status.OUTSIDE, Status.UNLIMITED) else wall.value
+
+
+def _past_mm(assessment: Assessment, snapshot: NavigationSnapshot) -> float:
+    """How far the tip is past the planned depth; a tip beside the pedicle is as far from it as can be."""
+    to_go, channel = assessment.figures[FigureName.TO_GO], snapshot.setup.channel
+    is_beside = to_go.status is Status.OUTSIDE
+    return -channel.length_mm if is_beside and isinstance(channel, Channel) else -to_go.value
+
+
+def _site(snapshot: NavigationSnapshot, tool: str, *, of_wall: bool) -> Site:
+    assessment = snapshot.assessments[tool]
+    if isinstance(assessment, Absent):
+        raise TypeError(f"{tool} has no figures")
+    return Site(
+        depth_mm=assessment.figures[FigureName.DEPTH].value,
+        wall=assessment.wall if of_wall else None,
+        against=assessment.against if of_wall else None,
+        tool=tool if len(snapshot.tools) > 1 else "",
+    )
 
 
 def _reasons(snapshot: NavigationSnapshot) -> frozenset[AbsentReason]:
@@ -129,20 +156,3 @@ def _reasons(snapshot: NavigationSnapshot) -> frozenset[AbsentReason]:
     withheld = snapshot.setup.withheld
     absent = [one.reason for one in (*deviations, snapshot.vertebra) if isinstance(one, Absent)]
     return frozenset(absent if withheld is None else [*absent, withheld])
-
-
-def _past_depth_mm(snapshot: NavigationSnapshot) -> Reading:
-    """How far the deepest tip is past the planned end, of those that are near the channel."""
-    channel = snapshot.setup.channel
-    if not isinstance(channel, Channel):
-        return NOT_KNOWN
-    past = [
-        -deviation.remaining_mm
-        for deviation in snapshot.deviations.values()
-        if isinstance(deviation, Deviation) and deviation.tip_offset_mm <= channel.radius_mm + BESIDE_MM
-    ]
-    known = any(isinstance(deviation, Deviation) for deviation in snapshot.deviations.values())
-    if past:
-        return max(past)
-    # Seen, and beside the patient: that is far from the end.
-    return -channel.length_mm if known else NOT_KNOWN

@@ -13,6 +13,7 @@ from math import inf
 
 from tracker.navigation.alarms.conditions import Trait
 from tracker.navigation.alarms.evidence import Evidence, Measure, Showing
+from tracker.navigation.alarms.observed import Site
 
 
 class AlarmState(StrEnum):
@@ -36,8 +37,10 @@ class Occurrence:
         gone_since_s: from when on it is gone without a break, while it is not yet cleared; else infinite.
         measure: the last number that was known.
         worst: the number when it was worst, since it was raised.
-        depth_mm, worst_depth_mm: how bad it is, and was at worst since it was raised.
-        acknowledged_depth_mm: how bad it was at worst when it was acknowledged.
+        worst_severity: how bad that was; larger is worse.
+        worst_at_s, worst_site: when and where that was.
+        site: where the last number was measured.
+        acknowledged_severity: how bad it was at worst when it was acknowledged.
         acknowledged_by: who did; empty when nobody did.
         by: who asks, where somebody does.
     """
@@ -49,9 +52,11 @@ class Occurrence:
     gone_since_s: float = inf
     measure: Measure | None = None
     worst: Measure | None = None
-    depth_mm: float = -inf
-    worst_depth_mm: float = -inf
-    acknowledged_depth_mm: float = inf
+    site: Site | None = None
+    worst_severity: float = -inf
+    worst_at_s: float = 0.0
+    worst_site: Site | None = None
+    acknowledged_severity: float = inf
     acknowledged_by: str = ""
     by: str = ""
 
@@ -89,7 +94,8 @@ def advanced(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment) 
     since_s = min(was.showing_since_s, moment.at_s)
     images = was.showing_images + (1 if shows and moment.new_image else 0)
     now = replace(was, showing_since_s=since_s, showing_images=images)
-    now = _with_measure(now, evidence, anew=was.state is AlarmState.NORMAL and was.showing_since_s == inf)
+    is_first = was.state is AlarmState.NORMAL and was.showing_since_s == inf
+    now = _with_measure(now, evidence, moment, is_first=is_first)
     return _raised(now, moment) if _is_confirmed(now, trait, moment) else now
 
 
@@ -100,7 +106,7 @@ def acknowledged(was: Occurrence, *, by: str) -> Occurrence:
             was,
             state=AlarmState.ACKNOWLEDGED,
             acknowledged_by=by,
-            acknowledged_depth_mm=was.worst_depth_mm,
+            acknowledged_severity=was.worst_severity,
         )
     if was.state is AlarmState.LATCHED:
         # What shows again, and is not yet raised, goes on being confirmed.
@@ -123,11 +129,11 @@ def _standing(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment)
     gone = evidence.showing is Showing.NO or (evidence.showing is Showing.UNKNOWN and not trait.holds)
     if gone:
         gone_since_s = min(was.gone_since_s, moment.at_s)
-        now = replace(_with_measure(was, evidence, anew=False), gone_since_s=gone_since_s)
+        now = replace(_with_measure(was, evidence, moment), gone_since_s=gone_since_s)
         return _cleared(now, trait) if moment.at_s - gone_since_s >= trait.clear_s else now
-    now = replace(_with_measure(was, evidence, anew=False), gone_since_s=inf)
-    worse_by_mm = now.worst_depth_mm - was.acknowledged_depth_mm
-    if was.state is AlarmState.ACKNOWLEDGED and worse_by_mm >= moment.again_after_mm:
+    now = replace(_with_measure(was, evidence, moment), gone_since_s=inf)
+    worse_by = now.worst_severity - was.acknowledged_severity
+    if trait.latches and was.state is AlarmState.ACKNOWLEDGED and worse_by >= moment.again_after_mm:
         return _raised(now, moment)
     return now
 
@@ -141,26 +147,40 @@ def _raised(was: Occurrence, moment: Moment) -> Occurrence:
         showing_images=0,
         gone_since_s=inf,
         acknowledged_by="",
-        acknowledged_depth_mm=inf,
+        acknowledged_severity=inf,
     )
 
 
 def _cleared(was: Occurrence, trait: Trait) -> Occurrence:
     latched = trait.latches and was.state is AlarmState.ACTIVE
     if not latched:
-        return Occurrence(measure=was.measure, worst=was.worst, raised_at_s=was.raised_at_s)
+        return Occurrence(
+            measure=was.measure,
+            site=was.site,
+            worst=was.worst,
+            worst_at_s=was.worst_at_s,
+            worst_site=was.worst_site,
+            raised_at_s=was.raised_at_s,
+        )
     return replace(was, state=AlarmState.LATCHED, gone_since_s=inf)
 
 
-def _with_measure(was: Occurrence, evidence: Evidence, *, anew: bool) -> Occurrence:
+def _with_measure(
+    was: Occurrence, evidence: Evidence, moment: Moment, *, is_first: bool = False
+) -> Occurrence:
+    """With the number of this moment, and the worst one since the first; by whom it is asked."""
     if evidence.showing is Showing.UNKNOWN:
         return was
-    first = anew or was.worst is None or evidence.depth_mm > was.worst_depth_mm
+    now = replace(was, by=evidence.by or was.by)
+    if evidence.measure is None:
+        return replace(now, measure=None, site=None, worst=None, worst_site=None) if is_first else now
+    now = replace(now, measure=evidence.measure, site=evidence.site)
+    if not is_first and was.worst is not None and evidence.severity <= was.worst_severity:
+        return now
     return replace(
-        was,
-        measure=evidence.measure,
-        worst=evidence.measure if first else was.worst,
-        depth_mm=evidence.depth_mm,
-        worst_depth_mm=evidence.depth_mm if anew else max(was.worst_depth_mm, evidence.depth_mm),
-        by=evidence.by or was.by,
+        now,
+        worst=evidence.measure,
+        worst_severity=evidence.severity,
+        worst_at_s=moment.at_s,
+        worst_site=evidence.site,
     )

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority
-from tracker.navigation.alarms.evidence import Measure
+from tracker.navigation.alarms.evidence import Measure, Showing
+from tracker.navigation.alarms.observed import Site
 from tracker.navigation.alarms.occurrence import AlarmState
 
 
@@ -40,8 +41,12 @@ class Alarm:
         condition: what it is.
         state: active, acknowledged or latched.
         raised_at_s: when.
+        presence: whether the newest moment shows it, by its limit alone, without hysteresis. An alarm that
+            is no longer present is described in the past tense.
         measure: the newest number and its limit; None where it is no matter of a number.
+        site: where in the bone that was.
         worst: the worst one since it was raised.
+        worst_at_s, worst_site: when and where that was.
         acknowledged_by: who knows of it; empty when nobody does.
         by: who asks, where somebody does.
     """
@@ -50,8 +55,12 @@ class Alarm:
     condition: Condition
     state: AlarmState
     raised_at_s: float
+    presence: Showing = Showing.YES
     measure: Measure | None = None
+    site: Site | None = None
     worst: Measure | None = None
+    worst_at_s: float = 0.0
+    worst_site: Site | None = None
     acknowledged_by: str = ""
     by: str = ""
 
@@ -73,20 +82,21 @@ class AlarmEvent:
     Attributes:
         at_s: when.
         change: what happened.
-        number: of the alarm; 0 where it is a matter of all.
-        condition: of the alarm; None where it is a matter of all.
-        measure: the number and limit at that moment.
+        alarm: as it is after the change; None where it is a matter of all.
         by: who did it; empty when nobody did.
         pause_s: how long the sound is paused, where it is.
     """
 
     at_s: float
     change: Change
-    number: int = 0
-    condition: Condition | None = None
-    measure: Measure | None = None
+    alarm: Alarm | None = None
     by: str = ""
     pause_s: float = 0.0
+
+    @property
+    def condition(self) -> Condition | None:
+        """Of the alarm; None where it is a matter of all."""
+        return None if self.alarm is None else self.alarm.condition
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,12 +105,14 @@ class AlarmPicture:
 
     Attributes:
         at_s: the moment.
-        alarms: those to be seen: the highest first, of these what is active first, then the newest first.
+        alarms: those to be seen: what stands before what is over (latched), then the highest first, of these
+            what is active first, then the newest first.
         sound: what is to be heard now.
         sound_number: of the alarm that sounds; 0 while none does. A new number begins the sound anew.
         paused_until_s: until when the sound is paused, at the latest; 0 when it is not.
         revision: grows with every change.
         events: what changed since the picture before.
+        unix_offset_s: to be added to these times to have Unix time; the engine has no clock, and leaves it 0.
     """
 
     at_s: float = 0.0
@@ -110,6 +122,7 @@ class AlarmPicture:
     paused_until_s: float = 0.0
     revision: int = 0
     events: tuple[AlarmEvent, ...] = ()
+    unix_offset_s: float = 0.0
 
     @property
     def top(self) -> Alarm | None:

@@ -1,45 +1,54 @@
-import type { ReactNode } from "react";
-import type { AlarmMessage, Priority } from "../live/messages";
+import { useRef, type ReactNode } from "react";
+import { usePainter } from "../live/LiveContext";
+import type { AlarmMessage, AlarmsMessage, Priority } from "../live/messages";
+import { setText } from "../panes/setText";
+import type { Words } from "../words/en";
+import { textOf } from "../words/text";
 import { useWords } from "../words/WordsContext";
-import { measureText } from "./measureText";
 
 export const MARKS: Record<Priority, string> = { high: "▲▲▲", medium: "▲▲", low: "▲" };
 
-/** What an alarm says, with its number and limit, and whether it is over or acknowledged. */
+/** What an alarm says: painted with the figures, from the same image, so that no two numbers differ. */
 export function AlarmSentence({ alarm }: { alarm: AlarmMessage }): ReactNode {
-  const words = useWords().alarms;
+  const words = useWords();
+  const sentence = useRef<HTMLSpanElement>(null);
+  const remedy = useRef<HTMLElement>(null);
+  const known = useRef<HTMLSpanElement>(null);
+  usePainter(({ alarms }) => {
+    const now = ofNumber(alarms, alarm);
+    setText(sentence.current, textOf(now.sentence, words));
+    setText(remedy.current, textOf(now.remedy, words));
+    setText(known.current, textOf(now.known, words));
+  });
   return (
     <>
-      {alarm.by && `${alarm.by}: `}
-      {words.conditions[alarm.condition].sentence}
-      <AlarmNumber alarm={alarm} />.
+      <span data-part="sentence" ref={sentence} /> <strong data-part="remedy" ref={remedy} />{" "}
+      <span data-part="known" ref={known} />
     </>
   );
 }
 
-/** One of the alarms that are not the highest: short, because the highest is what matters. */
+/** One of the alarms that are not the first: its title and its sentence. */
 export function AlarmLine({ alarm }: { alarm: AlarmMessage }): ReactNode {
-  const words = useWords().alarms;
+  const words = useWords();
+  const line = useRef<HTMLSpanElement>(null);
+  usePainter(({ alarms }) => {
+    setText(line.current, lineText(ofNumber(alarms, alarm), words));
+  });
   return (
     <>
-      <span aria-hidden="true">{MARKS[alarm.priority]}</span>{" "}
-      <span className="heard-only">{words.priority[alarm.priority]}</span>
-      <b>{words.conditions[alarm.condition].state}</b>
-      {alarm.by && ` ${alarm.by}`}
-      <AlarmNumber alarm={alarm} />
+      <span aria-hidden="true">{alarm.state === "latched" ? "" : MARKS[alarm.priority]}</span>{" "}
+      <span className="heard-only">{words.alarms.priority[alarm.priority]}</span>
+      <b>{textOf(alarm.title, words)}</b> <span ref={line} />
     </>
   );
 }
 
-function AlarmNumber({ alarm }: { alarm: AlarmMessage }): ReactNode {
-  const words = useWords().alarms;
-  const over = alarm.state === "latched";
-  const number = measureText(over ? alarm.worst : alarm.measure, words.limit);
-  return (
-    <>
-      {number && `: ${number}`}
-      {over && ` · ${words.over}`}
-      {alarm.acknowledged_by && ` · ${words.acknowledgedBy} ${alarm.acknowledged_by}`}
-    </>
-  );
+function lineText({ sentence, known }: AlarmMessage, words: Words): string {
+  return [textOf(sentence, words), textOf(known, words)].filter((part) => part !== "").join(" ");
+}
+
+/** The same alarm as it was with the image whose figures are shown; itself where it was not yet raised then. */
+function ofNumber(alarms: AlarmsMessage | null, alarm: AlarmMessage): AlarmMessage {
+  return alarms?.alarms.find(({ number }) => number === alarm.number) ?? alarm;
 }

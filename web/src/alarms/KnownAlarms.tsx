@@ -2,6 +2,7 @@ import { useRef, useState, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
 import type { AlarmMessage, AlarmsMessage } from "../live/messages";
 import { setText } from "../panes/setText";
+import { textOf } from "../words/text";
 import { useWords } from "../words/WordsContext";
 import { AlarmLine, AlarmSentence, MARKS } from "./AlarmSentence";
 import { acknowledge, pause, resume } from "./desk";
@@ -10,7 +11,8 @@ const PAUSE_S = 120;
 
 /** The alarms that the server has now, and what a person here can do about them. */
 export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
-  const words = useWords().alarms;
+  const all = useWords();
+  const words = all.alarms;
   const [top, ...others] = alarms.alarms;
   const [failed, setFailed] = useState(false);
   const tell = (worked: boolean): void => {
@@ -21,13 +23,13 @@ export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
   return (
     <>
       <p className="heard-only" role="alert">
-        {words.priority[top.priority]}: {words.conditions[top.condition].state}
+        {words.priority[top.priority]}: {textOf(top.title, all)}
       </p>
       <Top alarm={top} />
       {others.length > 0 && (
         <ul className="alarms-others" data-testid="alarms-others">
           {others.map((alarm) => (
-            <li key={alarm.number} data-priority={alarm.priority}>
+            <li key={alarm.number} data-priority={alarm.priority} data-state={alarm.state}>
               <AlarmLine alarm={alarm} />
             </li>
           ))}
@@ -61,15 +63,18 @@ export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
 }
 
 function Top({ alarm }: { alarm: AlarmMessage }): ReactNode {
-  const words = useWords().alarms;
+  const words = useWords();
+  const isOver = alarm.state === "latched";
   return (
     <div className="alarms-top" data-testid="alarm-top" data-condition={alarm.condition}>
       <p className="alarms-state">
-        <span aria-hidden="true">{MARKS[alarm.priority]}</span>{" "}
-        <small>{words.priority[alarm.priority]}</small> {words.conditions[alarm.condition].state}
+        {/* What is over has no urgency any more, and no marks. */}
+        <span aria-hidden="true">{isOver ? "" : MARKS[alarm.priority]}</span>{" "}
+        <small>{isOver ? words.alarms.over : words.alarms.priority[alarm.priority]}</small>{" "}
+        {textOf(alarm.title, words)}
       </p>
       <p className="alarms-sentence">
-        <AlarmSentence alarm={alarm} /> <strong>{words.conditions[alarm.condition].remedy}</strong>
+        <AlarmSentence alarm={alarm} />
       </p>
     </div>
   );

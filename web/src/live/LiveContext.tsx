@@ -74,7 +74,7 @@ function keyOf({ link, video, numbers, scene, newest, carried }: View): string {
   const unread = numbers.live ? null : numbers.unread;
   const numbersKey = numbers.live
     ? "live"
-    : `${numbers.cause} ${unread?.reason ?? ""} ${unread?.unseen ?? ""}`;
+    : `${numbers.cause} ${unread?.headline.title.en ?? ""} ${unread?.headline.detail.en ?? ""}`;
   const troubles = `${newest?.source.trouble?.code ?? ""} ${newest?.process.trouble?.code ?? ""}`;
   return [
     link,

@@ -1,6 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { numbersVerdict, videoVerdict, type Cause, type Situation } from "./assess";
 import { message, situation, snapshot, taken } from "./builders";
+import { headline } from "./figureBuilders";
 
 const NOW = 1000;
 const source = message().source;
@@ -71,32 +72,33 @@ describe("age", () => {
 });
 
 describe("what the image says", () => {
-  test("the first tool with numbers is read, whatever stands before it", () => {
+  test("the tool that the server shows is read, whatever stands before it", () => {
     const known = snapshot().tools[0];
     if (!known) throw new Error("the builder has a tool");
-    const awl = { ...known, name: "awl", deviation: { kind: "absent", reason: "MARKER_UNSEEN" } } as const;
-    const numbers = taken(960, { tools: [awl, known] });
+    const numbers = taken(960, { tools: [{ ...known, name: "awl" }, known] });
     expect(numbersVerdict(situation({ numbers }), NOW)).toMatchObject({
       live: true,
       reading: { tool: "drill" },
     });
   });
 
-  test("a tool that is not seen has no numbers, but its marker's reason", () => {
-    const tools = snapshot().tools.map((tool) => ({
-      ...tool,
-      deviation: { kind: "absent", reason: "MARKER_UNSEEN" } as const,
-    }));
-    expect(numbersVerdict(situation({ numbers: taken(960, { tools }) }), NOW)).toMatchObject({
+  test.each([
+    ["none is shown", { shown_tool: null }],
+    ["the one that is shown is missing", { shown_tool: "awl" }],
+    [
+      "the one that is shown has no figures",
+      {
+        tools: snapshot().tools.map((tool) => ({
+          ...tool,
+          assessment: { kind: "absent", reason: "MARKER_UNSEEN" } as const,
+        })),
+      },
+    ],
+  ])("without figures the image's headline says why: %s", (_, changes) => {
+    expect(numbersVerdict(situation({ numbers: taken(960, changes) }), NOW)).toMatchObject({
       live: false,
       cause: "unread",
-      unread: { reason: "MARKER_UNSEEN", marker: "drill", unseen: "SCORE_TOO_LOW" },
-    });
-  });
-
-  test("no tool at all: says that the marker is not seen first", () => {
-    expect(numbersVerdict(situation({ numbers: taken(960, { tools: [] }) }), NOW)).toMatchObject({
-      unread: { reason: "MARKER_UNSEEN" },
+      unread: { known: false, headline: headline() },
     });
   });
 });

@@ -1,7 +1,7 @@
 // What may be shown now. Pure: a situation and a time go in, a verdict for each pane comes out.
 import type { Reading } from "./reading";
 import { readingOf, type Unread } from "./reading";
-import type { LiveMessage, SnapshotMessage } from "./messages";
+import type { AlarmsMessage, HeadlineMessage, LiveMessage, SnapshotMessage } from "./messages";
 import type { LinkState } from "./line";
 
 export interface Limits {
@@ -13,6 +13,9 @@ export interface Limits {
 /** One image's message with its capture time on the page's clock. */
 export interface Taken {
   snapshot: SnapshotMessage;
+  headline: HeadlineMessage;
+  /** As they were with this image. */
+  alarms: AlarmsMessage;
   capturedAtMs: number;
   receivedAtMs: number;
 }
@@ -72,7 +75,7 @@ export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerd
     return { live: false, cause: "no-image", unread: null, ageMs: null };
   }
   if (!(ageMs <= limits.pose_stale_after_ms)) return { live: false, cause: "old", unread: null, ageMs };
-  const reading = readingOf(numbers.snapshot);
+  const reading = readingOf(numbers.snapshot, numbers.headline);
   if (!reading.known) return { live: false, cause: "unread", unread: reading, ageMs };
   return { live: true, reading, imageNumber: numbers.snapshot.image_number, ageMs };
 }

@@ -1,5 +1,6 @@
 // Truth for tests: messages as the server sends them.
 import type { Situation, Taken } from "./assess";
+import { assessment, headline } from "./figureBuilders";
 import type { AlarmsMessage, AlongMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
 
 export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessage {
@@ -42,16 +43,18 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
           sagittal_deg: -1.5,
         },
         judgement: judgement(),
+        assessment: assessment(),
         along: along(),
       },
     ],
+    shown_tool: "drill",
     stage_ms: {},
     skipped_images: 0,
     ...changes,
   };
 }
 
-/** On its way: 1.8 mm from the medial wall, and a class worse at the end. */
+/** 1.8 mm from the medial wall, of a screw that would stay within it. */
 export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMessage {
   const place = {
     kind: "nearest" as const,
@@ -60,7 +63,6 @@ export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMes
   };
   return {
     kind: "judgement",
-    verdict: "on",
     clearance: {
       against: "bone",
       now: { ...place, clearance_mm: 1.8, grade: "A" },
@@ -125,13 +127,20 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
     source: { name: "rehearsal", state: "running", trouble: null, images: 8, skipped_images: 0, rate_hz: 30 },
     process: { state: "running", restarts: 0, trouble: null },
     snapshot: snapshot(),
+    headline: headline(),
     alarms: alarms(),
     ...changes,
   };
 }
 
 export function taken(capturedAtMs: number, changes: Partial<SnapshotMessage> = {}): Taken {
-  return { snapshot: snapshot(changes), capturedAtMs, receivedAtMs: capturedAtMs + 20 };
+  return {
+    snapshot: snapshot(changes),
+    headline: headline(),
+    alarms: alarms(),
+    capturedAtMs,
+    receivedAtMs: capturedAtMs + 20,
+  };
 }
 
 /** All well at time 1000 ms: an image grabbed at 960. */

@@ -70,6 +70,8 @@ export class Live {
       link: this.is.link,
       silentMs: this.is.heardAtMs === null ? 0 : nowMs - this.is.heardAtMs,
       newest: this.is.newest,
+      // Beside live figures, what was said with their own image: no other number of the same thing.
+      alarms: (numbers.live ? this.is.numbers?.alarms : this.is.newest?.alarms) ?? null,
       video,
       numbers,
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
@@ -182,11 +184,11 @@ export class Live {
   }
 
   private takenFrom(message: LiveMessage, receivedAtMs: number): Taken | null {
-    const { snapshot } = message;
+    const { snapshot, headline, alarms } = message;
     if (snapshot === null) return null;
     const { age_ms, captured_at_s } = snapshot;
     const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, age_ms, captured_at_s);
-    return { snapshot, capturedAtMs, receivedAtMs };
+    return { snapshot, headline, alarms, capturedAtMs, receivedAtMs };
   }
 
   private held(verdict: NumbersVerdict, nowMs: number): NumbersVerdict {

@@ -2,7 +2,7 @@
 import type { NumbersVerdict, VideoVerdict } from "./assess";
 import type { Carried } from "./carried";
 import type { LinkState } from "./line";
-import type { LiveMessage } from "./messages";
+import type { AlarmsMessage, LiveMessage } from "./messages";
 import type { SceneVerdict } from "./sceneAge";
 
 /** The true age of everything that stands on the page, in ms; null where nothing stands there. */
@@ -19,6 +19,8 @@ export interface View {
   link: LinkState;
   silentMs: number;
   newest: LiveMessage | null;
+  /** The words of the alarms: of the same image as the figures, where those are live. */
+  alarms: AlarmsMessage | null;
   video: VideoVerdict;
   numbers: NumbersVerdict;
   /** How long there have been no numbers; null while there are, or when there never were. */

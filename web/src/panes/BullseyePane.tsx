@@ -1,5 +1,5 @@
 import { useRef, type ReactNode } from "react";
-import { useLive, usePainter } from "../live/LiveContext";
+import { usePainter } from "../live/LiveContext";
 import { useWords } from "../words/WordsContext";
 import { Pane } from "./Pane";
 import { paintBullseye } from "./paintBullseye";
@@ -9,17 +9,15 @@ import { paintSplit, Split } from "./Split";
 /** The drill as it is seen along the channel, of the same image as the numbers; empty when they are. */
 export function BullseyePane(): ReactNode {
   const words = useWords();
-  const { dashboard } = useLive();
   const stage = useRef<HTMLDivElement>(null);
   const svg = useRef<SVGSVGElement>(null);
   const split = useRef<HTMLDListElement>(null);
-  const warningMm = dashboard?.limits.warning_distance_mm ?? null;
 
   usePainter(({ numbers }) => {
     const reading = numbers.live ? numbers.reading : null;
     const along = reading?.along ?? null;
     setData(stage.current, "live", String(along !== null));
-    paintBullseye(svg.current, along, reading, warningMm);
+    paintBullseye(svg.current, along, reading);
     paintSplit(split.current, reading, words);
   });
 

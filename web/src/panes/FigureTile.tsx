@@ -1,14 +1,21 @@
 import type { ReactNode } from "react";
+import type { FigureMessage, Status } from "../live/messages";
 import type { Reading } from "../live/reading";
 import { shownFigure, shownNumber } from "../live/rounding";
 import type { Words } from "../words/en";
 import { useWords } from "../words/WordsContext";
-import { figureOf, type Figure, type FigureName, type Standing } from "./limits";
+import { figureOf, type FigureName } from "./limits";
 import { setData, setText } from "./setText";
 import { wallSide } from "./verdictText";
 
 const REMOVED = "—";
-const MARKS: Record<Standing, string> = { within: "", over: "▲ ", through: "▲▲▲ " };
+const MARKS: Record<Status, string> = {
+  within: "",
+  over: "▲ ",
+  through: "▲▲▲ ",
+  unlimited: "",
+  outside: "",
+};
 
 /** One big number, its unit, and its limit under it. */
 export function FigureTile({ name }: { name: FigureName }): ReactNode {
@@ -44,41 +51,41 @@ export function paintFigure(
   pane: HTMLElement | null,
   name: FigureName,
   reading: Reading | null,
-  warningMm: number | null,
   words: Words,
 ): void {
   const tile = pane?.querySelector<HTMLElement>(`[data-reading=${name}]`);
   if (!tile) return;
-  const figure = reading === null ? null : figureOf(reading, name, warningMm);
+  const figure = reading === null ? null : figureOf(reading, name);
   setText(tile.querySelector("[data-part=value]"), figure ? shownFigure(figure.value) : REMOVED);
   setText(tile.querySelector("[data-part=limit]"), figure ? limitText(figure, name, words) : "");
   setText(tile.querySelector("[data-part=hint]"), hintOf(reading, name, words));
-  setData(tile, "standing", figure?.standing ?? "none");
+  setData(tile, "standing", figure?.status ?? "none");
   if (name === "depth") {
-    const toGo = reading === null ? REMOVED : shownFigure(reading.deviation.remaining_mm);
+    const toGo = reading === null ? REMOVED : shownFigure(reading.assessment.figures.to_go.value);
     setText(tile.querySelector("[data-part=to-go]"), toGo);
   }
 }
 
-function limitText({ limit, standing }: Figure, name: FigureName, words: Words): string {
+function limitText({ limit, status }: FigureMessage, name: FigureName, words: Words): string {
   const { theatre, depthWords } = words;
-  if (name === "depth" && standing === "through") return `${MARKS.through}${depthWords.past}`;
+  if (name === "depth" && status === "through") return `${MARKS.through}${depthWords.past}`;
   if (limit === null) return "";
   const amount = shownNumber(limit);
   if (name === "depth") return `${theatre.of} ${amount}`;
-  const mark = MARKS[standing];
+  const mark = MARKS[status];
+  // The wall's own limit is 0; this is the distance from which on it is near.
   if (name === "wall") {
-    if (standing === "within") return `${theatre.nearBelow} ${amount}`;
-    return `${mark}${standing === "over" ? theatre.near : theatre.through}, ${theatre.limit} ${amount}`;
+    if (status === "through") return `${mark}${theatre.through}`;
+    return status === "over" ? `${mark}${theatre.near} ${amount}` : `${theatre.nearBelow} ${amount}`;
   }
-  return standing === "over" ? `${mark}${theatre.over} ${amount}` : `${theatre.limit} ${amount}`;
+  return status === "over" ? `${mark}${theatre.over} ${amount}` : `${theatre.limit} ${amount}`;
 }
 
 /** Only what is not as it should be, or which wall is meant: everything else is known by heart. */
 function hintOf(reading: Reading | null, name: FigureName, words: Words): string {
   if (reading === null) return "";
-  const { deviation, judgement } = reading;
-  if (name === "wall") return judgement === null ? "" : wallSide(judgement, words);
-  if (name === "entry" && deviation.entry_offset_mm === null) return words.depthWords.across;
-  return name === "depth" && deviation.depth_mm < 0 ? words.depthWords.before : "";
+  const { assessment } = reading;
+  if (name === "wall") return wallSide(assessment, words);
+  if (name === "entry" && assessment.figures.entry.value === null) return words.depthWords.across;
+  return name === "depth" && (assessment.figures.depth.value ?? 0) < 0 ? words.depthWords.before : "";
 }

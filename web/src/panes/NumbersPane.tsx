@@ -1,5 +1,5 @@
 import { useRef, type ReactNode } from "react";
-import { useLive, usePainter } from "../live/LiveContext";
+import { usePainter } from "../live/LiveContext";
 import { useWords } from "../words/WordsContext";
 import { FigureTile, paintFigure } from "./FigureTile";
 import { FIGURES } from "./limits";
@@ -9,14 +9,12 @@ import { setData } from "./setText";
 /** The surgeon's numbers with their limits; removed, with words in their place, when they are not live. */
 export function NumbersPane(): ReactNode {
   const words = useWords();
-  const { dashboard } = useLive();
   const pane = useRef<HTMLDivElement>(null);
-  const warningMm = dashboard?.limits.warning_distance_mm ?? null;
 
   usePainter(({ numbers }) => {
     setData(pane.current, "live", String(numbers.live));
     const reading = numbers.live ? numbers.reading : null;
-    for (const name of FIGURES) paintFigure(pane.current, name, reading, warningMm, words);
+    for (const name of FIGURES) paintFigure(pane.current, name, reading, words);
   });
 
   return (

@@ -1,29 +1,34 @@
 import { useRef, type ReactNode } from "react";
 import type { NumbersVerdict } from "../live/assess";
 import { useLive, usePainter } from "../live/LiveContext";
-import type { Reading } from "../live/reading";
-import { shownDuration, shownNumber } from "../live/rounding";
+import type { HeadlineMessage } from "../live/messages";
+import { shownDuration } from "../live/rounding";
 import type { Words } from "../words/en";
+import { textOf } from "../words/text";
 import { useWords } from "../words/WordsContext";
 import { setData, setText } from "./setText";
-import { aheadText, VERDICT_SYMBOL, verdictText } from "./verdictText";
+import { errorText, riskText, TONE_SYMBOL } from "./verdictText";
 
-/** The verdict in one word, and what stands behind it; or why there are no numbers. */
+/** The headline of the image whose figures stand here, with what is behind it; or why there are none. */
 export function NumbersState(): ReactNode {
   const words = useWords();
   const { view } = useLive();
-  const verdict = useRef<HTMLParagraphElement>(null);
+  const headline = useRef<HTMLParagraphElement>(null);
+  const detail = useRef<HTMLParagraphElement>(null);
+  const event = useRef<HTMLParagraphElement>(null);
   const since = useRef<HTMLSpanElement>(null);
-  const tip = useRef<HTMLSpanElement>(null);
-  const ahead = useRef<HTMLParagraphElement>(null);
+  const error = useRef<HTMLParagraphElement>(null);
+  const risk = useRef<HTMLParagraphElement>(null);
   const difference = useRef<HTMLParagraphElement>(null);
 
   usePainter(({ numbers, video, untrackedMs }) => {
-    const reading = numbers.live ? numbers.reading : null;
-    paintVerdict(verdict.current, reading, words);
-    setText(ahead.current, reading?.judgement ? aheadText(reading.judgement, words) : "");
+    const live = numbers.live ? numbers.reading.headline : null;
+    paintHeadline(headline.current, live, words);
+    setText(detail.current, live === null ? whyWords(numbers, words) : textOf(live.detail, words));
+    setText(event.current, eventText(numbers, words));
+    setText(risk.current, numbers.live ? riskText(numbers.reading.assessment, words) : "");
     setText(since.current, untrackedMs === null ? "" : shownDuration(untrackedMs));
-    setText(tip.current, tipText(numbers, words));
+    setText(error.current, errorLine(numbers, words));
     const differ = numbers.live && video.live && numbers.imageNumber !== video.imageNumber;
     setText(
       difference.current,
@@ -37,63 +42,53 @@ export function NumbersState(): ReactNode {
     <div className="numbers-state">
       {view.numbers.live ? (
         // Keys, because the painter writes into one of them, and the other must not inherit what it wrote.
-        <p className="state-verdict" data-testid="verdict" key="verdict" ref={verdict} />
+        <p className="state-verdict" data-testid="verdict" key="verdict" ref={headline} />
       ) : (
         <p className="state-bad" data-testid="no-tracking" key="no-tracking">
-          <span aria-hidden="true">▲▲</span>{" "}
-          {isSeen(view.numbers) ? words.numbers.noNumbers : words.numbers.none}{" "}
+          <span aria-hidden="true">▲▲</span> {noneTitle(view.numbers, words)}{" "}
           <span className="since" data-testid="untracked-for" ref={since} />
         </p>
       )}
-      <p className="state-why">
-        {whyWords(view.numbers, words)}
-        <span data-testid="tip" ref={tip} />
-      </p>
-      <p className="state-ahead" data-testid="ahead" ref={ahead} />
+      <p className="state-why" data-testid="headline-detail" ref={detail} />
+      <p className="state-event" data-testid="headline-event" ref={event} />
+      <p className="state-ahead" data-testid="ahead" ref={risk} />
+      <p className="state-ahead" data-testid="tip" ref={error} />
       <p className="difference" ref={difference} />
     </div>
   );
 }
 
-/** Seen, and still without numbers: a plan, a tool or a calibration is missing. */
-function isSeen(numbers: NumbersVerdict): boolean {
-  return (
-    !numbers.live &&
-    numbers.cause === "unread" &&
-    numbers.unread !== null &&
-    numbers.unread.reason !== "MARKER_UNSEEN"
-  );
+/** What the newest image says it lacks; a page that shows no image says that there are no figures. */
+function noneTitle(numbers: NumbersVerdict, words: Words): string {
+  if (numbers.live || numbers.unread === null) return words.numbers.none;
+  return textOf(numbers.unread.headline.title, words);
 }
 
 function whyWords(numbers: NumbersVerdict, words: Words): string {
   if (numbers.live) return "";
-  if (numbers.cause !== "unread")
-    return `${words.cause[numbers.cause].state} · ${words.cause[numbers.cause].sentence}`;
-  const { unread } = numbers;
-  if (unread === null) return "";
-  const { state, sentence } = words.absent[unread.reason];
-  const why = unread.unseen === null ? sentence : `${unread.marker ?? ""}: ${words.unseen[unread.unseen]}`;
-  return `${state} · ${why}`;
+  if (numbers.cause !== "unread") {
+    const { state, sentence } = words.cause[numbers.cause];
+    return `${state} · ${sentence}`;
+  }
+  return numbers.unread === null ? "" : textOf(numbers.unread.headline.detail, words);
 }
 
-function tipText(numbers: NumbersVerdict, words: Words): string {
+/** Alarms that are over and not acknowledged, or whose drill is not tracked: beside the headline, as in the video. */
+function eventText(numbers: NumbersVerdict, words: Words): string {
+  const headline = numbers.live ? numbers.reading.headline : numbers.unread?.headline;
+  return headline === undefined ? "" : textOf(headline.event, words);
+}
+
+function errorLine(numbers: NumbersVerdict, words: Words): string {
   if (!numbers.live) return "";
-  const { tool, tipSdMm, lagMs } = numbers.reading;
-  const sd =
-    tipSdMm === null ? words.numbers.tipUnknown : `${words.numbers.tip} ${shownNumber(tipSdMm, 2)} mm`;
-  const tip = `${tool} · ${sd}`;
+  const { tool, assessment, lagMs } = numbers.reading;
+  const line = `${tool} · ${errorText(assessment, words)}`;
   // The age of the image does not hold this delay: it is said beside the numbers that have it.
-  return lagMs > 0 ? `${tip} · ${words.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : tip;
+  return lagMs > 0 ? `${line} · ${words.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : line;
 }
 
-/** Before a judgement is there, nothing is praised: the word is "tracking", and it is not green. */
-function paintVerdict(line: HTMLElement | null, reading: Reading | null, words: Words): void {
-  const judgement = reading?.judgement ?? null;
-  setData(line, "verdict", judgement?.verdict ?? "none");
-  setText(
-    line,
-    judgement === null
-      ? words.numbers.tracking
-      : `${VERDICT_SYMBOL[judgement.verdict]} ${verdictText(judgement, words)}`,
-  );
+function paintHeadline(line: HTMLElement | null, headline: HeadlineMessage | null, words: Words): void {
+  setData(line, "tone", headline?.tone ?? "none");
+  setData(line, "verdict", headline?.verdict ?? "none");
+  setText(line, headline === null ? "" : `${TONE_SYMBOL[headline.tone]} ${textOf(headline.title, words)}`);
 }

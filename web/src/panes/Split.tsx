@@ -5,9 +5,9 @@ import { useWords } from "../words/WordsContext";
 import { setText } from "./setText";
 import { splitOf, type SplitPart } from "./splitText";
 
-const PARTS: readonly SplitPart[] = ["entry", "angle", "wall"];
+const PARTS: readonly SplitPart[] = ["entry", "angle"];
 
-/** Which way the drill is off, in words: at its entry, in its direction, and towards which wall. */
+/** Which way the drill is off, in words: at its entry, and in its direction. */
 export function Split({ ref }: { ref: Ref<HTMLDListElement> }): ReactNode {
   const words = useWords();
   return (

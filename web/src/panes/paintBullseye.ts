@@ -17,7 +17,6 @@ export function paintBullseye(
   svg: SVGSVGElement | null,
   along: AlongMessage | null,
   reading: Reading | null,
-  warningMm: number | null,
 ): void {
   if (svg === null) return;
   set(svg, "view", "visibility", along === null ? "hidden" : "visible");
@@ -29,7 +28,7 @@ export function paintBullseye(
   set(svg, "ellipse", "d", drawn.ellipse === null ? "" : closed(drawn.ellipse));
   set(svg, "arrow", "d", drawn.arrow === null ? "" : line(drawn.arrow));
   set(svg, "wall", "d", drawn.nearest === null || drawn.tip === null ? "" : bar(drawn.nearest, drawn.tip));
-  set(svg, "wall", "data-standing", figureOf(reading, "wall", warningMm).standing);
+  set(svg, "wall", "data-standing", figureOf(reading, "wall").status);
   circle(svg, "drill", drawn.tip, along.drill_radius_mm);
   circle(svg, "tip", drawn.tip, TIP * along.reach_mm);
 }

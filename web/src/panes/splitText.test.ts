@@ -1,19 +1,19 @@
 import { expect, test } from "vitest";
 import { snapshot } from "../live/builders";
+import { headline } from "../live/figureBuilders";
 import { readingOf, type Reading } from "../live/reading";
 import { en } from "../words/en";
 import { splitOf } from "./splitText";
 
 function reading(): Reading {
-  const read = readingOf(snapshot());
+  const read = readingOf(snapshot(), headline());
   if (!read.known) throw new Error("the builder's numbers are known");
   return read;
 }
 
 test("each part says which way, from the patient's middle and to the head", () => {
-  expect(splitOf(reading(), "entry", en)).toEqual(["0.6 mm lateral", "0.8 mm to the head"]);
-  expect(splitOf(reading(), "angle", en)).toEqual(["1.5° medial", "1.5° to the feet"]);
-  expect(splitOf(reading(), "wall", en)).toEqual(["1.8 mm medial", "to the bone · in 2 mm 0.9 mm"]);
+  expect(splitOf(reading(), "entry", en)).toEqual(["0.6 mm lateral", "0.8 mm cranial"]);
+  expect(splitOf(reading(), "angle", en)).toEqual(["1.5° medial", "1.5° caudal"]);
 });
 
 test("what rounds to nothing goes no way, and what is not known says nothing", () => {

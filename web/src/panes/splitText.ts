@@ -2,11 +2,10 @@
 import type { Reading } from "../live/reading";
 import { shownNumber } from "../live/rounding";
 import type { Words } from "../words/en";
-import { clearanceMm, wallAhead } from "./verdictText";
 
-export type SplitPart = "entry" | "angle" | "wall";
+export type SplitPart = "entry" | "angle";
 
-export function splitOf({ deviation, judgement }: Reading, part: SplitPart, words: Words): string[] {
+export function splitOf({ deviation }: Reading, part: SplitPart, words: Words): string[] {
   const { side } = words.theatre;
   switch (part) {
     case "entry":
@@ -19,14 +18,6 @@ export function splitOf({ deviation, judgement }: Reading, part: SplitPart, word
         signed(deviation.transverse_deg, "°", side.medial, side.lateral),
         signed(deviation.sagittal_deg, "°", side.cranial, side.caudal),
       ];
-    case "wall": {
-      const now = judgement?.clearance.now;
-      if (!now || now.kind === "not-entered") return [words.wall.notEntered];
-      return [
-        `${shownNumber(clearanceMm(now))} mm ${words.wall.side[now.wall]}`,
-        wallAhead(judgement, words),
-      ];
-    }
   }
 }
 

@@ -1,34 +1,28 @@
 import { expect, test } from "vitest";
-import { judgement } from "../live/builders";
+import { assessment, figure } from "../live/figureBuilders";
 import { en } from "../words/en";
-import { VERDICT_SYMBOL, aheadText, clearanceMm, verdictText, wallAhead, wallSide } from "./verdictText";
+import { errorText, riskText, TONE_SYMBOL, wallSide } from "./verdictText";
 
-test("an unsure drill is told with the larger uncertainty and what the pedicle leaves", () => {
-  const certain = { enough: false, entry_95_mm: 1.2, isthmus_95_mm: 1.94, room_mm: 1.5, room_deg: 6.3 };
-  expect(verdictText(judgement({ verdict: "unsure", certain }), en)).toBe("UNSURE ±1.9 of 1.5 mm");
+test("every tone has a shape of its own", () => {
+  expect(new Set(Object.values(TONE_SYMBOL)).size).toBe(5);
 });
 
-test("a drill across the channel has no uncertainty in mm", () => {
-  const certain = { enough: false, entry_95_mm: null, isthmus_95_mm: 1, room_mm: 1.5, room_deg: 6.3 };
-  expect(verdictText(judgement({ verdict: "unsure", certain }), en)).toBe("UNSURE ±-- of 1.5 mm");
+test("the risk of a breach is shown with its limit", () => {
+  expect(riskText(assessment(), en)).toBe("Risk of breach: in 2 mm 3 %, screw at the end 4 % · limit 5 %");
 });
 
-test("every verdict has a shape of its own", () => {
-  expect(new Set(Object.values(VERDICT_SYMBOL)).size).toBe(4);
+test("without a pedicle there is no risk to show", () => {
+  const none = figure(null, { limit: null, status: "unlimited" });
+  expect(riskText(assessment({}, { risk: none, end: none }), en)).toBe("");
+  expect(errorText(assessment({}, { error: none }), en)).toBe("error not known");
 });
 
-test("what comes is told with its class", () => {
-  expect(aheadText(judgement(), en)).toBe(
-    "Through the wall: now 0 %, in 2 mm 3 %, at the end 12 % · at the end class B",
-  );
+test("the error is the whole one, with what the pedicle leaves", () => {
+  expect(errorText(assessment(), en)).toBe("95 % error ±0.80 mm · limit 1.80 mm");
 });
 
 test("the nearest wall is named, and a drill outside has none", () => {
-  expect(wallSide(judgement(), en)).toBe("medial");
-  expect(wallAhead(judgement(), en)).toBe("to the bone · in 2 mm 0.9 mm");
-  const { clearance } = judgement();
-  const outside = judgement({ clearance: { ...clearance, now: { kind: "not-entered" } } });
-  expect(wallSide(outside, en)).toBe("not in the bone");
-  expect(wallAhead(outside, en)).toBe("to the bone · in 2 mm 0.9 mm");
-  expect(clearanceMm(outside.clearance.now)).toBeNull();
+  expect(wallSide(assessment(), en)).toBe("medial");
+  const outside = assessment({ wall: null }, { wall: figure(null, { limit: 1, status: "outside" }) });
+  expect(wallSide(outside, en)).toBe("outside bone");
 });

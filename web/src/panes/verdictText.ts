@@ -1,46 +1,38 @@
-// The judgement of a drill in words. Pure, so that it is tested without a page.
-import type { ClosestMessage, JudgementMessage, Verdict } from "../live/messages";
-import { shownFigure, shownNumber, shownPercent } from "../live/rounding";
+// What stands beside the headline, from the figures. Pure, so that it is tested without a page.
+import type { AssessmentMessage, Tone } from "../live/messages";
+import { shownNumber } from "../live/rounding";
 import type { Words } from "../words/en";
 
 /** A shape of its own for each, as in the video: the colour says nothing that the shape does not. */
-export const VERDICT_SYMBOL: Record<Verdict, string> = { on: "●", off: "▲", unsure: "◆", through: "✖" };
+export const TONE_SYMBOL: Record<Tone, string> = {
+  good: "●",
+  caution: "▲",
+  warning: "◆",
+  danger: "✖",
+  none: "○",
+};
 
-/** "UNSURE ±1.9 of 1.2 mm": what is not sure enough, and what the pedicle leaves. */
-export function verdictText(judgement: JudgementMessage, words: Words): string {
-  const word = words.verdict[judgement.verdict];
-  if (judgement.verdict !== "unsure") return word;
-  const { entry_95_mm: entry, isthmus_95_mm: isthmus, room_mm: room } = judgement.certain;
-  const worst = entry === null || isthmus === null ? null : Math.max(entry, isthmus);
-  return `${word} ±${shownNumber(worst)} ${words.wall.of} ${shownNumber(room)} mm`;
+/** The probability of a breach, within 2 mm and by the screw at the end, with the limit of both. */
+export function riskText({ figures }: AssessmentMessage, words: Words): string {
+  const { risk, end } = figures;
+  const parts = [
+    risk.value === null ? "" : `${words.wall.soon} ${shownNumber(risk.value, 0)} %`,
+    end.value === null ? "" : `${words.wall.atEnd} ${shownNumber(end.value, 0)} %`,
+  ].filter((part) => part !== "");
+  if (parts.length === 0) return "";
+  return `${words.wall.risk}: ${parts.join(", ")} · ${words.theatre.limit} ${shownNumber(risk.limit, 0)} %`;
 }
 
-/** What comes if the direction is kept. */
-export function aheadText(judgement: JudgementMessage, words: Words): string {
-  const { chance, clearance } = judgement;
-  const through = [
-    `${words.wall.now} ${shownPercent(chance.now_ratio)}`,
-    `${words.wall.soon} ${shownPercent(chance.soon_ratio)}`,
-    `${words.wall.atEnd} ${shownPercent(chance.at_end_ratio)}`,
-  ];
-  const end = clearance.at_end;
-  const grade = end.kind === "nearest" ? ` · ${words.wall.atEnd} ${words.wall.grade} ${end.grade}` : "";
-  return `${words.wall.through}: ${through.join(", ")}${grade}`;
+/** The error of the whole chain, marker, registration and tool, and what the pedicle leaves. */
+export function errorText({ figures }: AssessmentMessage, words: Words): string {
+  const { value, limit } = figures.error;
+  if (value === null) return words.numbers.errorUnknown;
+  const of = limit === null ? "" : ` · ${words.theatre.limit} ${shownNumber(limit, 2)} mm`;
+  return `${words.numbers.error} ±${shownNumber(value, 2)} mm${of}`;
 }
 
-/** Which wall is meant. */
-export function wallSide(judgement: JudgementMessage, words: Words): string {
-  const { now } = judgement.clearance;
-  return now.kind === "not-entered" ? words.wall.notEntered : words.wall.side[now.wall];
-}
-
-/** What the wall was measured against, and what is left of it a little further on. */
-export function wallAhead(judgement: JudgementMessage, words: Words): string {
-  const { soon, against } = judgement.clearance;
-  const left = soon.kind === "nearest" ? ` · ${words.wall.soon} ${shownFigure(soon.clearance_mm)} mm` : "";
-  return `${words.wall.against[against]}${left}`;
-}
-
-export function clearanceMm(closest: ClosestMessage): number | null {
-  return closest.kind === "nearest" ? closest.clearance_mm : null;
+/** Which wall is the nearest; that the drill is outside, where none is. */
+export function wallSide({ wall, figures }: AssessmentMessage, words: Words): string {
+  if (wall !== null) return words.wall.side[wall];
+  return figures.wall.status === "outside" ? words.wall.outside : "";
 }

@@ -3,6 +3,7 @@ import { shownSecond } from "../operator/parts/shown";
 import { answered, server } from "../rest/client";
 import { RefusalNote } from "../rest/RefusalNote";
 import { useAsked } from "../rest/useAsked";
+import { inWords } from "../words/text";
 import { useWords } from "../words/WordsContext";
 import type { Words } from "../words/en";
 
@@ -35,15 +36,14 @@ export function LogPanel(): ReactNode {
   );
 }
 
+/** As the alarm band had it: what happened to which alarm, in its words of that moment, and by whom. */
 function said(line: Line, words: Words): string {
-  const condition = text(line, "condition");
   const change = text(line, "change");
   const { change: changes, by } = words.supervisor.log;
   const parts = [
-    condition in words.alarms.conditions
-      ? words.alarms.conditions[condition as keyof Words["alarms"]["conditions"]].state
-      : condition,
+    inWords(line, "title", words) || text(line, "condition"),
     change in changes ? changes[change as keyof typeof changes] : change,
+    inWords(line, "sentence", words),
     text(line, "by") === "" ? "" : `${by} ${text(line, "by")}`,
   ];
   return parts.filter((part) => part !== "").join(" · ");

@@ -23,7 +23,7 @@ import { theatreEn } from "./theatre/en";
 import { toolEn } from "./tool/en";
 import type { Words } from "./shape";
 
-export type { AlarmSaying, Saying, Words } from "./shape";
+export type { Saying, Words } from "./shape";
 
 export const en: Words = {
   language: "en",
@@ -41,10 +41,9 @@ export const en: Words = {
   numbers: {
     title: "Drill to channel",
     none: "NO TRACKING",
-    noNumbers: "NO NUMBERS",
     tracking: "TRACKING",
-    tip: "tip ±",
-    tipUnknown: "tip uncertainty not known",
+    error: "95 % error",
+    errorUnknown: "error not known",
     steadied: "steadied, behind by",
     numbersOf: "numbers are of image",
     pictureOf: "picture of image",
@@ -56,23 +55,18 @@ export const en: Words = {
     toGo: { name: "To go", hint: "to the planned end", unit: "mm" },
     wall: { name: "Wall", hint: "least clearance of the drill", unit: "mm" },
   },
-  verdict: { on: "ON PATH", off: "OFF PATH", unsure: "UNSURE", through: "THROUGH" },
   wall: {
-    notEntered: "not in the bone",
-    now: "now",
+    outside: "outside bone",
     soon: "in 2 mm",
-    atEnd: "at the end",
-    grade: "class",
-    of: "of",
-    through: "Through the wall",
+    atEnd: "screw at the end",
+    risk: "Risk of breach",
     side: {
       medial: "medial",
       lateral: "lateral",
-      superior: "superior",
-      inferior: "inferior",
+      cranial: "cranial",
+      caudal: "caudal",
       anterior: "anterior",
     },
-    against: { bone: "to the bone", pedicle: "to the pedicle's outline", channel: "to the channel" },
   },
   moves: {
     reference: "The marker on the patient shows a move of patient or camera.",

@@ -1,15 +1,6 @@
 // What there is to say, in every language.
 import type { Cause } from "../live/assess";
-import type {
-  AbsentReason,
-  Condition,
-  MeasuredAgainst,
-  MovesSeen,
-  Priority,
-  UnseenReason,
-  Verdict,
-  Wall,
-} from "../live/messages";
+import type { MovesSeen, Priority, UnseenReason, Wall } from "../live/messages";
 
 import type { AuditWords } from "./audit/en";
 import type { CameraWords } from "./camera/en";
@@ -38,11 +29,6 @@ export interface Saying {
   sentence: string;
 }
 
-/** What is wrong in capitals and in a sentence without its numbers, and what to do. */
-export interface AlarmSaying extends Saying {
-  remedy: string;
-}
-
 export interface Words {
   language: string;
   product: string;
@@ -52,10 +38,9 @@ export interface Words {
   numbers: {
     title: string;
     none: string;
-    noNumbers: string;
     tracking: string;
-    tip: string;
-    tipUnknown: string;
+    error: string;
+    errorUnknown: string;
     steadied: string;
     numbersOf: string;
     pictureOf: string;
@@ -64,11 +49,7 @@ export interface Words {
     "entry" | "angle" | "depth" | "toGo" | "wall",
     { name: string; hint: string; unit: string }
   >;
-  verdict: Record<Verdict, string>;
-  wall: Record<"notEntered" | "now" | "soon" | "atEnd" | "grade" | "of" | "through", string> & {
-    side: Record<Wall, string>;
-    against: Record<MeasuredAgainst, string>;
-  };
+  wall: Record<"outside" | "soon" | "atEnd" | "risk", string> & { side: Record<Wall, string> };
   moves: Record<MovesSeen, string>;
   depthWords: { before: string; inside: string; past: string; across: string };
   scene: {
@@ -117,13 +98,10 @@ export interface Words {
     | "arm"
     | "armFailed"
     | "armed"
-    | "over"
-    | "limit"
-    | "acknowledgedBy",
+    | "over",
     string
-  > & { priority: Record<Priority, string>; conditions: Record<Condition, AlarmSaying> };
+  > & { priority: Record<Priority, string> };
   cause: Record<Cause, Saying>;
-  absent: Record<AbsentReason, Saying>;
   unseen: Record<UnseenReason, string>;
   shell: ShellWords;
   line: LineWords;

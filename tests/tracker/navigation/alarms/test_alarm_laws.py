@@ -61,8 +61,11 @@ def test_a_recording_played_again_gives_the_same_alarms() -> None:
 def test_every_picture_says_one_thing(seed: int) -> None:
     for before, picture in pairwise(played(seed)):
         assert len({alarm.condition for alarm in picture.alarms}) == len(picture.alarms)
-        ranks = [alarm.priority.rank for alarm in picture.alarms]
-        assert ranks == sorted(ranks, reverse=True)
+        is_over = [alarm.state is AlarmState.LATCHED for alarm in picture.alarms]
+        assert is_over == sorted(is_over), "what stands comes before what is over"
+        for over in (False, True):
+            ranks = [a.priority.rank for a, o in zip(picture.alarms, is_over, strict=True) if o is over]
+            assert ranks == sorted(ranks, reverse=True)
         active = [alarm for alarm in picture.alarms if alarm.state is AlarmState.ACTIVE]
         paused = picture.paused_until_s > picture.at_s
         assert (picture.sound is Sound.SILENT) == (paused or not active)

@@ -6,7 +6,7 @@ from math import inf
 import pytest
 
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority, Trait
-from tracker.navigation.alarms.evidence import GONE, UNKNOWN, Evidence, Showing
+from tracker.navigation.alarms.evidence import GONE, UNKNOWN, Evidence, Measure, Showing
 from tracker.navigation.alarms.occurrence import AlarmState, Moment, Occurrence, acknowledged, advanced
 
 N, A, K, L = AlarmState.NORMAL, AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED, AlarmState.LATCHED
@@ -70,11 +70,14 @@ def test_each_state_when_it_is_acknowledged(state: AlarmState, becomes: AlarmSta
     assert acknowledged(made(state), by="surgeon").state is becomes
 
 
+HALF = Measure(value=0.5, limit=0.0, unit="mm")
+
+
 def test_only_what_is_acknowledged_and_clearly_worse_sounds_again() -> None:
     traits = trait(latches=True, holds=True)
-    known = Occurrence(state=K, worst_depth_mm=0.5, acknowledged_depth_mm=0.5)
+    known = Occurrence(state=K, worst=HALF, worst_severity=0.5, acknowledged_severity=0.5)
     for depth_mm, becomes in ((0.4, K), (1.49, K), (1.5, A)):
-        evidence = Evidence(showing=Showing.YES, depth_mm=depth_mm)
+        evidence = Evidence(showing=Showing.YES, measure=HALF, severity=depth_mm)
         moment = Moment(at_s=1.0, again_after_mm=1.0)
         assert advanced(known, evidence, traits, moment).state is becomes, depth_mm
 

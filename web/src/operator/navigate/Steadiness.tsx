@@ -2,6 +2,7 @@ import { useRef, type ReactNode } from "react";
 import { useLive, usePainter } from "../../live/LiveContext";
 import { shownNumber } from "../../live/rounding";
 import { setText } from "../../panes/setText";
+import { errorText } from "../../panes/verdictText";
 import { useWords } from "../../words/WordsContext";
 
 /** How sure and how prompt the numbers are, how long each marker is unseen, and what sees a move. */
@@ -13,7 +14,7 @@ export function Steadiness(): ReactNode {
   const unseen = useRef<HTMLElement>(null);
   usePainter(({ newest, numbers }) => {
     const reading = numbers.live ? numbers.reading : null;
-    setText(tip.current, reading?.tipSdMm == null ? "—" : `± ${shownNumber(reading.tipSdMm, 2)} mm`);
+    setText(tip.current, reading === null ? "—" : errorText(reading.assessment, words));
     setText(
       lag.current,
       reading === null

@@ -3,6 +3,7 @@ import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
 import { useAsked } from "../../rest/useAsked";
+import { inWords } from "../../words/text";
 import { useWords } from "../../words/WordsContext";
 import { shownTime } from "../parts/shown";
 import { alarmsIn } from "./alarmSummary";
@@ -16,7 +17,6 @@ export function Alarms(): ReactNode {
     answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MOST_LINES } } })),
   );
   const alarms = data === null ? [] : alarmsIn(data.lines);
-  const named = words.alarms.conditions as Partial<Record<string, { state: string }>>;
   return (
     <section className="stack">
       <h4>{words.report.alarms}</h4>
@@ -30,6 +30,7 @@ export function Alarms(): ReactNode {
               <Table.Tr>
                 <Table.Th scope="col">{words.report.alarm}</Table.Th>
                 <Table.Th scope="col">{words.report.times}</Table.Th>
+                <Table.Th scope="col">{words.report.worst}</Table.Th>
                 <Table.Th scope="col">{words.report.firstLast}</Table.Th>
                 <Table.Th scope="col">{words.report.acknowledged}</Table.Th>
               </Table.Tr>
@@ -37,8 +38,9 @@ export function Alarms(): ReactNode {
             <Table.Tbody>
               {alarms.map((one) => (
                 <Table.Tr key={one.condition}>
-                  <Table.Th scope="row">{named[one.condition]?.state ?? one.condition}</Table.Th>
+                  <Table.Th scope="row">{inWords(one.line, "title", words) || one.condition}</Table.Th>
                   <Table.Td className="figure">{one.raised}</Table.Td>
+                  <Table.Td>{inWords(one.line, "sentence", words)}</Table.Td>
                   <Table.Td>
                     {shownTime(one.firstAt, words.language)} – {shownTime(one.lastAt, words.language)}
                   </Table.Td>

@@ -19,8 +19,22 @@ test("each condition with how often it was raised, when, and who acknowledged it
     { change: "sound_paused", at: "7", by: "M. Ito" },
   ];
   expect(alarmsIn(lines)).toEqual([
-    { condition: "BREACH", raised: 2, firstAt: "2", lastAt: "6", acknowledgedBy: ["M. Ito"] },
-    { condition: "DRILL_UNSEEN", raised: 1, firstAt: "1", lastAt: "1", acknowledgedBy: [] },
+    {
+      condition: "BREACH",
+      raised: 2,
+      firstAt: "2",
+      lastAt: "6",
+      acknowledgedBy: ["M. Ito"],
+      line: line("cleared", "BREACH", "5"),
+    },
+    {
+      condition: "DRILL_UNSEEN",
+      raised: 1,
+      firstAt: "1",
+      lastAt: "1",
+      acknowledgedBy: [],
+      line: line("raised", "DRILL_UNSEEN", "1"),
+    },
   ]);
 });
 

@@ -5,14 +5,18 @@ export interface AlarmCount {
   firstAt: string;
   lastAt: string;
   acknowledgedBy: readonly string[];
+  /** The line in which it was last said to be over, with its worst value, place and time; else the first one. */
+  line: Line;
 }
 
 type Line = Readonly<Record<string, unknown>>;
+const ENDS = new Set<unknown>(["latched", "cleared"]);
 
 /** By condition, the most frequent first; lines of another shape are passed over. */
 export function alarmsIn(lines: readonly Line[]): AlarmCount[] {
   const counts = new Map<string, AlarmCount>();
-  for (const { condition, change, at, by } of lines) {
+  for (const line of lines) {
+    const { condition, change, at, by } = line;
     if (typeof condition !== "string" || typeof at !== "string") continue;
     const before = counts.get(condition);
     const isRaised = change === "raised";
@@ -25,6 +29,7 @@ export function alarmsIn(lines: readonly Line[]): AlarmCount[] {
       firstAt: before?.firstAt ?? at,
       lastAt: isRaised ? at : (before?.lastAt ?? at),
       acknowledgedBy: isNew ? [...people, by] : people,
+      line: before === undefined || ENDS.has(change) ? line : before.line,
     });
   }
   return [...counts.values()].sort((a, b) => b.raised - a.raised);

@@ -116,8 +116,8 @@ export const planEn = {
     wall: {
       medial: "Medial",
       lateral: "Lateral",
-      superior: "Superior",
-      inferior: "Inferior",
+      superior: "Cranial",
+      inferior: "Caudal",
       anterior: "Front",
     },
     tolerance: "Room for error",

@@ -43,6 +43,7 @@ export const reportDe: ReportWords = {
   alarm: "Alarm",
   times: "Anzahl",
   firstLast: "Erster – letzter",
+  worst: "Zuletzt",
   acknowledged: "Quittiert durch",
   facts: {
     fit: "Passung an die Tafel (RMS)",

@@ -40,6 +40,7 @@ export const reportEn = {
   alarm: "Alarm",
   times: "Times",
   firstLast: "First – last",
+  worst: "Last time",
   acknowledged: "Acknowledged by",
   facts: {
     fit: "Fit to the board (RMS)",

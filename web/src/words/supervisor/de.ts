@@ -49,7 +49,7 @@ export const supervisorDe: SupervisorWords = {
     noPicture: "Für diesen Wirbel ist keine Referenzschicht gesetzt.",
     picture: "Referenzschicht mit beiden Wegen",
     side: { left: "links", right: "rechts" },
-    wall: { medial: "medial", lateral: "lateral", superior: "oben", inferior: "unten", anterior: "vorn" },
+    wall: { medial: "medial", lateral: "lateral", superior: "kranial", inferior: "kaudal", anterior: "vorn" },
   },
   registration: {
     title: "Registrierung",

@@ -50,8 +50,8 @@ export const supervisorEn = {
     wall: {
       medial: "medial",
       lateral: "lateral",
-      superior: "superior",
-      inferior: "inferior",
+      superior: "cranial",
+      inferior: "caudal",
       anterior: "in front",
     },
   },

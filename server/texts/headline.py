@@ -1,0 +1,283 @@
+"""The headline: the verdict of one image in words, with what is over its limit and which way to correct it.
+
+It follows from the figures of the image alone. Alarms that are not acknowledged, or not yet cleared, stand
+beside it; it is green only while there are none.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isnan
+
+from server.texts.alarms import alarm_title, is_lost
+from server.texts.language import NO_TEXT, Language, Text, amount, clock_text, text_of
+from server.texts.places import TOWARDS, WALLS, wall_text
+from server.texts.states import STATES, UNSEEN
+from tracker.navigation import (
+    Absent,
+    AbsentReason,
+    Assessment,
+    Correction,
+    FigureName,
+    NavigationSnapshot,
+    Verdict,
+)
+from tracker.navigation.alarms import Alarm, AlarmPicture, AlarmState, Kind, Priority, Showing
+from tracker.navigation.clearance import MeasuredAgainst
+from tracker.pose import Seen, Unseen
+
+
+class Tone(StrEnum):
+    """How a headline is coloured; its symbol and its words say the same."""
+
+    GOOD = "good"  # green: on path, and no alarm
+    CAUTION = "caution"  # yellow: something is to be corrected, or an alarm is not acknowledged
+    WARNING = "warning"  # yellow: a wall is near, or the figures are too uncertain
+    DANGER = "danger"  # red: through the wall or too deep
+    NONE = "none"  # nothing is assessed
+
+
+TONES: Mapping[Verdict, Tone] = {
+    Verdict.THROUGH_WALL: Tone.DANGER,
+    Verdict.TOO_DEEP: Tone.DANGER,
+    Verdict.UNCERTAIN: Tone.WARNING,
+    Verdict.BREACH_LIKELY: Tone.WARNING,
+    Verdict.NEAR_WALL: Tone.WARNING,
+    Verdict.CORRECT_ENTRY: Tone.CAUTION,
+    Verdict.CORRECT_ANGLE: Tone.CAUTION,
+    Verdict.CORRECT_END: Tone.CAUTION,
+    Verdict.NOT_ASSESSED: Tone.NONE,
+    Verdict.ON_PATH: Tone.GOOD,
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Headline:
+    """What stands in the largest letters, of one image.
+
+    Attributes:
+        verdict: of the figures; None where there are none.
+        tone: its colour.
+        title: "CORRECT 1.2 mm medial", "NO TRACKING".
+        detail: the figure with its limit and what to do, or why there are no figures.
+        event: alarms that are over and not acknowledged, that are being cleared, or whose drill is not
+            tracked now: "BREACH 10:41:13 not acknowledged". Empty where there are none.
+    """
+
+    verdict: Verdict | None
+    tone: Tone
+    title: Text
+    detail: Text
+    event: Text
+
+
+def headline_of(snapshot: NavigationSnapshot | None, alarms: AlarmPicture) -> Headline:
+    """The headline of an image with the alarms of that moment; of no image, only the alarms'."""
+    event = text_of(lambda language: _event(alarms, language))
+    if snapshot is None:
+        return Headline(verdict=None, tone=Tone.NONE, title=NO_IMAGE, detail=NO_TEXT, event=event)
+    assessment = snapshot.assessments.get(snapshot.shown_tool)
+    if not isinstance(assessment, Assessment):
+        reason, marker = absence_of(snapshot)
+        return Headline(
+            verdict=None,
+            tone=Tone.NONE,
+            title=text_of(lambda language: STATES[language][reason].title),
+            detail=text_of(lambda language: _why(snapshot, reason, marker, language)),
+            event=event,
+        )
+    several = f"{snapshot.shown_tool}: " if len(snapshot.tools) > 1 else ""
+    return Headline(
+        verdict=assessment.verdict,
+        tone=_tone(assessment.verdict, alarms),
+        title=text_of(lambda language: several + _title(assessment, language)),
+        detail=text_of(lambda language: _detail(assessment, language)),
+        event=event,
+    )
+
+
+def absence_of(snapshot: NavigationSnapshot) -> tuple[AbsentReason, str]:
+    """Why no tool has figures, and the marker that this is about, if it is about one."""
+    for name, assessment in snapshot.assessments.items():
+        if isinstance(assessment, Absent):
+            return assessment.reason, snapshot.setup.tools[name].marker
+    # No tool belongs to any marker: what is missing first.
+    if not any(isinstance(sighting, Seen) for sighting in snapshot.sightings.values()):
+        return AbsentReason.MARKER_UNSEEN, next(iter(snapshot.sightings), "")
+    if not snapshot.setup.camera_calibrated:
+        return AbsentReason.CAMERA_NOT_CALIBRATED, ""
+    return AbsentReason.TOOL_NOT_DEFINED, ""
+
+
+def _why(snapshot: NavigationSnapshot, reason: AbsentReason, marker: str, language: Language) -> str:
+    sighting = snapshot.sightings.get(marker)
+    if reason is AbsentReason.MARKER_UNSEEN and isinstance(sighting, Unseen):
+        return f"{marker}: {UNSEEN[language][sighting.reason]}"
+    return STATES[language][reason].detail
+
+
+def _tone(verdict: Verdict, alarms: AlarmPicture) -> Tone:
+    tone = TONES[verdict]
+    disturbed = any(
+        alarm.priority is not Priority.LOW and alarm.kind is not Kind.ADVISORY for alarm in alarms.alarms
+    )
+    return Tone.CAUTION if tone is Tone.GOOD and disturbed else tone
+
+
+def _title(assessment: Assessment, language: Language) -> str:
+    figures, verdict = assessment.figures, assessment.verdict
+    words = TITLES[language]
+    if verdict is Verdict.CORRECT_END and isnan(figures[FigureName.END].value):
+        return MISSES[language]
+    of_channel = assessment.against is MeasuredAgainst.CHANNEL
+    if of_channel and verdict in CHANNEL_TITLES[language]:
+        words = CHANNEL_TITLES[language]
+    wall = assessment.wall
+    return (
+        words[verdict]
+        .format(
+            wall="" if wall is None else f"{WALLS[language][wall].upper()} ",
+            wall_mm=amount(abs(figures[FigureName.WALL].value), "mm"),
+            past_mm=amount(-figures[FigureName.TO_GO].value, "mm"),
+            error_mm=amount(figures[FigureName.ERROR].value, "mm", decimals=2),
+            risk=amount(figures[FigureName.RISK].value, "%"),
+            corrections=_corrections(
+                assessment.corrections, "°" if verdict is Verdict.CORRECT_ANGLE else "mm", language
+            ),
+        )
+        .rstrip()
+    )
+
+
+def _corrections(corrections: tuple[Correction, ...], unit: str, language: Language) -> str:
+    """As "1.2 mm medial, 0.8 mm caudal"; without amounts where none is known."""
+    return ", ".join(
+        TOWARDS[language][correction.towards]
+        if isnan(correction.amount)
+        else f"{amount(correction.amount, unit)} {TOWARDS[language][correction.towards]}"
+        for correction in corrections
+    )
+
+
+def _detail(assessment: Assessment, language: Language) -> str:
+    figures, verdict = assessment.figures, assessment.verdict
+    move = ""
+    if assessment.corrections and verdict in (Verdict.NEAR_WALL, Verdict.BREACH_LIKELY):
+        move = MOVES[language].format(towards=_corrections(assessment.corrections, "", language))
+    entry, angle, end = (figures[name] for name in (FigureName.ENTRY, FigureName.ANGLE, FigureName.END))
+    if verdict is Verdict.CORRECT_END and isnan(end.value):
+        return MISSES_DETAIL[language]
+    return DETAILS[language][verdict].format(
+        entry_mm=amount(entry.value, "mm"),
+        entry_limit=amount(entry.limit, "mm"),
+        angle_deg=amount(angle.value, "°"),
+        angle_limit=amount(angle.limit, "°"),
+        wall_limit=amount(figures[FigureName.WALL].limit, "mm"),
+        risk_limit=amount(figures[FigureName.RISK].limit, "%"),
+        end=amount(end.value, "%"),
+        end_limit=amount(end.limit, "%"),
+        end_wall=wall_text(assessment.end_wall, language),
+        error_limit=amount(figures[FigureName.ERROR].limit, "mm", decimals=2),
+        move=move,
+    )
+
+
+def _event(alarms: AlarmPicture, language: Language) -> str:
+    return " · ".join(
+        part for alarm in alarms.alarms if (part := _one_event(alarm, alarms.unix_offset_s, language)) != ""
+    )
+
+
+def _one_event(alarm: Alarm, unix_offset_s: float, language: Language) -> str:
+    if alarm.kind is not Kind.PHYSIOLOGICAL or alarm.presence is Showing.YES:
+        return ""
+    title = alarm_title(alarm.condition)[language]
+    if is_lost(alarm):
+        return EVENTS[language]["lost"].format(title=title)
+    time = clock_text(alarm.worst_at_s + unix_offset_s)
+    state = "latched" if alarm.state is AlarmState.LATCHED else "clearing"
+    return EVENTS[language][state].format(title=title, time=time)
+
+
+NO_IMAGE: Text = {"en": "NO IMAGE", "de": "KEIN BILD"}
+MISSES: Text = {"en": "MISSES PEDICLE", "de": "VERFEHLT PEDIKEL"}
+MISSES_DETAIL: Text = {
+    "en": "this direction does not lead into the pedicle",
+    "de": "diese Richtung führt nicht in den Pedikel",
+}
+MOVES: Text = {"en": " · move {towards}", "de": " · nach {towards}"}
+EVENTS: Mapping[Language, Mapping[str, str]] = {
+    "en": {
+        "latched": "{title} {time} not acknowledged",
+        "clearing": "{title} {time} clearing",
+        "lost": "{title} when last seen",
+    },
+    "de": {
+        "latched": "{title} {time} nicht quittiert",
+        "clearing": "{title} {time} klingt ab",
+        "lost": "{title} als zuletzt gesehen",
+    },
+}
+TITLES: Mapping[Language, Mapping[Verdict, str]] = {
+    "en": {
+        Verdict.THROUGH_WALL: "THROUGH {wall}WALL {wall_mm}",
+        Verdict.TOO_DEEP: "TOO DEEP {past_mm}",
+        Verdict.UNCERTAIN: "UNCERTAIN ±{error_mm}",
+        Verdict.BREACH_LIKELY: "BREACH RISK {risk}",
+        Verdict.NEAR_WALL: "NEAR {wall}WALL {wall_mm}",
+        Verdict.CORRECT_ENTRY: "CORRECT {corrections}",
+        Verdict.CORRECT_ANGLE: "AIM {corrections}",
+        Verdict.CORRECT_END: "AIM {corrections}",
+        Verdict.NOT_ASSESSED: "TRACKING",
+        Verdict.ON_PATH: "ON PATH",
+    },
+    "de": {
+        Verdict.THROUGH_WALL: "DURCH {wall}WAND {wall_mm}",
+        Verdict.TOO_DEEP: "ZU TIEF {past_mm}",
+        Verdict.UNCERTAIN: "UNSICHER ±{error_mm}",
+        Verdict.BREACH_LIKELY: "DURCHBRUCHRISIKO {risk}",
+        Verdict.NEAR_WALL: "NAHE {wall}WAND {wall_mm}",
+        Verdict.CORRECT_ENTRY: "KORRIGIEREN {corrections}",
+        Verdict.CORRECT_ANGLE: "RICHTEN {corrections}",
+        Verdict.CORRECT_END: "RICHTEN {corrections}",
+        Verdict.NOT_ASSESSED: "TRACKING",
+        Verdict.ON_PATH: "AUF KURS",
+    },
+}
+# Where no bone is known, there is no wall that a drill could be through: only the planned channel.
+CHANNEL_TITLES: Mapping[Language, Mapping[Verdict, str]] = {
+    "en": {
+        Verdict.THROUGH_WALL: "OUTSIDE CHANNEL {wall_mm}",
+        Verdict.NEAR_WALL: "NEAR CHANNEL EDGE {wall_mm}",
+    },
+    "de": {
+        Verdict.THROUGH_WALL: "AUSSERHALB DES KANALS {wall_mm}",
+        Verdict.NEAR_WALL: "NAHE AM KANALRAND {wall_mm}",
+    },
+}
+DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
+    "en": {
+        Verdict.THROUGH_WALL: "Stop. Withdraw the drill.",
+        Verdict.TOO_DEEP: "Stop. Withdraw the drill.",
+        Verdict.UNCERTAIN: "95 % error, limit {error_limit}",
+        Verdict.BREACH_LIKELY: "within 2 mm, limit {risk_limit}{move}",
+        Verdict.NEAR_WALL: "limit {wall_limit}{move}",
+        Verdict.CORRECT_ENTRY: "entry {entry_mm}, limit {entry_limit}",
+        Verdict.CORRECT_ANGLE: "angle {angle_deg}, limit {angle_limit}",
+        Verdict.CORRECT_END: "at the end: {end_wall} {end}, limit {end_limit}",
+        Verdict.NOT_ASSESSED: "no pedicle to measure against",
+        Verdict.ON_PATH: "",
+    },
+    "de": {
+        Verdict.THROUGH_WALL: "Anhalten. Bohrer zurückziehen.",
+        Verdict.TOO_DEEP: "Anhalten. Bohrer zurückziehen.",
+        Verdict.UNCERTAIN: "95-%-Fehler, Grenze {error_limit}",
+        Verdict.BREACH_LIKELY: "innerhalb von 2 mm, Grenze {risk_limit}{move}",
+        Verdict.NEAR_WALL: "Grenze {wall_limit}{move}",
+        Verdict.CORRECT_ENTRY: "Eintritt {entry_mm}, Grenze {entry_limit}",
+        Verdict.CORRECT_ANGLE: "Winkel {angle_deg}, Grenze {angle_limit}",
+        Verdict.CORRECT_END: "am Ende: {end_wall} {end}, Grenze {end_limit}",
+        Verdict.NOT_ASSESSED: "kein Pedikel zum Vergleich",
+        Verdict.ON_PATH: "",
+    },
+}

@@ -1,0 +1,302 @@
+"""What is said of each alarm, in every language: one table."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from server.texts.language import Language, Text
+from tracker.navigation.alarms import Condition
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Phrases:
+    """Templates of one condition in one language.
+
+    Attributes:
+        title: in capitals.
+        present: it is there now.
+        past: it was there.
+        lost: it was there when it was last seen, and nobody sees whether it still is.
+        remedy, lost_remedy: what to do, while it is there and while that is not known.
+        bare: `present` where there is no number; empty where there always is one, or never.
+        bare_past: likewise of `past`.
+    """
+
+    title: str
+    present: str
+    past: str
+    lost: str = ""
+    remedy: str = ""
+    lost_remedy: str = ""
+    bare: str = ""
+    bare_past: str = ""
+
+
+_WITHDRAW: Text = {"en": "Stop. Withdraw the drill.", "de": "Anhalten. Bohrer zurückziehen."}
+_SHOW: Text = {"en": "Stop. Bring the marker into view.", "de": "Anhalten. Marker ins Bild bringen."}
+
+ENGLISH: Mapping[Condition, Phrases] = {
+    Condition.BREACH: Phrases(
+        title="BREACH",
+        present="{tool}Drill {value} {through}{at}.",
+        past="{worst_tool}Was {worst} {worst_through}{worst_at}, {time}. Not through now.",
+        lost="Not tracked. {worst_tool}Was {worst} {worst_through}{worst_at}, {time}.",
+        remedy=_WITHDRAW["en"],
+        lost_remedy=_SHOW["en"],
+    ),
+    Condition.PAST_DEPTH: Phrases(
+        title="TOO DEEP",
+        present="{tool}Tip {value} past the planned depth.",
+        past="{worst_tool}Was {worst} past the planned depth, {time}. Not past it now.",
+        lost="Not tracked. {worst_tool}Was {worst} past the planned depth, {time}.",
+        remedy=_WITHDRAW["en"],
+        lost_remedy=_SHOW["en"],
+    ),
+    Condition.BREACH_LIKELY: Phrases(
+        title="BREACH RISK",
+        present="{tool}Risk of breach {value} within 2 mm, limit {limit}.",
+        past="{worst_tool}Risk of breach was {worst}.",
+        lost="Not tracked. {worst_tool}Risk of breach was {worst}.",
+        remedy="Stop. Hold still, marker in full view.",
+        lost_remedy=_SHOW["en"],
+    ),
+    Condition.CLEARANCE_LOW: Phrases(
+        title="NEAR WALL",
+        present="{tool}{value} to the {near}, limit {limit}.",
+        past="{worst_tool}Was {worst} from the {worst_near}.",
+        lost="Not tracked. {worst_tool}Was {worst} from the {worst_near}.",
+        remedy="Aim back to the channel's axis.",
+        lost_remedy=_SHOW["en"],
+    ),
+    Condition.DRILL_UNSEEN: Phrases(
+        title="DRILL NOT SEEN",
+        present="Drill marker not seen for {value}.",
+        past="Drill marker was not seen for {worst}.",
+        remedy="Bring the marker into view. Acknowledge if the drill is put away.",
+    ),
+    Condition.REFERENCE_UNSEEN: Phrases(
+        title="PATIENT NOT SEEN",
+        present="Patient marker not seen for {value}.",
+        past="Patient marker was not seen for {worst}.",
+        remedy="Clear the view of the patient marker.",
+    ),
+    Condition.CAMERA_STALLED: Phrases(
+        title="NO IMAGE",
+        present="No image for {value}.",
+        past="No image came for {worst}.",
+        remedy="Check the camera and its cable.",
+    ),
+    Condition.CAMERA_GONE: Phrases(
+        title="CAMERA GONE",
+        present="No images from the camera.",
+        past="The camera sent no images for a time.",
+        remedy="Check the camera and its cable. Reconnecting.",
+    ),
+    Condition.POSE_UNCERTAIN: Phrases(
+        title="POSE UNCERTAIN",
+        present="95 % error ±{value}, limit {limit}.",
+        past="95 % error was ±{worst}.",
+        bare="Tip position too uncertain to be shown.",
+        bare_past="Tip position was too uncertain to be shown.",
+        remedy="Show the marker nearer, steadier, more tilted.",
+    ),
+    Condition.POSE_JUMPED: Phrases(
+        title="POSE AMBIGUOUS",
+        present="Two poses fit the image, or the pose jumped.",
+        past="The pose was ambiguous.",
+        remedy="Hold still. Tilt the marker towards the camera.",
+    ),
+    Condition.CAMERA_MOVED: Phrases(
+        title="CAMERA MOVED",
+        present="Camera moved since registration.",
+        past="The camera had moved since registration.",
+        remedy="Stop. Register again.",
+    ),
+    Condition.REFERENCE_MOVED: Phrases(
+        title="PATIENT MARKER MOVED",
+        present="Patient marker moved since registration.",
+        past="The patient marker had moved since registration.",
+        remedy="Stop. Fix the marker. Register again.",
+    ),
+    Condition.REGISTRATION_OUT_OF_DATE: Phrases(
+        title="REGISTRATION OUT OF DATE",
+        present="Something that the registration depends on was changed.",
+        past="The registration was out of date.",
+        remedy="Stop. Register again.",
+    ),
+    Condition.CALIBRATION_OUT_OF_DATE: Phrases(
+        title="CALIBRATION OUT OF DATE",
+        present="The calibration is no longer valid.",
+        past="The calibration was out of date.",
+        remedy="Stop. Calibrate again, then register again.",
+    ),
+    Condition.CHECK_DUE: Phrases(
+        title="CHECK DUE",
+        present="Last landmark check {value} ago, limit {limit}.",
+        past="A landmark check was due.",
+        remedy="Check the tip on an unused landmark.",
+    ),
+    Condition.NO_ARMED_SCREEN: Phrases(
+        title="NO SOUND",
+        present="Sound is off on every screen.",
+        past="Sound was off on every screen.",
+        remedy="Touch the alarm band of the theatre screen.",
+    ),
+    Condition.DISK_NEARLY_FULL: Phrases(
+        title="DISK NEARLY FULL",
+        present="{value} free for cases, limit {limit}.",
+        past="The disk was down to {worst}.",
+        remedy="Free space on the disk.",
+    ),
+    Condition.VIEWER_LOST: Phrases(
+        title="SCREEN LOST",
+        present="A screen with armed sound disconnected.",
+        past="A screen with armed sound was disconnected.",
+        remedy="Check that the theatre screen shows the page.",
+    ),
+    Condition.RECORDING_STOPPED: Phrases(
+        title="NOT RECORDED",
+        present="Events are not written to the disk.",
+        past="Events were not written to the disk for a time.",
+        remedy="Check whether the disk is full or missing.",
+    ),
+    Condition.HOLD_ASKED: Phrases(
+        title="HOLD REQUESTED",
+        present="{by} requests a hold.",
+        past="{by} requested a hold.",
+        remedy="Talk to them before you continue.",
+    ),
+}
+
+GERMAN: Mapping[Condition, Phrases] = {
+    Condition.BREACH: Phrases(
+        title="WANDDURCHBRUCH",
+        present="{tool}Bohrer {value} {through}{at}.",
+        past="{worst_tool}War {worst} {worst_through}{worst_at}, {time}. Jetzt nicht mehr.",
+        lost="Nicht verfolgt. {worst_tool}War {worst} {worst_through}{worst_at}, {time}.",
+        remedy=_WITHDRAW["de"],
+        lost_remedy=_SHOW["de"],
+    ),
+    Condition.PAST_DEPTH: Phrases(
+        title="ZU TIEF",
+        present="{tool}Spitze {value} über der geplanten Tiefe.",
+        past="{worst_tool}War {worst} über der geplanten Tiefe, {time}. Jetzt nicht mehr.",
+        lost="Nicht verfolgt. {worst_tool}War {worst} über der geplanten Tiefe, {time}.",
+        remedy=_WITHDRAW["de"],
+        lost_remedy=_SHOW["de"],
+    ),
+    Condition.BREACH_LIKELY: Phrases(
+        title="DURCHBRUCHRISIKO",
+        present="{tool}Durchbruchrisiko {value} innerhalb von 2 mm, Grenze {limit}.",
+        past="{worst_tool}Durchbruchrisiko war {worst}.",
+        lost="Nicht verfolgt. {worst_tool}Durchbruchrisiko war {worst}.",
+        remedy="Anhalten. Ruhig halten, Marker voll im Bild.",
+        lost_remedy=_SHOW["de"],
+    ),
+    Condition.CLEARANCE_LOW: Phrases(
+        title="NAHE DER WAND",
+        present="{tool}Noch {value}: {near}, Grenze {limit}.",
+        past="{worst_tool}Kleinster Abstand war {worst}: {worst_near}.",
+        lost="Nicht verfolgt. {worst_tool}Kleinster Abstand war {worst}: {worst_near}.",
+        remedy="Zurück zur Kanalachse richten.",
+        lost_remedy=_SHOW["de"],
+    ),
+    Condition.DRILL_UNSEEN: Phrases(
+        title="BOHRER NICHT GESEHEN",
+        present="Bohrermarker seit {value} nicht gesehen.",
+        past="Bohrermarker war {worst} nicht gesehen.",
+        remedy="Marker ins Bild bringen. Quittieren, wenn der Bohrer weggelegt ist.",
+    ),
+    Condition.REFERENCE_UNSEEN: Phrases(
+        title="PATIENT NICHT GESEHEN",
+        present="Patientenmarker seit {value} nicht gesehen.",
+        past="Patientenmarker war {worst} nicht gesehen.",
+        remedy="Sicht auf den Patientenmarker freimachen.",
+    ),
+    Condition.CAMERA_STALLED: Phrases(
+        title="KEIN BILD",
+        present="Seit {value} kein Bild.",
+        past="{worst} lang kam kein Bild.",
+        remedy="Kamera und Kabel prüfen.",
+    ),
+    Condition.CAMERA_GONE: Phrases(
+        title="KAMERA WEG",
+        present="Keine Bilder von der Kamera.",
+        past="Die Kamera sandte eine Zeit lang keine Bilder.",
+        remedy="Kamera und Kabel prüfen. Neuer Versuch läuft.",
+    ),
+    Condition.POSE_UNCERTAIN: Phrases(
+        title="LAGE UNSICHER",
+        present="95-%-Fehler ±{value}, Grenze {limit}.",
+        past="95-%-Fehler war ±{worst}.",
+        bare="Spitze zu unsicher, um sie zu zeigen.",
+        bare_past="Spitze war zu unsicher, um sie zu zeigen.",
+        remedy="Marker näher, ruhiger, schräger zeigen.",
+    ),
+    Condition.POSE_JUMPED: Phrases(
+        title="LAGE NICHT EINDEUTIG",
+        present="Zwei Lagen passen zum Bild, oder sie ist gesprungen.",
+        past="Die Lage war nicht eindeutig.",
+        remedy="Ruhig halten. Marker zur Kamera neigen.",
+    ),
+    Condition.CAMERA_MOVED: Phrases(
+        title="KAMERA BEWEGT",
+        present="Kamera seit der Registrierung bewegt.",
+        past="Die Kamera war seit der Registrierung bewegt worden.",
+        remedy="Anhalten. Neu registrieren.",
+    ),
+    Condition.REFERENCE_MOVED: Phrases(
+        title="PATIENTENMARKER BEWEGT",
+        present="Patientenmarker seit der Registrierung bewegt.",
+        past="Der Patientenmarker war seit der Registrierung bewegt worden.",
+        remedy="Anhalten. Marker befestigen. Neu registrieren.",
+    ),
+    Condition.REGISTRATION_OUT_OF_DATE: Phrases(
+        title="REGISTRIERUNG VERALTET",
+        present="Etwas, wovon die Registrierung abhängt, wurde geändert.",
+        past="Die Registrierung war veraltet.",
+        remedy="Anhalten. Neu registrieren.",
+    ),
+    Condition.CALIBRATION_OUT_OF_DATE: Phrases(
+        title="KALIBRIERUNG VERALTET",
+        present="Die Kalibrierung gilt nicht mehr.",
+        past="Die Kalibrierung war veraltet.",
+        remedy="Anhalten. Neu kalibrieren, dann neu registrieren.",
+    ),
+    Condition.CHECK_DUE: Phrases(
+        title="PRÜFUNG FÄLLIG",
+        present="Letzte Prüfung an einer Landmarke vor {value}, Grenze {limit}.",
+        past="Eine Prüfung an einer Landmarke war fällig.",
+        remedy="Spitze an einer nicht benutzten Landmarke prüfen.",
+    ),
+    Condition.NO_ARMED_SCREEN: Phrases(
+        title="KEIN TON",
+        present="Auf jedem Bildschirm ist der Ton aus.",
+        past="Auf jedem Bildschirm war der Ton aus.",
+        remedy="Alarmzeile des OP-Bildschirms berühren.",
+    ),
+    Condition.DISK_NEARLY_FULL: Phrases(
+        title="PLATTE FAST VOLL",
+        present="{value} frei für Fälle, Grenze {limit}.",
+        past="Auf der Platte waren nur {worst} frei.",
+        remedy="Platz auf der Platte schaffen.",
+    ),
+    Condition.VIEWER_LOST: Phrases(
+        title="BILDSCHIRM VERLOREN",
+        present="Ein Bildschirm mit bereitem Ton ist getrennt.",
+        past="Ein Bildschirm mit bereitem Ton war getrennt.",
+        remedy="Prüfen, ob der OP-Bildschirm die Seite zeigt.",
+    ),
+    Condition.RECORDING_STOPPED: Phrases(
+        title="NICHT AUFGEZEICHNET",
+        present="Ereignisse werden nicht auf die Platte geschrieben.",
+        past="Ereignisse wurden eine Zeit lang nicht geschrieben.",
+        remedy="Prüfen, ob die Platte voll oder weg ist.",
+    ),
+    Condition.HOLD_ASKED: Phrases(
+        title="BITTE ANHALTEN",
+        present="{by} bittet anzuhalten.",
+        past="{by} bat anzuhalten.",
+        remedy="Vor dem Weitermachen mit ihm sprechen.",
+    ),
+}
+PHRASES: Mapping[Language, Mapping[Condition, Phrases]] = {"en": ENGLISH, "de": GERMAN}

@@ -1,0 +1,70 @@
+"""Why there are no figures, in words."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from server.texts.language import Language
+from tracker.navigation import AbsentReason
+from tracker.pose import UnseenReason
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """A state in capitals, and what it means or what to do."""
+
+    title: str
+    detail: str
+
+
+STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
+    "en": {
+        AbsentReason.MARKER_UNSEEN: State("NO TRACKING", "marker not seen"),
+        AbsentReason.CAMERA_NOT_CALIBRATED: State("CAMERA NOT CALIBRATED", "calibrate the camera first"),
+        AbsentReason.POSE_UNCERTAIN: State("POSE UNCERTAIN", "show the marker nearer, steadier, more tilted"),
+        AbsentReason.TOOL_NOT_DEFINED: State("TOOL NOT DEFINED", "calibrate the tool first"),
+        AbsentReason.NOT_REGISTERED: State("NOT REGISTERED", "register plan and patient"),
+        AbsentReason.NO_PLAN: State("NO PLAN", "plan a channel on the CT"),
+        AbsentReason.REFERENCE_UNSEEN: State("PATIENT NOT SEEN", "clear the view of the patient marker"),
+        AbsentReason.CAMERA_MOVED: State("CAMERA MOVED", "register again"),
+        AbsentReason.REFERENCE_MOVED: State("PATIENT MOVED", "check on a landmark, or register again"),
+        AbsentReason.POSE_JUMPED: State("POSE AMBIGUOUS", "hold the drill still for a moment"),
+        AbsentReason.NOT_CHECKED: State("NOT CHECKED", "touch a landmark to check the registration"),
+        AbsentReason.NOT_CONFIRMED: State("NAVIGATION STOPPED", "restarted: the operator confirms first"),
+        AbsentReason.NOT_COSIGNED: State("NOT CO-SIGNED", "a second person signs plan and registration"),
+    },
+    "de": {
+        AbsentReason.MARKER_UNSEEN: State("KEIN TRACKING", "Marker nicht gesehen"),
+        AbsentReason.CAMERA_NOT_CALIBRATED: State("KAMERA NICHT KALIBRIERT", "zuerst die Kamera kalibrieren"),
+        AbsentReason.POSE_UNCERTAIN: State("LAGE UNSICHER", "Marker näher, ruhiger, schräger zeigen"),
+        AbsentReason.TOOL_NOT_DEFINED: State("WERKZEUG NICHT BESTIMMT", "zuerst das Werkzeug kalibrieren"),
+        AbsentReason.NOT_REGISTERED: State("NICHT REGISTRIERT", "Plan und Patient registrieren"),
+        AbsentReason.NO_PLAN: State("KEIN PLAN", "einen Kanal im CT planen"),
+        AbsentReason.REFERENCE_UNSEEN: State(
+            "PATIENT NICHT GESEHEN", "Sicht auf den Patientenmarker freimachen"
+        ),
+        AbsentReason.CAMERA_MOVED: State("KAMERA BEWEGT", "neu registrieren"),
+        AbsentReason.REFERENCE_MOVED: State(
+            "PATIENT BEWEGT", "an einer Landmarke prüfen oder neu registrieren"
+        ),
+        AbsentReason.POSE_JUMPED: State("LAGE NICHT EINDEUTIG", "den Bohrer kurz ruhig halten"),
+        AbsentReason.NOT_CHECKED: State("NICHT GEPRÜFT", "zum Prüfen eine Landmarke berühren"),
+        AbsentReason.NOT_CONFIRMED: State(
+            "NAVIGATION ANGEHALTEN", "neu gestartet: erst bestätigt der Bediener"
+        ),
+        AbsentReason.NOT_COSIGNED: State("NICHT GEGENGEZEICHNET", "eine zweite Person unterschreibt"),
+    },
+}
+UNSEEN: Mapping[Language, Mapping[UnseenReason, str]] = {
+    "en": {
+        UnseenReason.NO_CANDIDATE: "not seen, no square looks like it",
+        UnseenReason.SCORE_TOO_LOW: "not seen, too few of its edges",
+        UnseenReason.TARGET_SCORE_TOO_LOW: "not seen, edges that it does not have",
+        UnseenReason.SHAPE_DIFFERS: "not seen, a look-alike with another shape",
+    },
+    "de": {
+        UnseenReason.NO_CANDIDATE: "nicht gesehen, kein Quadrat sieht ihm ähnlich",
+        UnseenReason.SCORE_TOO_LOW: "nicht gesehen, zu wenige seiner Kanten",
+        UnseenReason.TARGET_SCORE_TOO_LOW: "nicht gesehen, Kanten, die er nicht hat",
+        UnseenReason.SHAPE_DIFFERS: "nicht gesehen, ein Doppelgänger mit anderer Form",
+    },
+}

@@ -1,0 +1,30 @@
+"""Alarms as the engine has them, for their words."""
+
+from dataclasses import replace
+
+from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Site
+from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.directions import Wall
+
+NOON_S = 1_700_000_000.0
+MEDIAL = Site(depth_mm=29.0, wall=Wall.MEDIAL, against=MeasuredAgainst.BONE)
+
+
+def mm(value: float, limit: float = 0.0) -> Measure:
+    return Measure(value=value, limit=limit, unit="mm")
+
+
+def alarm(condition: Condition, state: AlarmState = AlarmState.ACTIVE, **changes: object) -> Alarm:
+    return replace(Alarm(number=1, condition=condition, state=state, raised_at_s=2.0), **changes)  # type: ignore[arg-type]  # any field of it
+
+
+def breach(**changes: object) -> Alarm:
+    """0.4 mm through now, or 7.3 mm away; 0.8 mm was the worst."""
+    values: dict[str, object] = {
+        "measure": mm(-0.4),
+        "site": MEDIAL,
+        "worst": mm(-0.8),
+        "worst_at_s": 3.0,
+        "worst_site": MEDIAL,
+    }
+    return replace(alarm(Condition.BREACH), **{**values, **changes})  # type: ignore[arg-type]  # any field of it

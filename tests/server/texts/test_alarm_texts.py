@@ -1,0 +1,106 @@
+"""An alarm is told in the present tense only while its condition is present."""
+
+import pytest
+
+from server.texts import LANGUAGES, Language, alarm_text, alarm_title
+from server.texts.language import clock_text
+from server.texts.phrases import PHRASES
+from tests.server.texts.breach import MEDIAL, NOON_S, alarm, breach, mm
+from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Showing, Site
+from tracker.navigation.clearance import MeasuredAgainst
+from tracker.navigation.directions import Wall
+
+TIME = clock_text(NOON_S + 3.0)
+
+
+@pytest.mark.parametrize(
+    ("told", "sentence", "remedy"),
+    [
+        pytest.param(
+            breach(),
+            "Drill 0.4 mm through the medial wall at 29.0 mm depth.",
+            "Stop. Withdraw the drill.",
+            id="through the wall now",
+        ),
+        pytest.param(
+            # The sentence of this moment once was "the drill is through the pedicle wall: 7.3 mm".
+            breach(measure=mm(7.3), presence=Showing.NO),
+            f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}. Not through now.",
+            "",
+            id="being cleared, the wall 7.3 mm away",
+        ),
+        pytest.param(
+            breach(measure=mm(7.3), presence=Showing.NO, state=AlarmState.LATCHED),
+            f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}. Not through now.",
+            "",
+            id="over, and not acknowledged",
+        ),
+        pytest.param(
+            breach(presence=Showing.UNKNOWN),
+            f"Not tracked. Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}.",
+            "Stop. Bring the marker into view.",
+            id="tracking lost in a breach",
+        ),
+        pytest.param(
+            breach(site=Site(depth_mm=29.0, wall=Wall.MEDIAL, against=MeasuredAgainst.CHANNEL)),
+            "Drill 0.4 mm outside the planned channel at 29.0 mm depth.",
+            "Stop. Withdraw the drill.",
+            id="no bone is known",
+        ),
+        pytest.param(
+            alarm(Condition.CLEARANCE_LOW, measure=mm(0.6, 1.0), site=MEDIAL),
+            "0.6 mm to the medial wall, limit 1.0 mm.",
+            "Aim back to the channel's axis.",
+            id="near a wall",
+        ),
+        pytest.param(
+            alarm(Condition.POSE_UNCERTAIN, measure=mm(1.94, 1.5)),
+            "95 % error ±1.94 mm, limit 1.50 mm.",
+            "Show the marker nearer, steadier, more tilted.",
+            id="with the digits of its figure",
+        ),
+        pytest.param(
+            alarm(Condition.DRILL_UNSEEN, presence=Showing.NO, worst=Measure(value=3.2, limit=1.0, unit="s")),
+            "Drill marker was not seen for 3.2 s.",
+            "",
+            id="seen again",
+        ),
+    ],
+)
+def test_an_alarm_in_words(told: Alarm, sentence: str, remedy: str) -> None:
+    words = alarm_text(told, unix_offset_s=NOON_S)
+    assert words.sentence["en"] == sentence
+    assert words.remedy["en"] == remedy
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("condition", Condition)
+def test_every_condition_has_words_in_every_state(condition: Condition, language: Language) -> None:
+    values = {"measure": mm(0.3, 0.5), "worst": mm(0.2, 0.5)}
+    has_number = "{value}" in PHRASES[language][condition].present
+    for numbers in (values,) if has_number and not PHRASES[language][condition].bare else ({}, values):
+        for presence in Showing:
+            for state in (AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED, AlarmState.LATCHED):
+                words = alarm_text(alarm(condition, state, presence=presence, **numbers), unix_offset_s=0.0)
+                assert words.title[language].isupper()
+                sentence, remedy = words.sentence[language], words.remedy[language]
+                assert sentence[0].isupper() or sentence[0].isdigit()
+                assert sentence.endswith(".")
+                assert "{" not in sentence
+                assert "  " not in sentence
+                is_present = presence is Showing.YES
+                assert remedy.endswith(".") == (is_present or bool(remedy))
+                if is_present:
+                    assert remedy
+                if presence is Showing.NO:
+                    assert not remedy
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_two_conditions_share_a_title(language: Language) -> None:
+    assert len({alarm_title(condition)[language] for condition in Condition}) == len(Condition)
+
+
+def test_who_acknowledged_is_named() -> None:
+    known = alarm_text(breach(acknowledged_by="M. Ito"), unix_offset_s=0.0).known
+    assert known == {"en": "Acknowledged by M. Ito.", "de": "Quittiert von M. Ito."}
