@@ -58,6 +58,7 @@ from server.stream.mjpeg import Video
 from server.stream.view_socket import View
 from server.stream.viewers import ViewerKind, Viewers
 from server.supervision import Holds, HoldsFile, Lobby, SignatureDesk
+from server.texts import Language
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
@@ -130,7 +131,6 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     _add_guards(app, parts)
     app.state.pictures = pictures
-    app.state.video_language = config.video.language
     app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
     app.include_router(live_router(hub))
     _add_people(app, parts)
@@ -157,10 +157,10 @@ def create_app(parts: AppParts) -> FastAPI:
     return app
 
 
-def picture_of(app: FastAPI) -> Picture:
+def picture_of(app: FastAPI, *, language: Language) -> Picture:
     """How each image is drawn and encoded: once for all who watch through this application."""
     pictures = app.state.pictures
-    draw = partial(draw_overlay, language=app.state.video_language)
+    draw = partial(draw_overlay, language=language)
     return Picture(draw=draw, encode=pictures.encode, wanted=pictures.wants_full)
 
 

@@ -1,19 +1,10 @@
 """From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
 
 from tracker.navigation.along import AlongChannel, half_axes_95_mm, seen_along
-from tracker.navigation.assessment import (
-    Assessment,
-    Correction,
-    Direction,
-    DrillLimits,
-    Figure,
-    FigureName,
-    Status,
-    Verdict,
-    assess,
-)
+from tracker.navigation.assessment import Assessment, Correction, Direction, Verdict, assess
 from tracker.navigation.concluding import navigate
 from tracker.navigation.deviation import Deviation, deviation_from_channel
+from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status
 from tracker.navigation.guide import Guide, ScrewSize
 from tracker.navigation.moves import MovesSeen, moves_seen_by
 from tracker.navigation.snapshot import (

@@ -18,9 +18,10 @@ from tracker.geometry import (
     Tool,
     Vertebra,
 )
-from tracker.navigation.assessment import Assessment, DrillLimits
+from tracker.navigation.assessment import Assessment
 from tracker.navigation.certainty import Judged
 from tracker.navigation.deviation import Deviation
+from tracker.navigation.figures import DrillLimits
 from tracker.navigation.guide import ScrewSize
 from tracker.navigation.watch import NeverSeen, SceneState
 from tracker.plan import Channel

@@ -21,10 +21,10 @@ from tracker.navigation import (
     assess,
     deviation_from_channel,
 )
-from tracker.navigation.assessment import rounded, rounded_down, rounded_up
 from tracker.navigation.certainty import Placed
 from tracker.navigation.clearance import MeasuredAgainst, Nearest
 from tracker.navigation.directions import Wall
+from tracker.navigation.figures import rounded, rounded_down, rounded_up
 
 OVER = {Status.OVER, Status.THROUGH}
 

@@ -4,8 +4,9 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from tracker.navigation.alarms.observed import Observed, Site
-from tracker.navigation.assessment import Assessment, FigureName, Status
+from tracker.navigation.assessment import Assessment
 from tracker.navigation.deviation import Deviation
+from tracker.navigation.figures import FigureName, Status
 from tracker.navigation.snapshot import Absent, AbsentReason, NavigationSnapshot
 from tracker.plan import Channel
 from tracker.pose import Seen
