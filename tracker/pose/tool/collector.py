@@ -1,8 +1,8 @@
 """Gathers poses for a calibration: takes those that add something, and says what is missing."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TypeAlias
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from tracker.errors import CalibrationError
 from tracker.geometry import Array, Camera, Marker, Rigid
+from tracker.pose.image_rate import GapLimit, image_period_s
 from tracker.pose.sighting import Seen, Sighting
 from tracker.pose.tool.gate import ToolGate
 from tracker.pose.tool.pivot import PivotCalibration, pivot_calibration, provisional_tip_mm
@@ -17,6 +18,10 @@ from tracker.pose.tool.poses import Poses
 from tracker.pose.tool.spin import SpinCalibration, spin_calibration, stillest_direction
 from tracker.pose.tool.tip_check import TipCheck, check_tip
 from tracker.pose.tool.turning import Turning, turning_of
+
+# The image rate is the one of so many images; it is not known from fewer than three intervals.
+RATE_IMAGES = 16
+MIN_RATE_INTERVALS = 3
 
 Outcome: TypeAlias = PivotCalibration | SpinCalibration | TipCheck
 
@@ -75,7 +80,9 @@ class CollectorSettings:
             the gate asks, because a tip is surer the farther the tool was tilted.
         most_turn_sd_deg, most_shift_sd_mm: how unsure a pose may be, in its worst direction.
         most_speed_mm_s, most_turn_rate_deg_s: what a hand does at most.
-        most_gap_s: how long before an image the one may be with which it is compared.
+        max_reach_s: for how much of the time since the image before a hand counts as that fast. Higher: with
+            a slow camera no wrong pose is too far away any more.
+        gap: how long before an image the one may be with which it is compared.
         least_new_deg: how far a pose must be turned from each one that was taken.
         most_poses: how many are kept.
     """
@@ -87,7 +94,8 @@ class CollectorSettings:
     most_shift_sd_mm: float = 3.0
     most_speed_mm_s: float = 1500.0
     most_turn_rate_deg_s: float = 360.0
-    most_gap_s: float = 0.25
+    max_reach_s: float = 0.25
+    gap: GapLimit = field(default_factory=GapLimit)
     least_new_deg: float = 2.0
     most_poses: int = 400
 
@@ -146,15 +154,18 @@ class PoseCollector:
         self._covariances: list[Array] = []
         self._passed_over: Counter[Taking] = Counter()
         self._last: _Last | None = None
+        self._times_s: deque[float] = deque(maxlen=RATE_IMAGES)
 
     def take(self, sighting: Sighting, *, at_s: float) -> Taking:
         """Take what one image says of the marker, or say why not."""
         if not isinstance(sighting, Seen):
+            self._times_s.append(at_s)
             return self._counted(Taking.NOT_SEEN)
         return self.take_pose(sighting.camera_from_marker, sighting.pose_covariance, at_s=at_s)
 
     def take_pose(self, pose: Rigid[Camera, Marker], covariance: Array, *, at_s: float) -> Taking:
         """Take a pose with its covariance (6, 6), or say why not."""
+        self._times_s.append(at_s)
         last, self._last = self._last, _Last(at_s, pose)
         taking = self._judged(pose, covariance, last, at_s)
         if taking is Taking.TAKEN:
@@ -197,12 +208,13 @@ class PoseCollector:
         turn_sd_deg = float(np.degrees(np.sqrt(np.linalg.eigvalsh(covariance[3:, 3:])[-1])))
         if not (shift_sd_mm <= limits.most_shift_sd_mm and turn_sd_deg <= limits.most_turn_sd_deg):
             return Taking.TOO_UNCERTAIN
-        if last is None or not 0.0 < at_s - last.at_s <= limits.most_gap_s:
+        period_s = image_period_s(self._times_s, min_intervals=MIN_RATE_INTERVALS)
+        if last is None or not 0.0 < at_s - last.at_s <= limits.gap.allowed_s(period_s):
             return Taking.ALONE
-        gap_s = at_s - last.at_s
+        reach_s = min(at_s - last.at_s, limits.max_reach_s)
         shift_mm = float(np.linalg.norm(pose.translation_mm - last.pose.translation_mm))
         turn_deg = float(_turns_deg(pose.rotation, last.pose.rotation[None])[0])
-        if shift_mm > limits.most_speed_mm_s * gap_s or turn_deg > limits.most_turn_rate_deg_s * gap_s:
+        if shift_mm > limits.most_speed_mm_s * reach_s or turn_deg > limits.most_turn_rate_deg_s * reach_s:
             return Taking.JUMPED
         if len(self._poses) >= limits.most_poses:
             return Taking.FULL

@@ -29,11 +29,17 @@ def placed(turn_deg: tuple[float, float, float]) -> Rigid[Camera, Marker]:
     return Rigid(rotation=rotation, translation_mm=np.array([0.0, 0.0, 500.0]) - rotation @ np.array(TIP_MM))
 
 
-def swept(collector: PoseCollector, path: list[tuple[float, float, float]], *, start_s: float = 0.0) -> float:
+def swept(
+    collector: PoseCollector,
+    path: list[tuple[float, float, float]],
+    *,
+    start_s: float = 0.0,
+    rate_hz: float = RATE_HZ,
+) -> float:
     """Feed a path; gives the time after it."""
     for number, turn in enumerate(path):
-        collector.take_pose(placed(turn), SURE, at_s=start_s + number / RATE_HZ)
-    return start_s + len(path) / RATE_HZ
+        collector.take_pose(placed(turn), SURE, at_s=start_s + number / rate_hz)
+    return start_s + len(path) / rate_hz
 
 
 def circling(radius_deg: float, *, images: int = 300) -> list[tuple[float, float, float]]:
@@ -69,6 +75,36 @@ def test_images_are_taken_or_passed_over_with_the_reason() -> None:
     assert progress.taken == len(collector.poses) == 4
     assert progress.passed_over[Taking.JUMPED] == 2
     assert progress.passed_over[Taking.NOT_SEEN] == 1
+
+
+@pytest.mark.parametrize("rate_hz", [2.0, 3.0, 5.0, 7.0, 60.0])
+def test_a_tip_is_calibrated_at_any_usual_image_rate(rate_hz: float) -> None:
+    collector = PoseCollector(Purpose.PIVOT)
+    swept(collector, circling(25.0), rate_hz=rate_hz)
+    done = collector.progress()
+    assert done.is_enough, done.missing
+    # Until the rate is known.
+    assert done.passed_over.get(Taking.ALONE, 0) <= 3
+
+
+def test_an_irregular_slow_camera_loses_no_pose_but_after_lost_images() -> None:
+    random = np.random.default_rng(2)
+    collector = PoseCollector(Purpose.PIVOT)
+    intervals_s = 1.0 / random.uniform(5.0, 10.0, size=100)
+    intervals_s[[30, 60]] = 0.54
+    intervals_s[80] = 1.2
+    takings = [
+        collector.take_pose(placed(turn), SURE, at_s=float(at_s))
+        for turn, at_s in zip(circling(25.0, images=100), np.cumsum(intervals_s), strict=True)
+    ]
+    assert [number for number, taking in enumerate(takings) if taking is Taking.ALONE] == [0, 80]
+
+
+def test_a_wrong_pose_stands_out_however_slow_the_camera() -> None:
+    collector = PoseCollector(Purpose.PIVOT)
+    after_s = swept(collector, circling(25.0, images=40), rate_hz=2.0)
+    # A hand could be anywhere after half a second, and is not while it pivots.
+    assert collector.take_pose(placed((120.0, 0, 0)), SURE, at_s=after_s) is Taking.JUMPED
 
 
 def test_progress_tells_which_tilt_is_missing_and_when_it_is_enough() -> None:
