@@ -190,8 +190,8 @@ class RegistrationConfig(Section):
     """Images in a row in which the tip rests on a landmark, and is seen in all of them."""
     capture_s: Annotated[float, Field(ge=0.05, le=10.0)] = 0.4
     """How long they last at least, so that a hand's tremor is in them."""
-    most_capture_gap_s: Annotated[float, Field(ge=0.05, le=10.0)] = 0.25
-    """Between two of them; a camera that gives few images a second needs more."""
+    most_capture_gap_s: Annotated[float, Field(ge=0.05, le=10.0)] = 1.0
+    """Between two of them at any image rate; else six image periods of the capture, or 0.25 s if longer."""
     most_capture_sd_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 0.4
     """Standard deviation of the tip in them, along its worst axis."""
     most_surface_rms_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0

@@ -114,10 +114,11 @@ class Patient:
     camera_from_vertebra: Rigid[Camera, Vertebra] = CAMERA_FROM_VERTEBRA
     camera_from_reference: Rigid[Camera, Marker] | None = None
     at_s: float = 0.0
+    rate_hz: float = 30.0
     random: np.random.Generator = field(default_factory=lambda: np.random.default_rng(4))
 
     def show(self, seen: Seen | None, **said: Any) -> Any:  # noqa: ANN401  as Server.show
-        self.at_s += 1.0 / 30.0
+        self.at_s += 1.0 / self.rate_hz
         reference = self.camera_from_reference
         beside = {} if reference is None else {"reference": marker_seen(reference)}
         return self.server.show(at_s=self.at_s, seen=seen, beside=said.pop("beside", beside), **said)

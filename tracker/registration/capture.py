@@ -8,6 +8,11 @@ import numpy.typing as npt
 
 from tracker.errors import RegistrationError
 from tracker.geometry import Array, nearest_rotation
+from tracker.pose.image_rate import GapLimit, image_period_s
+from tracker.registration.capture_rate import CaptureRate
+
+# From so many intervals on the image rate is known well enough to give a capture up for it.
+MIN_INTERVALS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -15,22 +20,26 @@ class CaptureSettings:
     """What a capture must be like.
 
     Attributes:
-        least_images: how many images.
-        least_s: over how long they must reach, so that a hand's tremor is in them.
-        most_s: how long is waited for that.
-        most_gap_s: between two images; a longer gap means that images were lost.
-        most_sd_mm: spread of the tip along its worst axis.
-        most_off_mm: the farthest single image from the mean.
-        most_tip_sd_mm: what an image may state of its own tip (root of the trace).
+        min_images: how many images.
+        min_s: how long they last at least, so that a hand's tremor is in them.
+        max_s: how long a tip is held at most; a rate at which `min_images` take longer is too low.
+        gap: between two images; a longer gap means that the tip could have moved unseen.
+        max_sd_mm: spread of the tip along its worst axis.
+        max_off_mm: the farthest single image from the mean.
+        max_tip_sd_mm: what an image may state of its own tip (root of the trace).
     """
 
-    least_images: int = 12
-    least_s: float = 0.4
-    most_s: float = 2.0
-    most_gap_s: float = 0.25
-    most_sd_mm: float = 0.4
-    most_off_mm: float = 1.2
-    most_tip_sd_mm: float = 3.0
+    min_images: int = 12
+    min_s: float = 0.4
+    max_s: float = 8.0
+    gap: GapLimit = field(default_factory=GapLimit)
+    max_sd_mm: float = 0.4
+    max_off_mm: float = 1.2
+    max_tip_sd_mm: float = 3.0
+
+    def hold_s(self, period_s: float) -> float:
+        """How long the tip must be held [s] where an image comes every `period_s`."""
+        return max(self.min_s, self.min_images * period_s)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,6 +52,7 @@ class TipSample:
         covariance_mm2: (3, 3), of all that is unsure, the tip behind its marker with it.
         anchor_from_marker: (3, 3), how the tool's marker is turned.
         tip_covariance_mm2: (3, 3) of the tip behind its marker, in the marker's frame.
+        image_number: as the camera counts its images, those that were not tracked included; None if unknown.
     """
 
     at_s: float
@@ -50,6 +60,7 @@ class TipSample:
     covariance_mm2: Array
     anchor_from_marker: Array = field(default_factory=lambda: np.eye(3))
     tip_covariance_mm2: Array = field(default_factory=lambda: np.zeros((3, 3)))
+    image_number: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +69,7 @@ class UnseenSample:
 
     at_s: float
     reason: str
+    image_number: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,10 +122,43 @@ class LandmarkCollector:
         """Whether there is enough to judge, or no point in waiting."""
         if not self._samples:
             return False
-        lasted = self._samples[-1].at_s - self._samples[0].at_s
-        enough = len(self._samples) >= self._settings.least_images and lasted >= self._settings.least_s
         unseen = isinstance(self._samples[-1], UnseenSample)
-        return enough or unseen or lasted >= self._settings.most_s
+        return unseen or self._is_enough or self._is_hopeless
+
+    @property
+    def rate_hz(self) -> float | None:
+        """Images/s that came so far; None before the second one."""
+        rate = _rate_of(self._samples)
+        return None if rate is None else rate.tracked_hz
+
+    @property
+    def left_s(self) -> float | None:
+        """How long the tip is still to be held [s] at this rate; None before the second image."""
+        rate = _rate_of(self._samples)
+        if rate is None:
+            return None
+        missing = self._settings.min_images - len(self._samples)
+        return max(0.0, missing * rate.period_s, self._settings.min_s - self._lasted_s)
+
+    @property
+    def _lasted_s(self) -> float:
+        return self._samples[-1].at_s - self._samples[0].at_s
+
+    @property
+    def _is_enough(self) -> bool:
+        settings = self._settings
+        return len(self._samples) >= settings.min_images and self._lasted_s >= settings.min_s
+
+    @property
+    def _is_hopeless(self) -> bool:
+        """Whether the capture can only be refused: held too long, interrupted, or at too low a rate."""
+        settings = self._settings
+        times_s = [sample.at_s for sample in self._samples]
+        gap_s = times_s[-1] - times_s[-2] if len(times_s) > 1 else 0.0
+        if self._lasted_s >= settings.max_s or gap_s > settings.gap.max_s:
+            return True
+        period_s = image_period_s(times_s, min_intervals=MIN_INTERVALS)
+        return period_s is not None and settings.hold_s(period_s) > settings.max_s
 
     def result(self, common_covariance_mm2: npt.ArrayLike | None = None) -> CapturedLandmark:
         """The landmark. Raises as `captured`."""
@@ -131,19 +176,22 @@ def captured(
     that the images state of themselves counts as common: of a tool at rest the errors are alike.
 
     Raises:
-        RegistrationError: CAPTURE_UNSEEN, CAPTURE_TOO_SHORT, CAPTURE_UNCERTAIN or CAPTURE_MOVED.
+        RegistrationError: CAPTURE_UNSEEN, CAPTURE_INTERRUPTED, CAPTURE_RATE_TOO_LOW, CAPTURE_TOO_SHORT,
+            CAPTURE_UNCERTAIN or CAPTURE_MOVED.
     """
     settings = settings or CaptureSettings()
     seen = [sample for sample in samples if isinstance(sample, TipSample)]
-    _refuse_unseen(samples)
-    _refuse_short(seen, settings)
+    rate = _rate_of(samples)
+    _reject_unseen(samples, rate)
+    _reject_interrupted(seen, rate, settings)
+    _reject_short(seen, rate, settings)
     tips = np.array([sample.tip_in_anchor_mm for sample in seen], dtype=np.float64)
     stated = np.array([sample.covariance_mm2 for sample in seen], dtype=np.float64)
-    _refuse_uncertain(tips, stated, settings)
+    _reject_uncertain(tips, stated, settings)
     mean = tips.mean(axis=0)
     scatter = np.cov(tips.T)
     off = float(np.linalg.norm(tips - mean, axis=1).max())
-    _refuse_moved(scatter, off, settings)
+    _reject_moved(scatter, off, settings)
     common = stated.mean(axis=0) if common_covariance_mm2 is None else np.asarray(common_covariance_mm2)
     covariance = common + scatter / len(seen)
     spread = np.sqrt(np.diag(scatter))
@@ -161,54 +209,99 @@ def captured(
     )
 
 
-def _refuse_unseen(samples: Sequence[TipSample | UnseenSample]) -> None:
+def _reject_unseen(samples: Sequence[TipSample | UnseenSample], rate: CaptureRate | None) -> None:
     reasons = [sample.reason for sample in samples if isinstance(sample, UnseenSample)]
     if reasons:
         most = max(sorted(set(reasons)), key=reasons.count)
+        seen = len(samples) - len(reasons)
         raise RegistrationError(
             "CAPTURE_UNSEEN",
-            f"the tip was known in {len(samples) - len(reasons)} of {len(samples)} images, needed in all "
-            f"({most})",
+            f"the tip was known in {seen} of {len(samples)} images{_at(rate)} and not in {len(reasons)} "
+            f"({most}), needed in all",
             "Turn the markers to the camera, keep hands off them, and touch the landmark again.",
-            {"seen": len(samples) - len(reasons), "images": len(samples), "reason": most},
+            {"seen": seen, "images": len(samples), "reason": most, "rate_hz": _hz(rate)},
         )
 
 
-def _refuse_short(seen: Sequence[TipSample], settings: CaptureSettings) -> None:
-    times = np.array([sample.at_s for sample in seen])
-    lasted = float(times[-1] - times[0]) if len(times) else 0.0
-    gap = float(np.diff(times).max()) if len(times) > 1 else 0.0
-    in_order = bool((np.diff(times) > 0.0).all())
-    long_enough = len(seen) >= settings.least_images and lasted >= settings.least_s
-    if not (long_enough and gap <= settings.most_gap_s and in_order):
+def _reject_interrupted(
+    seen: Sequence[TipSample], rate: CaptureRate | None, settings: CaptureSettings
+) -> None:
+    if rate is None:
+        return
+    gap_s = float(np.diff([sample.at_s for sample in seen]).max())
+    allowed_s = settings.gap.allowed_s(rate.period_s)
+    if gap_s > allowed_s:
         raise RegistrationError(
-            "CAPTURE_TOO_SHORT",
-            f"there are {len(seen)} images over {lasted:.2f} s with gaps of up to {gap:.2f} s, "
-            f"needed {settings.least_images} over {settings.least_s:g} s with gaps of "
-            f"{settings.most_gap_s:g} s at most",
-            "Keep the tip on the landmark until it is taken.",
-            {"images": len(seen), "lasted_s": lasted, "gap_s": gap, "needed": settings.least_images},
+            "CAPTURE_INTERRUPTED",
+            f"{gap_s:.2f} s passed between two of {len(seen)} images, allowed {allowed_s:.2f} s at "
+            f"{rate.text}: the tip could have moved unseen",
+            f"Hold the tip still, and touch the landmark again.{rate.remedy}",
+            {"images": len(seen), "gap_s": gap_s, "allowed_s": allowed_s, "rate_hz": rate.tracked_hz},
         )
 
 
-def _refuse_uncertain(tips: Array, stated: Array, settings: CaptureSettings) -> None:
+def _reject_short(seen: Sequence[TipSample], rate: CaptureRate | None, settings: CaptureSettings) -> None:
+    times_s = np.array([sample.at_s for sample in seen])
+    lasted_s = float(times_s[-1] - times_s[0]) if len(times_s) else 0.0
+    in_order = bool((np.diff(times_s) > 0.0).all())
+    if in_order and len(seen) >= settings.min_images and lasted_s >= settings.min_s:
+        return
+    hold_s = settings.min_s if rate is None else settings.hold_s(rate.period_s)
+    context = {
+        "images": len(seen),
+        "lasted_s": lasted_s,
+        "needed": settings.min_images,
+        "hold_s": hold_s,
+        "rate_hz": _hz(rate),
+    }
+    if rate is not None and hold_s > settings.max_s:
+        raise RegistrationError(
+            "CAPTURE_RATE_TOO_LOW",
+            f"{settings.min_images} images take {hold_s:.1f} s at {rate.text}, allowed {settings.max_s:g} s",
+            f"Touch the landmark again when images come faster.{rate.remedy}",
+            context,
+        )
+    order = "" if in_order else ", out of order"
+    how_long = "" if rate is None else f" for {hold_s:.1f} s at {rate.text},"
+    raise RegistrationError(
+        "CAPTURE_TOO_SHORT",
+        f"there are {len(seen)} images over {lasted_s:.2f} s{_at(rate)}{order}, needed "
+        f"{settings.min_images} over {settings.min_s:g} s",
+        f"Hold the tip still on the landmark{how_long} until it is taken.",
+        context,
+    )
+
+
+def _rate_of(samples: Sequence[TipSample | UnseenSample]) -> CaptureRate | None:
+    return CaptureRate.of([one.at_s for one in samples], [one.image_number for one in samples])
+
+
+def _at(rate: CaptureRate | None) -> str:
+    return "" if rate is None else f" at {rate.text}"
+
+
+def _hz(rate: CaptureRate | None) -> float | None:
+    return None if rate is None else rate.tracked_hz
+
+
+def _reject_uncertain(tips: Array, stated: Array, settings: CaptureSettings) -> None:
     sd = float(np.sqrt(np.trace(stated, axis1=1, axis2=2).max()))
-    if not (np.isfinite(tips).all() and sd <= settings.most_tip_sd_mm):
+    if not (np.isfinite(tips).all() and sd <= settings.max_tip_sd_mm):
         raise RegistrationError(
             "CAPTURE_UNCERTAIN",
-            f"the tip is known to {sd:.1f} mm in the worst image, allowed {settings.most_tip_sd_mm:g} mm",
+            f"the tip is known to {sd:.1f} mm in the worst image, allowed {settings.max_tip_sd_mm:g} mm",
             "Hold the marker nearer to the camera and in better light, and touch the landmark again.",
-            {"tip_sd_mm": sd, "allowed_mm": settings.most_tip_sd_mm},
+            {"tip_sd_mm": sd, "allowed_mm": settings.max_tip_sd_mm},
         )
 
 
-def _refuse_moved(scatter: Array, off_mm: float, settings: CaptureSettings) -> None:
+def _reject_moved(scatter: Array, off_mm: float, settings: CaptureSettings) -> None:
     sd = float(np.sqrt(max(np.linalg.eigvalsh(scatter)[-1], 0.0)))
-    if sd > settings.most_sd_mm or off_mm > settings.most_off_mm:
+    if sd > settings.max_sd_mm or off_mm > settings.max_off_mm:
         raise RegistrationError(
             "CAPTURE_MOVED",
-            f"the tip moved: it spreads by {sd:.2f} mm (standard deviation, allowed {settings.most_sd_mm:g}) "
-            f"and by {off_mm:.2f} mm at most (allowed {settings.most_off_mm:g})",
+            f"the tip moved: it spreads by {sd:.2f} mm (standard deviation, allowed {settings.max_sd_mm:g}) "
+            f"and by {off_mm:.2f} mm at most (allowed {settings.max_off_mm:g})",
             "Rest the hand, hold the tip still on the landmark, and touch it again.",
-            {"spread_mm": sd, "most_off_mm": off_mm, "allowed_mm": settings.most_sd_mm},
+            {"spread_mm": sd, "most_off_mm": off_mm, "allowed_mm": settings.max_sd_mm},
         )

@@ -1,7 +1,7 @@
 """The tip followed in the live images while it rests on a landmark."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from server.live import Instant, LiveHub, Trouble
@@ -93,7 +93,7 @@ class Touch:
                 landmark=self.landmark,
                 state=TouchState.REFUSED if trouble is not None else state,
                 images=self._images,
-                wanted=self._gate.least_images,
+                wanted=self._gate.min_images,
                 from_s=self._from_s,
                 touched=self._touched,
                 trouble=trouble,
@@ -113,7 +113,7 @@ class Touch:
             )
         if snapshot.image_number == self._image_number:
             return
-        tip = tip_of(snapshot, self._tool, self._reference)
+        tip = replace(tip_of(snapshot, self._tool, self._reference), image_number=snapshot.image_number)
         with self._lock:
             self._image_number = snapshot.image_number
             self._from_s = tip.at_s if self._from_s is None else self._from_s

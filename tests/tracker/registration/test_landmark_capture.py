@@ -70,11 +70,10 @@ def test_one_image_without_the_tip_refuses_the_capture() -> None:
     assert "MARKER_UNSEEN" in caught.value.message
 
 
-def test_too_few_too_short_or_interrupted_is_refused() -> None:
+def test_too_few_too_short_or_out_of_order_is_refused() -> None:
     assert code_of([]) == "CAPTURE_TOO_SHORT"
     assert code_of([*held(count=5)]) == "CAPTURE_TOO_SHORT"
     assert code_of([*held(count=20, rate_hz=120.0)]) == "CAPTURE_TOO_SHORT"
-    assert code_of([*held(count=20, rate_hz=3.0)]) == "CAPTURE_TOO_SHORT"
     assert code_of([*held()[::-1]]) == "CAPTURE_TOO_SHORT"
 
 
@@ -106,7 +105,7 @@ def test_a_tip_that_is_unsure_is_refused() -> None:
 
 
 def test_the_collector_ends_when_it_has_enough_or_waits_in_vain() -> None:
-    collector = LandmarkCollector(CaptureSettings(least_images=10, least_s=0.29))
+    collector = LandmarkCollector(CaptureSettings(min_images=10, min_s=0.29))
     over = []
     for sample in held(count=10):
         over.append(collector.is_over)

@@ -1,0 +1,92 @@
+"""A slow camera captures landmarks, checks and calibrates a tool; a refusal names the rate."""
+
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.procedure.conftest import Server, serving
+from tests.procedure.patient import DRILL, SPARE, USED, Patient, ready, withheld
+
+POINTS = "/api/registration/points"
+CHECK = "/api/registration/check"
+# As in config.yaml.
+SETTINGS = {"registration": {"capture_images": 12, "capture_s": 0.4}}
+
+
+@pytest.fixture
+def server(tmp_path: Path, turns: ExitStack) -> Server:
+    return turns.enter_context(serving(tmp_path, SETTINGS))
+
+
+def begun(server: Server, rate_hz: float) -> Patient:
+    """Points are being touched, before a camera of this rate."""
+    ready(server)
+    patient = Patient(server=server, rate_hz=rate_hz)
+    patient.show(None)
+    server.ask("POST", POINTS, 201, json=DRILL)
+    return patient
+
+
+def hold(server: Server, patient: Patient, path: str, landmark: str, images: int) -> Any:  # noqa: ANN401  JSON
+    """Hold the tip still for so many images; how far the capture has come then."""
+    for _ in range(images):
+        before = server.ask("GET", path, 200)["capture"]
+        patient.show(patient.tip_on(landmark))
+        server.until(_changed(server, path, before))
+    return server.ask("GET", path, 200)["capture"]
+
+
+def _changed(server: Server, path: str, before: dict[str, Any]) -> Callable[[], bool]:
+    def changed() -> bool:
+        now = server.ask("GET", path, 200)["capture"]
+        return bool(now["state"] != "looking" or now["images"] > before["images"])
+
+    return changed
+
+
+@pytest.mark.parametrize("rate_hz", [3.0, 5.0, 10.0])
+def test_landmarks_are_captured_and_checked_with_a_slow_camera(server: Server, rate_hz: float) -> None:
+    ready(server)
+    patient = Patient(server=server, rate_hz=rate_hz)
+    patient.register(USED)
+    check = patient.check()
+    assert check["content"]["passed"] is True
+    assert check["content"]["images"] == 12
+    assert withheld(server) is None
+
+
+@pytest.mark.parametrize(
+    ("rate_hz", "gap_s", "said"),
+    [
+        pytest.param(30.0, 0.4, "0.40 s passed between two of 12 images, allowed 0.25 s", id="30-hz"),
+        pytest.param(5.0, 1.3, "1.30 s passed between two of 7 images, allowed 1.00 s", id="5-hz"),
+    ],
+)
+def test_lost_images_refuse_a_capture_with_the_rate(
+    server: Server, rate_hz: float, gap_s: float, said: str
+) -> None:
+    patient = begun(server, rate_hz)
+    server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
+    hold(server, patient, POINTS, USED[0], 6)
+    patient.at_s += gap_s - 1.0 / rate_hz
+    patient.hold(POINTS, USED[0])
+    trouble = server.ask("GET", POINTS, 200)["capture"]["trouble"]
+    assert trouble["code"] == "CAPTURE_INTERRUPTED"
+    assert said in trouble["message"]
+    assert f"at {rate_hz:.1f} images/s" in trouble["message"]
+
+
+def test_a_check_before_a_camera_that_is_too_slow_is_refused_with_its_rate(server: Server) -> None:
+    ready(server)
+    patient = Patient(server=server)
+    patient.register(USED)
+    patient.rate_hz = 1.2
+    server.ask("POST", CHECK, 201, json={**DRILL, "landmark": SPARE})
+    patient.hold(CHECK, SPARE)
+    refused = server.ask("POST", f"{CHECK}/conclusion", 409, json={"made_by": "ito"})
+    assert refused["code"] == "CAPTURE_RATE_TOO_LOW"
+    assert "at 1.2 images/s, allowed 8 s" in refused["message"]
+    assert "camera.rate_hz" in refused["remedy"]
