@@ -120,6 +120,15 @@ class Instant:
     alarms: AlarmPicture = QUIET
 
     @property
+    def is_stopped(self) -> bool:
+        """Whether no image is to be expected: the source or the tracking does not run.
+
+        Between two images of a slow camera an instant without a snapshot goes out as a sign of life.
+        """
+        running = self.source.state is SourceState.RUNNING and self.process.state is ProcessState.RUNNING
+        return self.snapshot is None and (not running or self.process.trouble is not None)
+
+    @property
     def has_picture(self) -> bool:
         """Whether there is a picture to be shown, encoded yet or not."""
         return bool(self.jpeg) or self.drawn is not None

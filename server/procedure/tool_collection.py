@@ -63,6 +63,7 @@ class ToolCollection:
         self._lock = threading.Lock()
         self._collector = PoseCollector(purpose, tip_in_marker_mm=tip_in_marker_mm, gate=gate)
         self._newest = Taking.NO_PICTURE
+        self._image_number = -1
         self._follower = Follower(hub, self._look, name=f"gathering poses of {tool}")
 
     @property
@@ -85,11 +86,13 @@ class ToolCollection:
 
     def _look(self, instant: Instant) -> None:
         snapshot = instant.snapshot
-        if snapshot is None:
+        if instant.is_stopped:
             with self._lock:
                 # What became of the last image is no news any more.
                 self._newest = Taking.NO_PICTURE
+        if snapshot is None or snapshot.image_number == self._image_number:
             return
+        self._image_number = snapshot.image_number
         if not snapshot.setup.camera_calibrated:
             raise CalibrationError(
                 "CAMERA_NOT_CALIBRATED",

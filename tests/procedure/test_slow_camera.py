@@ -7,8 +7,11 @@ from typing import Any
 
 import pytest
 
+from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from tests.procedure.conftest import Server, serving
 from tests.procedure.patient import DRILL, SPARE, USED, Patient, ready, withheld
+from tests.procedure.test_tool_step import calibrated, gather
+from tracker.rehearsal import Scene
 
 POINTS = "/api/registration/points"
 CHECK = "/api/registration/check"
@@ -28,6 +31,18 @@ def begun(server: Server, rate_hz: float) -> Patient:
     patient.show(None)
     server.ask("POST", POINTS, 201, json=DRILL)
     return patient
+
+
+def sign_of_life(server: Server, state: SourceState = SourceState.RUNNING) -> None:
+    """What goes out between two images."""
+    server.number += 1
+    server.hub.publish(
+        Instant(
+            sequence=server.number,
+            source=SourceStatus(name="rehearsal", state=state),
+            process=ProcessStatus(state=ProcessState.RUNNING),
+        )
+    )
 
 
 def hold(server: Server, patient: Patient, path: str, landmark: str, images: int) -> Any:  # noqa: ANN401  JSON
@@ -56,6 +71,25 @@ def test_landmarks_are_captured_and_checked_with_a_slow_camera(server: Server, r
     assert check["content"]["passed"] is True
     assert check["content"]["images"] == 12
     assert withheld(server) is None
+
+
+def test_signs_of_life_between_two_images_do_not_end_a_capture(server: Server) -> None:
+    patient = begun(server, 2.0)
+    server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
+    capture: dict[str, Any] = {}
+    for _ in range(12):
+        capture = hold(server, patient, POINTS, USED[0], 1)
+        sign_of_life(server)
+    assert capture["state"] == "taken"
+
+
+def test_a_capture_ends_when_the_camera_stops(server: Server) -> None:
+    patient = begun(server, 5.0)
+    server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
+    hold(server, patient, POINTS, USED[0], 3)
+    sign_of_life(server, SourceState.RECONNECTING)
+    server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["state"] == "refused")
+    assert server.ask("GET", POINTS, 200)["capture"]["trouble"]["code"] == "NO_PICTURE"
 
 
 @pytest.mark.parametrize(
@@ -90,3 +124,14 @@ def test_a_check_before_a_camera_that_is_too_slow_is_refused_with_its_rate(serve
     assert refused["code"] == "CAPTURE_RATE_TOO_LOW"
     assert "at 1.2 images/s, allowed 8 s" in refused["message"]
     assert "camera.rate_hz" in refused["remedy"]
+
+
+def test_a_tool_is_calibrated_with_a_slow_camera(server: Server) -> None:
+    calibrated(server)
+    told = gather(server, Scene.PIVOT, "pivot", rate_hz=3.0)
+    assert told["missing"] == []
+    for _ in range(5):
+        sign_of_life(server)
+        assert server.ask("GET", "/api/tools/collection", 200)["newest"] != "no_picture"
+    sign_of_life(server, SourceState.RECONNECTING)
+    server.until(lambda: server.ask("GET", "/api/tools/collection", 200)["newest"] == "no_picture")

@@ -32,7 +32,14 @@ def calibrated(server: Server) -> str:
 
 
 def gather(
-    server: Server, scene: Scene, purpose: str, *, images: int = 400, seed: int = 1, marker: str = "drill"
+    server: Server,
+    scene: Scene,
+    purpose: str,
+    *,
+    images: int = 400,
+    seed: int = 1,
+    marker: str = "drill",
+    rate_hz: float = 10.0,
 ) -> dict[str, Any]:
     """Show a rehearsed motion until nothing is missing; the state of the gathering."""
     theatre = theatre_of(TheatreSettings(seed=seed, scene=scene))
@@ -42,7 +49,7 @@ def gather(
     )
     told: dict[str, Any] = {}
     for index in range(images):
-        at_s = index / 10.0
+        at_s = index / rate_hz
         seen = sighting(theatre, at_s, random)
         server.show(at_s=at_s, seen=seen, beside={marker: seen})
 

@@ -107,11 +107,11 @@ class Touch:
         snapshot = instant.snapshot
         if self._touched is not None:
             return
-        if snapshot is None:
+        if instant.is_stopped:
             raise RegistrationError(
                 "NO_PICTURE", "there is no picture any more", "Wait until the video runs, and capture again."
             )
-        if snapshot.image_number == self._image_number:
+        if snapshot is None or snapshot.image_number == self._image_number:
             return
         tip = replace(tip_of(snapshot, self._tool, self._reference), image_number=snapshot.image_number)
         with self._lock:
