@@ -100,6 +100,10 @@ class TouchMessage(Message):
     images: int
     """In which the tip was seen so far."""
     wanted: int
+    rate_hz: float | None
+    """Images/s that were tracked so far; null before the second one."""
+    left_s: float | None
+    """How long the tip is still to be held at this rate; null before the second image."""
     spread_mm: list[float] | None
     """Standard deviation of the tip along the anchor's axes; null until it is taken."""
     trouble: TroubleMessage | None
@@ -285,6 +289,8 @@ def touch_message(status: TouchStatus) -> TouchMessage:
         state=status.state,
         images=status.images,
         wanted=status.wanted,
+        rate_hz=status.rate_hz,
+        left_s=status.left_s,
         spread_mm=None if status.touched is None else status.touched.spread_mm.tolist(),
         trouble=trouble_message(status.trouble),
     )

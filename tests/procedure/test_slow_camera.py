@@ -73,6 +73,17 @@ def test_landmarks_are_captured_and_checked_with_a_slow_camera(server: Server, r
     assert withheld(server) is None
 
 
+def test_progress_says_how_long_the_tip_is_still_to_be_held(server: Server) -> None:
+    patient = begun(server, 5.0)
+    server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
+    first = hold(server, patient, POINTS, USED[0], 1)
+    assert (first["rate_hz"], first["left_s"]) == (None, None)
+    capture = hold(server, patient, POINTS, USED[0], 6)
+    assert capture["images"] == 7
+    assert capture["rate_hz"] == pytest.approx(5.0)
+    assert capture["left_s"] == pytest.approx(1.0)
+
+
 def test_signs_of_life_between_two_images_do_not_end_a_capture(server: Server) -> None:
     patient = begun(server, 2.0)
     server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
@@ -81,6 +92,7 @@ def test_signs_of_life_between_two_images_do_not_end_a_capture(server: Server) -
         capture = hold(server, patient, POINTS, USED[0], 1)
         sign_of_life(server)
     assert capture["state"] == "taken"
+    assert capture["left_s"] == 0.0
 
 
 def test_a_capture_ends_when_the_camera_stops(server: Server) -> None:
@@ -124,6 +136,19 @@ def test_a_check_before_a_camera_that_is_too_slow_is_refused_with_its_rate(serve
     assert refused["code"] == "CAPTURE_RATE_TOO_LOW"
     assert "at 1.2 images/s, allowed 8 s" in refused["message"]
     assert "camera.rate_hz" in refused["remedy"]
+
+
+def test_a_check_that_is_kept_too_early_says_how_long_to_hold_on(server: Server) -> None:
+    ready(server)
+    patient = Patient(server=server)
+    patient.register(USED)
+    patient.rate_hz = 5.0
+    server.ask("POST", CHECK, 201, json={**DRILL, "landmark": SPARE})
+    hold(server, patient, CHECK, SPARE, 4)
+    refused = server.ask("POST", f"{CHECK}/conclusion", 409, json={"made_by": "ito"})
+    assert refused["code"] == "CHECK_NOT_CAPTURED"
+    assert refused["message"] == "the tip was seen in 4 images at 5.0 images/s, needed 12"
+    assert refused["remedy"] == "Hold the tip still on the landmark for another 1.6 s, until it is taken."
 
 
 def test_a_tool_is_calibrated_with_a_slow_camera(server: Server) -> None:

@@ -197,12 +197,7 @@ class CheckStep:
             trouble = status.capture.trouble
             if trouble is not None:
                 raise RegistrationError(trouble.code, trouble.message, trouble.remedy, trouble.context)
-            raise RegistrationError(
-                "CHECK_NOT_CAPTURED",
-                f"the tip was seen in {status.capture.images} images, needed {status.capture.wanted}",
-                "Hold the tip still on the landmark until it is taken.",
-                {"images": status.capture.images, "needed": status.capture.wanted},
-            )
+            raise _not_captured(status.capture)
         document = self._shelf.current(status.vertebra).document
         if document.id != session.shelved.document.id:
             raise OutOfDateError(
@@ -221,6 +216,19 @@ class CheckStep:
         )
         self.end()
         return kept
+
+
+def _not_captured(capture: TouchStatus) -> RegistrationError:
+    at_rate, how_long = "", ""
+    if capture.rate_hz is not None and capture.left_s is not None:
+        at_rate = f" at {capture.rate_hz:.1f} images/s"
+        how_long = f" for another {capture.left_s:.1f} s,"
+    return RegistrationError(
+        "CHECK_NOT_CAPTURED",
+        f"the tip was seen in {capture.images} images{at_rate}, needed {capture.wanted}",
+        f"Hold the tip still on the landmark{how_long} until it is taken.",
+        {"images": capture.images, "needed": capture.wanted, "rate_hz": capture.rate_hz},
+    )
 
 
 def used_mm(shelved: ShelvedRegistration) -> dict[str, list[float]]:

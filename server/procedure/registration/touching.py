@@ -43,6 +43,8 @@ class TouchStatus:
         state: whether more images are looked at.
         images: in which it was seen so far.
         wanted: how many there must be.
+        rate_hz: images/s that came so far; None before the second one.
+        left_s: how long the tip is still to be held at this rate [s]; None before the second image.
         from_s: when the tip was first looked for, by the clock of the images; None before the first image.
         touched: the point; None until it is taken.
         trouble: why it was refused.
@@ -52,6 +54,8 @@ class TouchStatus:
     state: TouchState
     images: int
     wanted: int
+    rate_hz: float | None
+    left_s: float | None
     from_s: float | None
     touched: CapturedLandmark | None
     trouble: Trouble | None
@@ -94,6 +98,8 @@ class Touch:
                 state=TouchState.REFUSED if trouble is not None else state,
                 images=self._images,
                 wanted=self._gate.min_images,
+                rate_hz=self._collector.rate_hz,
+                left_s=self._collector.left_s,
                 from_s=self._from_s,
                 touched=self._touched,
                 trouble=trouble,

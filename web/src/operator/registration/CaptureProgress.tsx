@@ -5,6 +5,7 @@ import { Refusal } from "../../rest/client";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { filled } from "../../words/filled";
+import { lookingText } from "./lookingText";
 import { Refused } from "./Refused";
 
 interface CaptureProgressProps {
@@ -41,8 +42,7 @@ export function CaptureProgress({ capture, mostSpreadMm }: CaptureProgressProps)
   return (
     <div role="status" data-testid="capturing">
       <p>
-        ● <strong>{capture.landmark}</strong>{" "}
-        {filled(words.looking, { images: capture.images, wanted: capture.wanted })}
+        ● <strong>{capture.landmark}</strong> {lookingText(capture, words)}
       </p>
       <Progress value={share} size="xl" aria-label={words.images} />
     </div>

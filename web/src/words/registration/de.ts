@@ -90,6 +90,7 @@ export const registrationDe: RegistrationWords = {
   },
   capture: {
     looking: "{images} von {wanted} Bildern. Ruhig halten.",
+    lookingAtRate: "{images} von {wanted} Bildern. Noch {left} s ruhig halten, bei {rate} Bildern/s.",
     images: "Bilder mit sichtbarer Spitze",
     taken: "aus {images} Bildern aufgenommen, Streuung {spread} mm (erlaubt {most} mm).",
     refused: "nicht aufgenommen.",
@@ -98,7 +99,7 @@ export const registrationDe: RegistrationWords = {
     before: "Punkte der Planung antasten",
     steps: [
       "Mindestens drei weit auseinanderliegende Punkte antasten; vier decken einen Fehler auf.",
-      "Spitze auf den Knochen setzen, Taste drücken, eine halbe Sekunde ruhig halten.",
+      "Spitze auf den Knochen setzen, Taste drücken, ruhig halten, bis sie aufgenommen ist: eine halbe Sekunde bei 30 Bildern/s, 2,4 s bei 5.",
       "Einen Punkt auslassen: Er wird für die Prüfung gebraucht.",
     ],
     begin: "Beginnen",

@@ -89,6 +89,7 @@ export const registrationEn = {
   },
   capture: {
     looking: "{images} of {wanted} images. Hold still.",
+    lookingAtRate: "{images} of {wanted} images. Hold still for another {left} s, at {rate} images/s.",
     images: "Images in which the tip was seen",
     taken: "taken from {images} images, spread {spread} mm (allowed {most} mm).",
     refused: "not taken.",
@@ -97,7 +98,7 @@ export const registrationEn = {
     before: "Touch the landmarks of the plan",
     steps: [
       "Touch at least three landmarks that lie far apart; four show a mistake.",
-      "Rest the tip on the bone, press the button, hold still for half a second.",
+      "Rest the tip on the bone, press the button, hold still until it is taken: half a second at 30 images/s, 2.4 s at 5.",
       "Leave one landmark untouched: the check needs it.",
     ],
     begin: "Begin",
