@@ -1,0 +1,265 @@
+"""What no two of headline, figures, alarms, overlay, wire and log may say of one moment.
+
+The law is written once more, from the digits and the words alone: nothing here asks the program what it
+meant.
+"""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from math import inf
+
+from server.overlay import panel_of
+from server.shown import NOT_KNOWN, shown_number
+from server.stream.alarm_messages import AlarmMessage
+from server.stream.assessment_messages import AssessmentMessage, FigureMessage
+from server.stream.snapshot_messages import SnapshotMessage
+from tests.server.texts.random_drilling import Told
+from tracker.navigation import FigureName, Verdict
+from tracker.navigation.alarms import AlarmState, Condition, Showing
+
+# From an image that shows a breach to its alarm: two images, or 80 ms and the next look.
+MAX_UNANNOUNCED = 2
+INSTRUCTION = re.compile(r"Stop\.|Anhalten\.")
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+PHYSIOLOGICAL = {
+    Condition.BREACH,
+    Condition.PAST_DEPTH,
+    Condition.BREACH_LIKELY,
+    Condition.CLEARANCE_LOW,
+}
+
+
+@dataclass(slots=True)
+class Witness:
+    """Hears moment after moment, and fails at the first that contradicts itself or those before it.
+
+    Attributes:
+        through_images: how many images in a row have shown a breach without an alarm of it.
+        deepest: by number of a breach's alarm, the least clearance that was shown while it stood.
+        shown_before: the least clearance shown since the last moment without one.
+    """
+
+    through_images: int = 0
+    deepest: dict[int, float] = field(default_factory=dict)
+    shown_before: float = inf
+
+    def hears(self, told: Told) -> None:
+        assessments = _assessments(told.message.snapshot)
+        self._headline(told, assessments)
+        for alarm in told.message.alarms.alarms:
+            self._alarm(alarm, told, assessments)
+        self._breach_is_announced(told, assessments)
+        self._worst(told, assessments)
+        self._log(told)
+        if told.snapshot is not None and told.message.snapshot is not None:
+            _overlay(told, told.message.snapshot)
+
+    def _headline(self, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
+        headline = told.message.headline
+        shown = told.message.snapshot.shown_tool if told.message.snapshot else None
+        if shown is None:
+            assert headline.verdict is None
+            assert not assessments
+        else:
+            assessment = assessments[shown]
+            assert headline.verdict is assessment.verdict
+            _verdict_fits(assessment)
+            severity = max(each.verdict.severity for each in assessments.values())
+            assert assessment.verdict.severity == severity, "the worst of several drills is shown"
+            assert _numbers(headline.title.en) <= _digits(assessment)
+            assert _numbers(headline.title.en) == _numbers(headline.title.de)
+            assert _numbers(headline.detail.en) == _numbers(headline.detail.de)
+        in_danger = headline.verdict in (Verdict.THROUGH_WALL, Verdict.TOO_DEEP)
+        assert bool(INSTRUCTION.search(headline.detail.en)) == in_danger
+        loud = [one for one in told.message.alarms.alarms if one.priority != "low"]
+        assert (headline.tone == "good") == (headline.verdict is Verdict.ON_PATH and not loud)
+        not_present = [
+            one
+            for one in told.message.alarms.alarms
+            if one.condition in PHYSIOLOGICAL and one.presence is not Showing.YES
+        ]
+        assert bool(headline.event.en) == bool(not_present)
+        for alarm in not_present:
+            assert alarm.title.en in headline.event.en
+            assert alarm.title.de in headline.event.de
+
+    def _alarm(self, alarm: AlarmMessage, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
+        sentence, remedy = alarm.sentence.en, alarm.remedy.en
+        assert _numbers(sentence) == _numbers(alarm.sentence.de)
+        assert bool(remedy) == bool(alarm.remedy.de)
+        if alarm.presence is Showing.NO or alarm.state is AlarmState.LATCHED:
+            assert alarm.presence is Showing.YES or not remedy, "what is over instructs nobody"
+        if alarm.presence is Showing.YES and alarm.condition in PHYSIOLOGICAL:
+            assert " was " not in f" {sentence.lower()}", "what is there is not told in the past tense"
+        elif alarm.condition in PHYSIOLOGICAL:
+            assert "was " in sentence.lower(), "what is not there is told in the past tense"
+        if told.snapshot is None or alarm.condition not in PHYSIOLOGICAL | {Condition.POSE_UNCERTAIN}:
+            return
+        name, is_over = _FIGURE_OF[alarm.condition]
+        figures = [getattr(each.figures, name) for each in assessments.values()]
+        known = [figure for figure in figures if figure.value is not None]
+        if alarm.presence is Showing.YES and alarm.measure is not None:
+            assert any(is_over(figure) for figure in known), f"{sentence} beside {known}"
+            digits = {_text(abs(figure.value or 0.0), name) for figure in known if is_over(figure)}
+            assert any(text in sentence for text in digits), f"{sentence} beside {digits}"
+        if alarm.presence is Showing.NO and alarm.condition in (Condition.BREACH, Condition.PAST_DEPTH):
+            assert not any(is_over(figure) for figure in known), f"{sentence} beside {known}"
+        if alarm.presence is Showing.UNKNOWN and alarm.condition in PHYSIOLOGICAL:
+            assert not known
+
+    def _breach_is_announced(self, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
+        if told.snapshot is None:
+            return
+        through = any(each.verdict is Verdict.THROUGH_WALL for each in assessments.values())
+        standing = any(
+            one.condition is Condition.BREACH and one.state is not AlarmState.LATCHED
+            for one in told.alarms.alarms
+        )
+        self.through_images = self.through_images + 1 if through and not standing else 0
+        assert self.through_images < MAX_UNANNOUNCED
+
+    def _worst(self, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
+        """The worst value of a breach is the least clearance that was on the screen while it stood."""
+        if told.snapshot is None:
+            return
+        walls = [one.figures.wall.value for one in assessments.values()]
+        now = min((wall for wall in walls if wall is not None), default=inf)
+        alarms = told.message.alarms.alarms
+        standing = {one.number: one for one in alarms if one.condition is Condition.BREACH}
+        for number, alarm in standing.items():
+            if alarm.state is not AlarmState.LATCHED:
+                before = self.deepest.get(number, min(now, self.shown_before))
+                self.deepest[number] = min(before, now)
+            assert alarm.worst is not None
+            assert alarm.worst.value <= self.deepest[number] + 1e-9
+        self.shown_before = min(self.shown_before, now) if now < 0.0 and not standing else inf
+
+    def _log(self, told: Told) -> None:
+        by_number = {one.number: one for one in told.message.alarms.alarms}
+        for line in told.lines:
+            change, condition = line["change"], line.get("condition")
+            if condition is None:
+                continue
+            sentence = line["sentence"]
+            assert isinstance(sentence, dict)
+            if change == "raised":
+                shown = by_number[_number(line)]
+                assert sentence == {"en": shown.sentence.en, "de": shown.sentence.de}
+            if condition == Condition.BREACH and change == "latched":
+                assert line["presence"] != Showing.YES
+                assert "was " in sentence["en"].lower()
+                assert shown_number(abs(_worst(line))) in sentence["en"]
+
+
+def _assessments(snapshot: SnapshotMessage | None) -> Mapping[str, AssessmentMessage]:
+    if snapshot is None:
+        return {}
+    return {
+        tool.name: tool.assessment
+        for tool in snapshot.tools
+        if isinstance(tool.assessment, AssessmentMessage)
+    }
+
+
+def _verdict_fits(assessment: AssessmentMessage) -> None:
+    """The law of the verdict, from the digits of the figures alone."""
+    f = assessment.figures
+    over = {
+        "wall": f.wall.value is not None and _less(f.wall, f.wall.limit),
+        "deep": f.to_go.status != "outside" and _less(f.to_go, 0.0),
+        "error": _over(f.error),
+        "risk": _over(f.risk),
+        "entry": f.entry.value is None or _over(f.entry),
+        "angle": _over(f.angle),
+        "end": f.end.status == "over",
+    }
+    if assessment.verdict is Verdict.ON_PATH:
+        assert not any(over.values()), over
+    if f.wall.value is not None and f.wall.value < 0.0:
+        assert assessment.verdict is Verdict.THROUGH_WALL
+    else:
+        assert assessment.verdict is not Verdict.THROUGH_WALL
+    assert (assessment.verdict is Verdict.ON_PATH) == (not any(over.values()))
+    named = {
+        Verdict.TOO_DEEP: "deep",
+        Verdict.UNCERTAIN: "error",
+        Verdict.BREACH_LIKELY: "risk",
+        Verdict.NEAR_WALL: "wall",
+        Verdict.CORRECT_ENTRY: "entry",
+        Verdict.CORRECT_ANGLE: "angle",
+        Verdict.CORRECT_END: "end",
+    }
+    if assessment.verdict in named:
+        assert over[named[assessment.verdict]]
+
+
+def _overlay(told: Told, snapshot: SnapshotMessage) -> None:
+    """The burned-in words and digits are those of the wire, in both languages."""
+    assert told.snapshot is not None
+    for language in ("en", "de"):
+        panel = panel_of(told.snapshot, told.alarms, language)
+        headline = told.message.headline
+        for field_name in ("title", "detail", "event"):
+            assert getattr(panel.headline, field_name)[language] == getattr(
+                getattr(headline, field_name), language
+            )
+        assert panel.headline.tone == headline.tone
+        if snapshot.shown_tool is None:
+            assert panel.readings == ()
+            continue
+        figures = _assessments(snapshot)[snapshot.shown_tool].figures
+        shown: Sequence[FigureMessage] = [
+            getattr(figures, name) for name in ("entry", "angle", "depth", "to_go", "wall")
+        ]
+        assert [reading.value for reading in panel.readings] == [
+            NOT_KNOWN if figure.value is None else shown_number(figure.value) for figure in shown
+        ]
+
+
+def _over(figure: FigureMessage) -> bool:
+    return figure.value is not None and figure.limit is not None and figure.value > figure.limit
+
+
+def _less(figure: FigureMessage, than: float | None) -> bool:
+    return figure.value is not None and than is not None and figure.value < than
+
+
+def _text(value: float, name: str) -> str:
+    decimals = {"risk": 0, "error": 2}.get(name, 1)
+    return shown_number(value, decimals=decimals)
+
+
+def _numbers(text: str) -> set[str]:
+    return set(NUMBER.findall(text))
+
+
+def _digits(assessment: AssessmentMessage) -> set[str]:
+    """Every number that may stand in a headline: of a figure without its sign, of a correction, 95 and 2."""
+    digits = {"95", "2"}
+    for name in FigureName:
+        value = getattr(assessment.figures, name.value).value
+        if value is not None:
+            digits.add(_text(abs(value), name.value))
+    return digits | {shown_number(one.amount) for one in assessment.corrections if one.amount is not None}
+
+
+def _number(line: Mapping[str, object]) -> int:
+    number = line["number"]
+    assert isinstance(number, int)
+    return number
+
+
+def _worst(line: Mapping[str, object]) -> float:
+    worst = line["worst"]
+    assert isinstance(worst, float)
+    return worst
+
+
+_FIGURE_OF: Mapping[Condition, tuple[str, Callable[[FigureMessage], bool]]] = {
+    Condition.BREACH: ("wall", lambda figure: _less(figure, 0.0)),
+    Condition.PAST_DEPTH: ("to_go", lambda figure: _less(figure, 0.0) and figure.status != "outside"),
+    Condition.BREACH_LIKELY: ("risk", _over),
+    Condition.CLEARANCE_LOW: ("wall", lambda figure: _less(figure, figure.limit) and not _less(figure, 0.0)),
+    Condition.POSE_UNCERTAIN: ("error", _over),
+}

@@ -1,0 +1,253 @@
+"""A drill that is moved at random through a bone of known size, and everything that is said of it.
+
+    PYTHONPATH=. python -m tests.server.texts.random_drilling --seeds 20
+
+prints how many moments and different states were visited, and ends at the first contradiction.
+"""
+
+import random
+from argparse import ArgumentParser
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime, timedelta
+
+import numpy as np
+
+from server.alarms import AlarmDesk, ProcedureFacts
+from server.alarms.entries import Entry
+from server.alarms.log import NoLog
+from server.config import Config
+from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.stream.messages import LiveMessage, live_message
+from tests.tracker.navigation.assessed import drill, guide
+from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at
+from tracker.camera import CameraModel
+from tracker.geometry import Camera, Marker, Rigid, Vertebra
+from tracker.navigation import NavigationSnapshot, Setup, navigate
+from tracker.navigation.alarms import AlarmPicture
+from tracker.pose import Seen, Sighting, ToolModel, Unseen, UnseenReason
+from tracker.registration import Registration
+
+SIZE_WH_PX = (640, 360)
+CAMERA = CameraModel(
+    matrix=np.array([[700.0, 0.0, 320.0], [0.0, 700.0, 180.0], [0.0, 0.0, 1.0]]),
+    distortion=np.zeros(5),
+    size_wh_px=SIZE_WH_PX,
+)
+# The rod runs forwards from its back: seen from behind and above.
+CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([-1.2, 0.3, 0.1], [0.0, 0.0, 300.0])
+RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
+WORKS = ProcessStatus(state=ProcessState.RUNNING)
+START = datetime(2026, 1, 2, 10, 41, 13, tzinfo=UTC)
+
+# Where a hand is led: (depth, medial, cranial, medial_deg, cranial_deg), and how unsure the pose is.
+PLACES: Sequence[tuple[float, float, float, float, float, float]] = [
+    (-15.0, 0.2, 0.1, 0.3, 0.2, 1.0),  # before the entry, on path
+    (25.0, 0.1, 0.0, 0.2, 0.1, 1.0),  # inside, on path
+    (-10.0, 3.0, -2.0, 1.0, 0.0, 1.0),  # entry off
+    (3.0, -0.2, 0.1, -4.0, 7.0, 1.0),  # angle off
+    (1.0, 1.6, 0.0, 2.0, 0.0, 1.0),  # within both, and through at the end
+    (30.0, 2.4, 0.0, 0.0, 0.0, 1.0),  # near the medial wall
+    (30.0, 3.1, 0.0, 0.0, 0.0, 1.0),  # just through the medial wall
+    (35.0, -4.5, 0.0, 0.0, 0.0, 1.0),  # through the lateral wall
+    (32.0, 0.0, 3.6, 0.0, 0.0, 1.0),  # through the cranial wall
+    (32.0, 0.0, -3.05, 0.0, 0.0, 1.5),  # at the caudal wall
+    (55.0, 0.0, 0.2, 0.0, 0.0, 1.0),  # at the planned depth
+    (56.5, 0.0, 0.0, 0.0, 0.0, 1.0),  # too deep
+    (25.0, 0.0, 0.0, 0.0, 0.0, 11.0),  # uncertain
+    (28.0, 0.0, 1.3, 0.0, 0.0, 5.5),  # a breach is likely
+    (5.0, 0.0, 0.0, 88.0, 0.0, 1.0),  # across
+    (60.0, 55.0, 10.0, 0.0, 0.0, 1.0),  # beside the patient
+]
+
+
+@dataclass(slots=True)
+class KeptLog(NoLog):
+    """The log's lines, as they are handed to the disk."""
+
+    lines: list[Mapping[str, object]] = field(default_factory=list)
+
+    def append(self, entries: Sequence[Entry]) -> None:
+        self.lines += [entry.line for entry in entries]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Told:
+    """All that is said at one moment.
+
+    Attributes:
+        at_s: of the moment.
+        snapshot: of the image of this moment; None where none came.
+        alarms: as the engine has them.
+        message: as it goes over the wire.
+        lines: that were added to the log.
+    """
+
+    at_s: float
+    snapshot: NavigationSnapshot | None
+    alarms: AlarmPicture
+    message: LiveMessage
+    lines: Sequence[Mapping[str, object]]
+
+
+class RandomDrilling:
+    """The same seed gives the same moments. One or two tools, at 5 to 30 images a second."""
+
+    def __init__(self, seed: int) -> None:
+        self.random = random.Random(seed)
+        self.rate_hz = self.random.choice([5.0, 12.0, 30.0])
+        names = ["drill"] if seed % 3 else ["drill", "awl"]
+        self.tools: dict[str, ToolModel] = {name: drill(name) for name in names}
+        self.setup = Setup(
+            camera=CAMERA,
+            camera_calibrated=True,
+            tools=self.tools,
+            channel=ROD_CHANNEL,
+            registration=Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
+        )
+        self.guide = guide(self.random.choice([1.0, 1.8]))
+        self.at_s = 1000.0
+        self.log = KeptLog()
+        self.desk = AlarmDesk(
+            Config(),
+            log=self.log,
+            clock=lambda: self.at_s,
+            wall_clock=lambda: START + timedelta(seconds=self.at_s - 1000.0),
+        )
+        self.where = {name: np.array(PLACES[0]) for name in names}
+        self.sequence = 0
+
+    def moments(self, images: int) -> Iterator[Told]:
+        """So many images, with silences and people between them."""
+        number = 0
+        while number < images:
+            targets = {name: np.array(self.random.choice(PLACES)) for name in self.tools}
+            hidden = self.random.random() < 0.15
+            for _ in range(self.random.randint(2, max(3, round(2.5 * self.rate_hz)))):
+                number += 1
+                self.at_s += 1.0 / self.rate_hz
+                self._move(targets)
+                yield self._told(self._concluded(number, hidden=hidden))
+                yield from self._person()
+            if self.random.random() < 0.1:
+                yield from self._silence()
+
+    def _move(self, targets: Mapping[str, np.ndarray]) -> None:
+        quick = 1.0 - 0.5 ** (8.0 / self.rate_hz)
+        noise = np.array([0.1, 0.05, 0.05, 0.1, 0.1, 0.0])
+        for name, target in targets.items():
+            tremor = np.array([self.random.gauss(0.0, 1.0) for _ in noise])
+            self.where[name] = self.where[name] + quick * (target - self.where[name]) + noise * tremor
+
+    def _concluded(self, number: int, *, hidden: bool) -> NavigationSnapshot:
+        sightings: dict[str, Sighting] = {}
+        for name, tool in self.tools.items():
+            is_hidden = hidden and (name == "drill" or self.random.random() < 0.5)
+            sightings[name] = (
+                Unseen(reason=UnseenReason.NO_CANDIDATE) if is_hidden else self._seen(name, tool)
+            )
+        return navigate(
+            setup=self.setup,
+            sightings=sightings,
+            image_number=number,
+            captured_at_s=self.at_s - 0.02,
+            size_wh_px=SIZE_WH_PX,
+            stage_ms={},
+            skipped_images=0,
+            guide=self.guide,
+        )
+
+    def _seen(self, name: str, tool: ToolModel) -> Seen:
+        depth, medial, cranial, medial_deg, cranial_deg, unsure = self.where[name]
+        placed = drill_at(
+            ROD_CHANNEL,
+            float(depth),
+            medial_mm=float(medial),
+            cranial_mm=float(cranial),
+            medial_deg=float(medial_deg),
+            cranial_deg=float(cranial_deg),
+        )
+        pose: Rigid[Camera, Marker] = CAMERA_FROM_VERTEBRA @ placed @ tool.marker_from_tool.inverse
+        sd = float(unsure) * np.array([0.08] * 3 + [0.0004] * 3)
+        return Seen(
+            camera_from_marker=pose,
+            pose_covariance=np.diag(sd**2),
+            corners_px=CAMERA.px_from_camera(
+                pose.move_points([[-10, 10, 0], [10, 10, 0], [10, -10, 0], [-10, -10, 0]])
+            ),
+            score_ratio=0.9,
+            target_score_ratio=0.9,
+            model_coverage_ratio=0.9,
+            target_coverage_ratio=0.9,
+            fit_error_px2=0.1,
+            found_by="track",
+        )
+
+    def _person(self) -> Iterator[Told]:
+        """Now and then somebody acknowledges, pauses, or changes what the registration depends on."""
+        chance = self.random.random()
+        if chance < 0.02:
+            numbers = [alarm.number for alarm in self.desk.picture.alarms]
+            if numbers:
+                self.desk.acknowledge(
+                    self.random.sample(numbers, self.random.randint(1, len(numbers))), by="Ito"
+                )
+        elif chance < 0.025:
+            self.desk.pause(self.random.uniform(1.0, 60.0), by="Ito")
+        elif chance < 0.03:
+            self.desk.know(ProcedureFacts(registration_current=self.random.random() < 0.7))
+        else:
+            return
+        yield self._told(None)
+
+    def _silence(self) -> Iterator[Told]:
+        for _ in range(self.random.randint(2, 30)):
+            self.at_s += 0.05
+            yield self._told(None)
+
+    def _told(self, snapshot: NavigationSnapshot | None) -> Told:
+        before = len(self.log.lines)
+        alarms = self.desk.look(snapshot, RUNS, WORKS)
+        self.sequence += 1
+        instant = Instant(
+            sequence=self.sequence, source=RUNS, process=WORKS, snapshot=snapshot, alarms=alarms
+        )
+        return Told(
+            at_s=self.at_s,
+            snapshot=snapshot,
+            alarms=alarms,
+            message=live_message(instant, now_s=self.at_s),
+            lines=self.log.lines[before:],
+        )
+
+
+def state_of(told: Told) -> tuple[object, ...]:
+    """What kind of a moment this is: verdict or none, and each alarm with its state and presence."""
+    return (
+        told.message.headline.verdict,
+        told.message.headline.tone,
+        frozenset((alarm.condition, alarm.state, alarm.presence) for alarm in told.alarms.alarms),
+    )
+
+
+def main() -> None:
+    """Visit many moments, and print how many states they were in."""
+    from tests.server.texts.contradictions import Witness  # noqa: PLC0415  it needs the moments of this file
+
+    parser = ArgumentParser()
+    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--images", type=int, default=1500)
+    asked = parser.parse_args()
+    states: set[tuple[object, ...]] = set()
+    moments = 0
+    for seed in range(asked.seeds):
+        witness = Witness()
+        for told in RandomDrilling(seed).moments(asked.images):
+            witness.hears(told)
+            states.add(state_of(told))
+            moments += 1
+    print(f"seeds 0 to {asked.seeds - 1}: {moments} moments in {len(states)} states, no contradiction")  # noqa: T201
+
+
+if __name__ == "__main__":
+    main()

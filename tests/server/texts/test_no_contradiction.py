@@ -1,0 +1,73 @@
+"""No two of headline, figures, alarms, overlay, wire and log contradict each other, whatever happens."""
+
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+from server.texts import alarm_text
+from tests.server.texts.contradictions import Witness
+from tests.server.texts.random_drilling import RandomDrilling, state_of
+from tracker.navigation import Verdict, assessment
+from tracker.navigation.alarms import AlarmState, Condition, Showing
+
+IMAGES = 500
+SEEDS = range(6)
+
+
+def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
+    verdicts: Counter[Verdict | None] = Counter()
+    breaches: Counter[tuple[AlarmState, Showing]] = Counter()
+    states = set()
+    for seed in SEEDS:
+        witness = Witness()
+        for told in RandomDrilling(seed).moments(IMAGES):
+            witness.hears(told)
+            states.add(state_of(told))
+            verdicts[told.message.headline.verdict] += 1
+            breaches.update(
+                (alarm.state, alarm.presence)
+                for alarm in told.alarms.alarms
+                if alarm.condition is Condition.BREACH
+            )
+    # It is worth nothing where nothing happened.
+    assert set(verdicts) == {None, *Verdict} - {Verdict.NOT_ASSESSED}
+    assert set(breaches) >= {
+        (AlarmState.ACTIVE, Showing.YES),
+        (AlarmState.ACTIVE, Showing.NO),
+        (AlarmState.ACTIVE, Showing.UNKNOWN),
+        (AlarmState.ACKNOWLEDGED, Showing.YES),
+        (AlarmState.LATCHED, Showing.NO),
+    }
+    assert len(states) > 150
+
+
+@pytest.mark.parametrize("wrong", [Verdict.ON_PATH, Verdict.CORRECT_ENTRY])
+def test_a_verdict_that_is_wrong_on_purpose_is_found(wrong: Verdict, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = assessment._verdict
+    monkeypatch.setattr(
+        assessment,
+        "_verdict",
+        lambda figures: wrong if right(figures) is Verdict.NEAR_WALL else right(figures),
+    )
+    with pytest.raises(AssertionError):
+        _hear_all()
+
+
+def test_an_alarm_that_tells_the_present_number_of_what_is_over_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Once it was "the drill is through the wall: 7.3 mm", with the wall 7.3 mm away."""
+    monkeypatch.setattr(
+        "server.stream.alarm_messages.alarm_text",
+        lambda alarm, **when: alarm_text(replace(alarm, presence=Showing.YES), **when),
+    )
+    with pytest.raises(AssertionError):
+        _hear_all()
+
+
+def _hear_all() -> None:
+    for seed in SEEDS:
+        witness = Witness()
+        for told in RandomDrilling(seed).moments(IMAGES):
+            witness.hears(told)
