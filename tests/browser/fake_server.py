@@ -5,6 +5,9 @@
     lost      the camera is gone: no snapshot, and a trouble with its remedy
     bare      images of a camera that is not calibrated
     deep      the drill's tip is past the planned end, which is an alarm
+    path, entry, near, breach   a drill in a bone: on path, its entry off, near a wall, through it
+    hidden    the same drill is not seen
+    wander    the same drill is led through all of this, back and forth
     stop      nothing is published any more, the server stays up
     anew      the server ends; one that remembers nothing begins on another port, with instants as in live
 
@@ -35,6 +38,8 @@ from server.logs import LogSettings
 from server.overlay import draw_overlay, encode_jpeg
 from server.procedure.steps import Steps
 from server.store import CaseStore, Home
+from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
+from tests.tracker.navigation.assessed import guide
 from tracker import CameraModel, Seen, ToolModel, Unseen, UnseenReason
 from tracker.geometry import Camera, Rigid, Tool, Vertebra
 from tracker.navigation import NavigationSnapshot, Setup, navigate
@@ -48,6 +53,13 @@ SIDE_MM = 25.0
 FAREWELL_S = 2
 CORNERS_MM = np.array([[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0], [-0.5, -0.5, 0]]) * SIDE_MM
 CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([0.9, 0.35, 0.0], [5, -10, 260])
+PLACES_IN_BONE = {
+    "path": (25.0, 0.1, 0.0, 0.2, 0.1, 1.0),
+    "entry": (-10.0, -2.4, 1.3, 0.2, 0.1, 1.0),
+    "near": (29.0, 2.4, 0.0, 0.0, 0.0, 1.0),
+    "breach": (29.0, 3.75, 0.0, 0.0, 0.0, 1.0),
+}
+IN_BONE = {*PLACES_IN_BONE, "hidden", "wander"}
 UNPLUGGED = Trouble(
     code="CAMERA_LOST",
     message="the camera has given no image for 2.0 s, allowed 1.0 s",
@@ -118,6 +130,21 @@ def snapshot_at(
     )
 
 
+def snapshot_in_bone(mode: str, number: int, now_s: float) -> NavigationSnapshot:
+    """A drill in the rod, whose walls are known."""
+    if mode == "wander":
+        # Every two seconds another place, with the way between them.
+        places, along = list(PLACES_IN_BONE.values()), number / RATE_HZ / 2.0
+        share = along - int(along)
+        first, second = (np.array(places[int(along + step) % len(places)]) for step in (0, 1))
+        where = first + share * (second - first)
+    else:
+        where = np.array(PLACES_IN_BONE.get(mode, PLACES_IN_BONE["path"]))
+    stands = setup_of()
+    sighting = UNSEEN if mode == "hidden" else seen_at(where, stands.tools["drill"])
+    return concluded(stands, guide(), {"drill": sighting}, number=number, captured_at_s=now_s)
+
+
 def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: AlarmDesk) -> Instant:
     """The instant that this mode asks for."""
     process = ProcessStatus(state=ProcessState.RUNNING)
@@ -127,13 +154,17 @@ def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: 
         )
         picture = alarms.look(None, away, process)
         return Instant(sequence=sequence, source=away, process=process, alarms=picture)
-    snapshot = snapshot_at(
-        sequence,
-        time.monotonic(),
-        seen=mode in ("live", "bare", "deep"),
-        calibrated=mode != "bare",
-        deep=mode == "deep",
-    )
+    now_s = time.monotonic()
+    if mode in IN_BONE:
+        snapshot = snapshot_in_bone(mode, sequence, now_s)
+    else:
+        snapshot = snapshot_at(
+            sequence,
+            now_s,
+            seen=mode in ("live", "bare", "deep"),
+            calibrated=mode != "bare",
+            deep=mode == "deep",
+        )
     source = SourceStatus(name="/dev/video0", state=SourceState.RUNNING, images=sequence, rate_hz=RATE_HZ)
     picture = alarms.look(snapshot, source, process)
     jpeg = encode_jpeg(draw_overlay(ground, snapshot, picture), 80)

@@ -19,23 +19,12 @@ from server.alarms.log import NoLog
 from server.config import Config
 from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.stream.messages import LiveMessage, live_message
-from tests.tracker.navigation.assessed import drill, guide
-from tests.tracker.navigation.bones import ROD_CHANNEL, drill_at
-from tracker.camera import CameraModel
-from tracker.geometry import Camera, Marker, Rigid, Vertebra
-from tracker.navigation import NavigationSnapshot, Setup, navigate
+from tests.server.texts.drilled_rod import UNSEEN, concluded, seen_at, setup_of
+from tests.tracker.navigation.assessed import guide
+from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import AlarmPicture
-from tracker.pose import Seen, Sighting, ToolModel, Unseen, UnseenReason
-from tracker.registration import Registration
+from tracker.pose import Sighting
 
-SIZE_WH_PX = (640, 360)
-CAMERA = CameraModel(
-    matrix=np.array([[700.0, 0.0, 320.0], [0.0, 700.0, 180.0], [0.0, 0.0, 1.0]]),
-    distortion=np.zeros(5),
-    size_wh_px=SIZE_WH_PX,
-)
-# The rod runs forwards from its back: seen from behind and above.
-CAMERA_FROM_VERTEBRA = Rigid[Camera, Vertebra].from_vector([-1.2, 0.3, 0.1], [0.0, 0.0, 300.0])
 RUNS = SourceStatus(name="rehearsal", state=SourceState.RUNNING)
 WORKS = ProcessStatus(state=ProcessState.RUNNING)
 START = datetime(2026, 1, 2, 10, 41, 13, tzinfo=UTC)
@@ -97,14 +86,7 @@ class RandomDrilling:
         self.random = random.Random(seed)
         self.rate_hz = self.random.choice([5.0, 12.0, 30.0])
         names = ["drill"] if seed % 3 else ["drill", "awl"]
-        self.tools: dict[str, ToolModel] = {name: drill(name) for name in names}
-        self.setup = Setup(
-            camera=CAMERA,
-            camera_calibrated=True,
-            tools=self.tools,
-            channel=ROD_CHANNEL,
-            registration=Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
-        )
+        self.setup = setup_of(names)
         self.guide = guide(self.random.choice([1.0, 1.8]))
         self.at_s = 1000.0
         self.log = KeptLog()
@@ -121,7 +103,7 @@ class RandomDrilling:
         """So many images, with silences and people between them."""
         number = 0
         while number < images:
-            targets = {name: np.array(self.random.choice(PLACES)) for name in self.tools}
+            targets = {name: np.array(self.random.choice(PLACES)) for name in self.setup.tools}
             hidden = self.random.random() < 0.15
             for _ in range(self.random.randint(2, max(3, round(2.5 * self.rate_hz)))):
                 number += 1
@@ -141,47 +123,10 @@ class RandomDrilling:
 
     def _concluded(self, number: int, *, hidden: bool) -> NavigationSnapshot:
         sightings: dict[str, Sighting] = {}
-        for name, tool in self.tools.items():
+        for name, tool in self.setup.tools.items():
             is_hidden = hidden and (name == "drill" or self.random.random() < 0.5)
-            sightings[name] = (
-                Unseen(reason=UnseenReason.NO_CANDIDATE) if is_hidden else self._seen(name, tool)
-            )
-        return navigate(
-            setup=self.setup,
-            sightings=sightings,
-            image_number=number,
-            captured_at_s=self.at_s - 0.02,
-            size_wh_px=SIZE_WH_PX,
-            stage_ms={},
-            skipped_images=0,
-            guide=self.guide,
-        )
-
-    def _seen(self, name: str, tool: ToolModel) -> Seen:
-        depth, medial, cranial, medial_deg, cranial_deg, unsure = self.where[name]
-        placed = drill_at(
-            ROD_CHANNEL,
-            float(depth),
-            medial_mm=float(medial),
-            cranial_mm=float(cranial),
-            medial_deg=float(medial_deg),
-            cranial_deg=float(cranial_deg),
-        )
-        pose: Rigid[Camera, Marker] = CAMERA_FROM_VERTEBRA @ placed @ tool.marker_from_tool.inverse
-        sd = float(unsure) * np.array([0.08] * 3 + [0.0004] * 3)
-        return Seen(
-            camera_from_marker=pose,
-            pose_covariance=np.diag(sd**2),
-            corners_px=CAMERA.px_from_camera(
-                pose.move_points([[-10, 10, 0], [10, 10, 0], [10, -10, 0], [-10, -10, 0]])
-            ),
-            score_ratio=0.9,
-            target_score_ratio=0.9,
-            model_coverage_ratio=0.9,
-            target_coverage_ratio=0.9,
-            fit_error_px2=0.1,
-            found_by="track",
-        )
+            sightings[name] = UNSEEN if is_hidden else seen_at(self.where[name], tool)
+        return concluded(self.setup, self.guide, sightings, number=number, captured_at_s=self.at_s - 0.02)
 
     def _person(self) -> Iterator[Told]:
         """Now and then somebody acknowledges, pauses, or changes what the registration depends on."""
