@@ -22,7 +22,7 @@ from tracker.navigation import (
     NavigationSnapshot,
     Verdict,
 )
-from tracker.navigation.alarms import Alarm, AlarmPicture, AlarmState, Kind, Priority, Showing
+from tracker.navigation.alarms import TRAITS, Alarm, AlarmPicture, AlarmState, Kind, Priority, Showing
 from tracker.navigation.clearance import MeasuredAgainst
 from tracker.pose import Seen, Unseen
 
@@ -60,7 +60,7 @@ class Headline:
         tone: its colour.
         title: "CORRECT 1.2 mm medial", "NO TRACKING".
         detail: the figure with its limit and what to do, or why there are no figures.
-        event: alarms that are over and not acknowledged, that are being cleared, or whose drill is not
+        event: breaches that are over and not acknowledged, that are being cleared, or whose drill is not
             tracked now: "BREACH 10:41:13 not acknowledged". Empty where there are none.
     """
 
@@ -189,7 +189,8 @@ def _event(alarms: AlarmPicture, language: Language) -> str:
 
 
 def _one_event(alarm: Alarm, unix_offset_s: float, language: Language) -> str:
-    if alarm.kind is not Kind.PHYSIOLOGICAL or alarm.presence is Showing.YES:
+    # A warning that has passed goes by itself; only what somebody has to acknowledge is named.
+    if not TRAITS[alarm.condition].latches or alarm.presence is Showing.YES:
         return ""
     title = alarm_title(alarm.condition)[language]
     if is_lost(alarm):

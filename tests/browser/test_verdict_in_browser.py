@@ -91,8 +91,10 @@ def test_a_breach_from_the_path_to_its_acknowledgement(theatre: Theatre, watch: 
         re.compile(rf"Was 0\.8 mm through the medial wall at 29\.0 mm depth, {TIME}\. Not through now\.")
     )
     expect(alarm).not_to_contain_text("Stop.")
-    # What is over does not flash.
-    page.wait_for_function("() => document.querySelector('[data-testid=alarms]').dataset.lit === 'true'")
+    # What is over does not flash, and is not lit.
+    unlit = "getComputedStyle(document.querySelector('.alarms-top .alarms-state')).backgroundColor"
+    assert page.evaluate(unlit) == "rgba(0, 0, 0, 0)"
+    headline(page, "▲ ON PATH", "caution")
     keep(page, "over-not-acknowledged")
     page.get_by_test_id("acknowledge").click()
     headline(page, "● ON PATH", "good")

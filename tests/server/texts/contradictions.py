@@ -77,7 +77,7 @@ class Witness:
         not_present = [
             one
             for one in told.message.alarms.alarms
-            if one.condition in PHYSIOLOGICAL and one.presence is not Showing.YES
+            if one.condition in (Condition.BREACH, Condition.PAST_DEPTH) and one.presence is not Showing.YES
         ]
         assert bool(headline.event.en) == bool(not_present)
         for alarm in not_present:
