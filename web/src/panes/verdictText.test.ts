@@ -24,5 +24,5 @@ test("the error is the whole one, with what the pedicle leaves", () => {
 test("the nearest wall is named, and a drill outside has none", () => {
   expect(wallSide(assessment(), en)).toBe("medial");
   const outside = assessment({ wall: null }, { wall: figure(null, { limit: 1, status: "outside" }) });
-  expect(wallSide(outside, en)).toBe("outside bone");
+  expect(wallSide(outside, en)).toBe("outside");
 });

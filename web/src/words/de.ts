@@ -54,7 +54,7 @@ export const de: Words = {
     wall: { name: "Wand", hint: "kleinster Abstand des Bohrers", unit: "mm" },
   },
   wall: {
-    outside: "außerhalb des Knochens",
+    outside: "außerhalb",
     soon: "in 2 mm",
     atEnd: "Schraube am Ende",
     risk: "Durchbruchrisiko",

@@ -56,7 +56,7 @@ export const en: Words = {
     wall: { name: "Wall", hint: "least clearance of the drill", unit: "mm" },
   },
   wall: {
-    outside: "outside bone",
+    outside: "outside",
     soon: "in 2 mm",
     atEnd: "screw at the end",
     risk: "Risk of breach",
