@@ -23,13 +23,11 @@ class CameraMessage(Message):
 
 
 class LimitsMessage(Message):
-    """From where on a page must say that something is old, or near."""
+    """From where on a page must say that something is old."""
 
     pose_stale_after_ms: float
     video_stale_after_ms: float
     scene_stale_after_ms: float
-    warning_distance_mm: float
-    """Bone beside the drill, below which the wall is near."""
 
 
 class PathsMessage(Message):
@@ -83,7 +81,6 @@ def dashboard_message(config: Config, *, scene_available: bool) -> DashboardMess
             pose_stale_after_ms=limits.pose_stale_after_ms,
             video_stale_after_ms=limits.video_stale_after_ms,
             scene_stale_after_ms=limits.scene_stale_after_ms,
-            warning_distance_mm=config.alarms.warning_distance_mm,
         ),
         scene_available=scene_available,
         paths=PathsMessage(

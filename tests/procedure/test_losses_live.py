@@ -20,7 +20,7 @@ EVENTS = (
     RehearsalEventConfig(kind="reference_hidden", at_s=6.5, lasts_s=1.5),
     RehearsalEventConfig(kind="camera_stops", at_s=10.0, lasts_s=2.0),
 )
-ALL_TOLD = {"pose": "tool", "deviation": "deviation", "judgement": "judgement"}
+ALL_TOLD = {"pose": "tool", "deviation": "deviation", "judgement": "judgement", "assessment": "assessment"}
 
 
 def kinds(tool: dict[str, Any]) -> dict[str, str]:

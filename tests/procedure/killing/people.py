@@ -97,7 +97,7 @@ class Listener:
             return
         process = int(message["process"]["restarts"])
         for tool in message["snapshot"]["tools"]:
-            if tool["deviation"]["kind"] == "deviation" or tool["judgement"]["kind"] == "judgement":
+            if any(tool[name]["kind"] != "absent" for name in ("deviation", "judgement", "assessment")):
                 self.numbers.add(process)
             elif tool["deviation"]["kind"] == "absent":
                 self.reasons.setdefault(process, set()).add(tool["deviation"]["reason"])

@@ -57,7 +57,6 @@ def test_the_page_is_told_names_limits_and_addresses(client: TestClient) -> None
         "pose_stale_after_ms": 150.0,
         "video_stale_after_ms": 500.0,
         "scene_stale_after_ms": 500.0,
-        "warning_distance_mm": 1.0,
     }
 
 

@@ -57,7 +57,7 @@ class Shown:
         """Whether the JSON says where the drill is, or how far it is from the channel."""
         snapshot = self.message.snapshot
         return snapshot is not None and any(
-            "absent" not in {tool.pose.kind, tool.deviation.kind, tool.judgement.kind}
+            "absent" not in {tool.pose.kind, tool.deviation.kind, tool.judgement.kind, tool.assessment.kind}
             for tool in snapshot.tools
         )
 
@@ -66,7 +66,7 @@ class Shown:
         """Whether anything at all is said of where the drill is."""
         snapshot = self.message.snapshot
         told = snapshot is not None and any(
-            {tool.pose.kind, tool.deviation.kind, tool.judgement.kind} != {"absent"}
+            {tool.pose.kind, tool.deviation.kind, tool.judgement.kind, tool.assessment.kind} != {"absent"}
             for tool in snapshot.tools
         )
         return told or self.is_drawn or self.is_on_stage
