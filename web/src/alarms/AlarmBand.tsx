@@ -4,6 +4,7 @@ import { setData } from "../panes/setText";
 import { useWords } from "../words/WordsContext";
 import { isLit } from "./flash";
 import { KnownAlarms } from "./KnownAlarms";
+import { LoadingAlarms } from "./LoadingAlarms";
 import { SoundState } from "./SoundState";
 import { UnknownAlarms } from "./UnknownAlarms";
 import { useAlarmSound } from "./useAlarmSound";
@@ -15,7 +16,8 @@ export function AlarmBand(): ReactNode {
   const { view } = useLive();
   const sound = useAlarmSound();
   const band = useRef<HTMLElement>(null);
-  const verdict = alarmsVerdict(view, view.link !== "connecting");
+  const verdict = alarmsVerdict(view, view.firstMessage === "received");
+  const isLoading = view.firstMessage === "awaited";
   usePainter((now) => {
     const is = alarmsVerdict(now, true);
     const top = is.known ? is.alarms.alarms[0] : undefined;
@@ -29,11 +31,12 @@ export function AlarmBand(): ReactNode {
       className="alarms"
       aria-label={words.title}
       data-testid="alarms"
-      data-priority={verdict.known ? (top?.priority ?? "none") : "unknown"}
+      data-priority={verdict.known ? (top?.priority ?? "none") : isLoading ? "loading" : "unknown"}
       data-state={top?.state ?? "normal"}
       ref={band}
     >
-      {verdict.known ? <KnownAlarms alarms={verdict.alarms} /> : <UnknownAlarms sound={sound} />}
+      {verdict.known && <KnownAlarms alarms={verdict.alarms} />}
+      {!verdict.known && (isLoading ? <LoadingAlarms /> : <UnknownAlarms sound={sound} />)}
       <SoundState sound={sound} isPaused={isPaused} />
     </section>
   );

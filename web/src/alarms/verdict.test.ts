@@ -13,6 +13,12 @@ test("what the server says is shown as long as it is heard", () => {
   expect(alarmsVerdict({ ...heard, newest: null }, false)).toEqual({ known: false, everHeard: false });
 });
 
+test("before the first message a page knows of no alarm, and makes none of its own, however long it waits", () => {
+  const loading = alarmsVerdict({ link: "lost", silentMs: 5000, newest: null }, false);
+  expect(loading).toEqual({ known: false, everHeard: false });
+  expect(wantedSound(loading, 60_000, 0).sound).toBe("silent");
+});
+
 test("the server's sound is played, and no other", () => {
   expect(wantedSound({ known: true, alarms: ringing }, 0, 0)).toEqual({ sound: "high", number: 4 });
   expect(wantedSound({ known: true, alarms: alarms() }, 0, 0).sound).toBe("silent");

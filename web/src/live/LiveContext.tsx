@@ -1,6 +1,15 @@
 // The way from the live state into React: words and tables a few times a second, and at once when what they
 // say changes. Picture and figures do not come this way; they are painted directly.
-import { createContext, use, useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
+import {
+  createContext,
+  use,
+  useEffect,
+  useEffectEvent,
+  useLayoutEffect,
+  useRef,
+  useState,
+  type ReactNode,
+} from "react";
 import type { Carried } from "./carried";
 import type { Ages, View } from "./live";
 import { Live } from "./live";
@@ -55,21 +64,21 @@ export function useCarried(): Carried {
   return useLive().view.carried;
 }
 
-/** Paints directly with every look, past React's state. */
+/** Paints directly with every look, past React's state, and at once before what is new is seen. */
 export function usePainter(paint: (view: View) => void): void {
   const { live } = useLive();
   const onLook = useEffectEvent(paint);
-  useEffect(
-    () =>
-      live.onLook((view) => {
-        onLook(view);
-      }),
-    [live],
-  );
+  useLayoutEffect(() => {
+    const leave = live.onLook((view) => {
+      onLook(view);
+    });
+    live.look();
+    return leave;
+  }, [live]);
 }
 
 /** What the words say; a change of it is shown at once. */
-function keyOf({ link, video, numbers, scene, newest, carried }: View): string {
+function keyOf({ link, firstMessage, video, numbers, scene, newest, carried }: View): string {
   const videoKey = video.live ? "live" : video.cause;
   const unread = numbers.live ? null : numbers.unread;
   const numbersKey = numbers.live
@@ -78,6 +87,7 @@ function keyOf({ link, video, numbers, scene, newest, carried }: View): string {
   const troubles = `${newest?.source.trouble?.code ?? ""} ${newest?.process.trouble?.code ?? ""}`;
   return [
     link,
+    firstMessage,
     videoKey,
     numbersKey,
     scene.state,

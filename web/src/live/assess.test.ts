@@ -1,5 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { numbersVerdict, videoVerdict, type Cause, type Situation } from "./assess";
+import { REACHED_WITHIN_MS } from "./firstMessage";
 import { message, situation, snapshot, taken } from "./builders";
 import { headline } from "./figureBuilders";
 
@@ -7,9 +8,34 @@ const NOW = 1000;
 const source = message().source;
 const process = message().process;
 
+const LOADING = { everHeard: false, newest: null, numbers: null, picture: null, waitingSinceMs: NOW - 5000 };
+
 const GONE: [string, Partial<Situation>, Cause][] = [
   ["page hidden", { hidden: true }, "hidden"],
-  ["first start", { link: "connecting", heardAtMs: null, newest: null }, "connecting"],
+  ["first start", { ...LOADING, link: "connecting", heardAtMs: null }, "connecting"],
+  ["still loading: line open, first message not come", LOADING, "connecting"],
+  [
+    "still loading: open and silent for longer than a server may be",
+    { ...LOADING, heardAtMs: NOW - 5000 },
+    "connecting",
+  ],
+  ["still loading: line lost and tried again", { ...LOADING, link: "lost" }, "connecting"],
+  ["still loading, in the background", { ...LOADING, hidden: true }, "hidden"],
+  [
+    "still loading after the whole grace time",
+    { ...LOADING, waitingSinceMs: NOW - REACHED_WITHIN_MS },
+    "connecting",
+  ],
+  [
+    "no sign of the server for longer",
+    { ...LOADING, waitingSinceMs: NOW - REACHED_WITHIN_MS - 1 },
+    "not-reached",
+  ],
+  [
+    "heard once, then the line lost, however short ago",
+    { link: "lost", newest: null, waitingSinceMs: NOW },
+    "server-gone",
+  ],
   ["line open, nothing said yet", { newest: null }, "connecting"],
   ["line lost", { link: "lost" }, "server-gone"],
   ["line said to stand, but silent", { heardAtMs: NOW - 801 }, "server-gone"],

@@ -1,4 +1,5 @@
 // What may be shown now. Pure: a situation and a time go in, a verdict for each pane comes out.
+import { firstMessageAt, type FirstMessageWait } from "./firstMessage";
 import type { Reading } from "./reading";
 import { readingOf, type Unread } from "./reading";
 import type { AlarmsMessage, HeadlineMessage, LiveMessage, SnapshotMessage } from "./messages";
@@ -20,7 +21,7 @@ export interface Taken {
   receivedAtMs: number;
 }
 
-export interface Situation {
+export interface Situation extends FirstMessageWait {
   link: LinkState;
   hidden: boolean;
   heardAtMs: number | null;
@@ -29,13 +30,39 @@ export interface Situation {
   numbers: Taken | null;
   /** Whose picture stands on the canvas. */
   picture: Taken | null;
+  /** Since when there is a canvas on which no picture has stood yet; null without one. */
+  canvasSinceMs: number | null;
   limits: Limits;
+}
+
+/** Until the server has told its own. */
+const DEFAULT_LIMITS: Limits = {
+  pose_stale_after_ms: 150,
+  video_stale_after_ms: 500,
+  scene_stale_after_ms: 500,
+};
+
+/** Of a page that was loaded just now: nothing is known. */
+export function situationAtLoad(nowMs: number): Situation {
+  return {
+    link: "connecting",
+    hidden: false,
+    everHeard: false,
+    waitingSinceMs: nowMs,
+    heardAtMs: null,
+    newest: null,
+    numbers: null,
+    picture: null,
+    canvasSinceMs: null,
+    limits: DEFAULT_LIMITS,
+  };
 }
 
 /** Why a pane shows nothing, from the server's end down to the image. */
 export type Cause =
   | "hidden"
   | "connecting"
+  | "not-reached"
   | "server-gone"
   | "process-starting"
   | "process-restarting"
@@ -56,12 +83,18 @@ export type NumbersVerdict =
 /** Nothing heard for this long, though the line is said to stand: the server is gone. */
 export const SILENT_AFTER_MS = 800;
 
+/** A canvas that came just now, as with another step, gets its first picture within this on a loaded machine. */
+export const FIRST_PICTURE_WITHIN_MS = 2000;
+
 export function videoVerdict(situation: Situation, nowMs: number): VideoVerdict {
-  const { picture, limits } = situation;
+  const { picture, canvasSinceMs, limits } = situation;
   const ageMs = picture === null ? null : nowMs - picture.capturedAtMs;
   const cause = commonCause(situation, nowMs);
   if (cause !== null) return { live: false, cause, ageMs };
-  if (picture === null || ageMs === null) return { live: false, cause: "no-image", ageMs: null };
+  if (picture === null || ageMs === null) {
+    const isNew = canvasSinceMs !== null && nowMs - canvasSinceMs <= FIRST_PICTURE_WITHIN_MS;
+    return { live: false, cause: isNew ? "connecting" : "no-image", ageMs: null };
+  }
   if (!(ageMs <= limits.video_stale_after_ms)) return { live: false, cause: "old", ageMs };
   return { live: true, imageNumber: picture.snapshot.image_number, ageMs };
 }
@@ -84,7 +117,8 @@ export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerd
 export function commonCause(situation: Situation, nowMs: number): Cause | null {
   const { link, hidden, heardAtMs, newest } = situation;
   if (hidden) return "hidden";
-  if (link === "connecting" && heardAtMs === null) return "connecting";
+  const first = firstMessageAt(situation, nowMs);
+  if (first !== "received") return first === "overdue" ? "not-reached" : "connecting";
   if (link !== "open") return "server-gone";
   if (heardAtMs !== null && nowMs - heardAtMs > SILENT_AFTER_MS) return "server-gone";
   if (newest === null) return "connecting";

@@ -148,6 +148,9 @@ export function situation(changes: Partial<Situation> = {}): Situation {
   return {
     link: "open",
     hidden: false,
+    everHeard: true,
+    waitingSinceMs: 0,
+    canvasSinceMs: null,
     heardAtMs: 980,
     newest: message(),
     numbers: taken(960),

@@ -2,6 +2,7 @@
 // image of the screen and by a timer, so that what is old goes by itself.
 import {
   numbersVerdict,
+  situationAtLoad,
   videoVerdict,
   type Limits,
   type NumbersVerdict,
@@ -10,6 +11,7 @@ import {
 } from "./assess";
 import { Carrying, type PictureChoice } from "./carried";
 import { ServerClock } from "./clock";
+import { firstMessageAt } from "./firstMessage";
 import type { ViewFrame } from "./frame";
 import type { LinkState } from "./line";
 import type { LiveMessage } from "./messages";
@@ -22,23 +24,9 @@ export type { Ages, View } from "./view";
 /** Draws the picture of a frame; false when it cannot be drawn. */
 export type Draw = (jpeg: Uint8Array<ArrayBuffer>, isCurrent: () => boolean) => Promise<boolean>;
 
-export const DEFAULT_LIMITS: Limits = {
-  pose_stale_after_ms: 150,
-  video_stale_after_ms: 500,
-  scene_stale_after_ms: 500,
-};
-
 export class Live {
   private draw: Draw = () => Promise.resolve(false);
-  private readonly is: Situation = {
-    link: "connecting",
-    hidden: false,
-    heardAtMs: null,
-    newest: null,
-    numbers: null,
-    picture: null,
-    limits: DEFAULT_LIMITS,
-  };
+  private readonly is: Situation;
   private trackedAtMs: number | null = null;
   /** Grows with each line, so that what a lost line still delivers is dropped. */
   private generation = 0;
@@ -49,7 +37,9 @@ export class Live {
   private onChoice: (choice: PictureChoice) => void = () => undefined;
   private readonly painters = new Set<(view: View) => void>();
 
-  constructor(private readonly now: () => number) {}
+  constructor(private readonly now: () => number) {
+    this.is = situationAtLoad(now());
+  }
 
   /** Called with every look; must only touch the page where something changed. */
   onLook(painter: (view: View) => void): () => void {
@@ -69,6 +59,7 @@ export class Live {
       nowMs,
       link: this.is.link,
       silentMs: this.is.heardAtMs === null ? 0 : nowMs - this.is.heardAtMs,
+      firstMessage: firstMessageAt(this.is, nowMs),
       newest: this.is.newest,
       // Beside live figures, what was said with their own image: no other number of the same thing.
       alarms: (numbers.live ? this.is.numbers?.alarms : this.is.newest?.alarms) ?? null,
@@ -85,6 +76,7 @@ export class Live {
 
   setDraw(draw: Draw): void {
     this.draw = draw;
+    this.is.canvasSinceMs = this.now();
   }
 
   /** Who tells the server which size is wanted, now and with each later choice. */
@@ -108,6 +100,8 @@ export class Live {
 
   setHidden(hidden: boolean): void {
     this.is.hidden = hidden;
+    // A page in the background is held back by the browser: what it did not hear there says nothing of the server.
+    if (!hidden) this.is.waitingSinceMs = this.now();
     this.look();
   }
 
@@ -126,17 +120,20 @@ export class Live {
   async take({ message, jpeg }: ViewFrame): Promise<boolean> {
     const generation = this.generation;
     const isCurrent = (): boolean => generation === this.generation;
-    const receivedAtMs = this.heard();
+    const receivedAtMs = (this.is.waitingSinceMs = this.heard());
     this.is.newest = message;
     const taken = this.takenFrom(message, receivedAtMs);
     if (taken) this.sceneAge.image(taken.snapshot.image_number, taken.capturedAtMs);
     // Numbers and picture change together, when the picture is ready: both are of one image.
     const began = this.now();
     const drawn = taken !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent));
+    // Not before its picture stands: to say that there is none would be a false alarm.
+    this.is.everHeard = true;
     if (!isCurrent()) return false;
     this.is.numbers = taken;
     if (drawn) {
       this.is.picture = taken;
+      this.is.canvasSinceMs = null;
       this.noteCarried(taken.snapshot, began, message.shown_scale_ratio);
     }
     this.look();
@@ -146,7 +143,7 @@ export class Live {
   /** The answer to a question that was asked because the line was quiet, or to compare clocks. */
   answered(message: LiveMessage | null, askedAtMs: number, generation: number): void {
     if (generation !== this.generation) return;
-    const answeredAtMs = this.heard();
+    const answeredAtMs = (this.is.waitingSinceMs = this.heard());
     if (message === null) return;
     this.clock.sample(askedAtMs, answeredAtMs, message.sent_at_s);
     if (this.is.newest === null || message.sequence > this.is.newest.sequence) this.is.newest = message;

@@ -14,6 +14,8 @@ test("loads until its first image", () => {
   expect(scene.verdict(2000, 500)).toEqual({ state: "loading" });
   scene.drawn(note(null, false), 2000);
   expect(scene.verdict(2000, 500)).toEqual({ state: "loading" });
+  scene.drawn(note(null), 2000);
+  expect(scene.verdict(2000, 500)).toEqual({ state: "loading" });
 });
 
 test("is live with the newest image, and says how far behind it is", () => {

@@ -62,7 +62,8 @@ export class SceneAge {
       const behindImages = Math.max(newest.imageNumber - number, 0);
       return { state: "live", imageNumber: number, behindImages, ageMs };
     }
-    if (!this.wasLive && this.note?.connected !== true) return { state: "loading" };
+    // Connected before anything is drawn, it is still on its way.
+    if (!this.wasLive && (number === null || this.note?.connected !== true)) return { state: "loading" };
     return { state: "stale", imageNumber: number, ageMs };
   }
 

@@ -1,6 +1,7 @@
 // What the page knows of one moment, as every pane is told it.
 import type { NumbersVerdict, VideoVerdict } from "./assess";
 import type { Carried } from "./carried";
+import type { FirstMessage } from "./firstMessage";
 import type { LinkState } from "./line";
 import type { AlarmsMessage, LiveMessage } from "./messages";
 import type { SceneVerdict } from "./sceneAge";
@@ -18,6 +19,8 @@ export interface View {
   nowMs: number;
   link: LinkState;
   silentMs: number;
+  /** Since the page was loaded; what it claims before that is nothing. */
+  firstMessage: FirstMessage;
   newest: LiveMessage | null;
   /** The words of the alarms: of the same image as the figures, where those are live. */
   alarms: AlarmsMessage | null;

@@ -11,12 +11,14 @@ const TOOLS: readonly Tool[] = ["point", "pen", "arrow", "circle"];
 
 /** What the hand does on the video, and how it is taken back. */
 export function MarksTools(): ReactNode {
-  const words = useWords().marks;
+  const { marks: words, rest } = useWords();
   const marking = useMarking();
-  const { stands, you, fadesAfterS } = useRoomWords();
+  const { stands, firstMessage, you, fadesAfterS } = useRoomWords();
   const { view } = useLive();
   if (marking === null) return null;
-  const trouble = !stands ? words.lineGone : !view.video.live ? words.noPicture : "";
+  const isLoading = firstMessage === "awaited" || view.firstMessage === "awaited";
+  const gone = !stands ? words.lineGone : !view.video.live ? words.noPicture : "";
+  const trouble = isLoading ? rest.loading : gone === "" ? "" : `▲ ${gone}`;
   return (
     <div className="marks-tools" role="toolbar" aria-label={words.tools}>
       {TOOLS.map((tool) => (
@@ -66,7 +68,7 @@ export function MarksTools(): ReactNode {
       )}
       <p role="status" className="marks-trouble">
         {trouble !== ""
-          ? `▲ ${trouble}`
+          ? trouble
           : fadesAfterS === null
             ? words.seenBy
             : `${words.seenBy} ${words.fades.replace("#", shownNumber(fadesAfterS, 0))}`}

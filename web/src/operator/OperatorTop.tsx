@@ -8,13 +8,14 @@ import { useProcedure } from "../app/procedure";
 /** Whose case is open, whether tracking, camera and server are there, and the way to the other views. */
 export function OperatorTop(): ReactNode {
   const words = useWords();
-  const { data } = useProcedure();
+  const { data, refusal } = useProcedure();
+  const unknown = refusal === null ? words.rest.loading : words.theatre.unknown;
   return (
     <header className="operator-top">
       <Brand />
       <p className="operator-case" data-testid="open-case">
         <span>{words.theatre.case}</span>{" "}
-        <strong>{data === null ? words.theatre.unknown : (data.case_name ?? words.theatre.noCase)}</strong>
+        <strong>{data === null ? unknown : (data.case_name ?? words.theatre.noCase)}</strong>
       </p>
       <LiveStatus withTracking />
       <ViewSwitch />

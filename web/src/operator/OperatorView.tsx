@@ -3,6 +3,7 @@ import { useLocation } from "wouter";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AlertBand } from "../panes/AlertBand";
+import { Unanswered } from "../rest/Unanswered";
 import { useWords } from "../words/WordsContext";
 import { OperatorTop } from "./OperatorTop";
 import { pageAt, PAGES } from "./pages";
@@ -15,8 +16,11 @@ import { useBandHeight } from "./useBandHeight";
 export function OperatorView(): ReactNode {
   const words = useWords();
   const [path] = useLocation();
-  const { data } = useProcedure();
-  const next = data?.case_id == null ? "case" : data.next_step;
+  const procedure = useProcedure();
+  const { data, refusal } = procedure;
+  // Which step is next is not known before the first answer; without one the list of cases is the place to begin.
+  const next =
+    data === null ? (refusal === null ? null : "case") : ((data.case_id && data.next_step) ?? "case");
   const band = useBandHeight<HTMLDivElement>();
   const page = pageAt(path) ?? PAGES.find((one) => one.step === next || one.name === next) ?? null;
   return (
@@ -33,7 +37,9 @@ export function OperatorView(): ReactNode {
       <div className="operator-body">
         <StepRail now={page} />
         <main id="step" className="step" tabIndex={-1}>
-          {page !== null && (
+          {page === null ? (
+            <Unanswered asked={procedure} />
+          ) : (
             <>
               <StepHead page={page} />
               <page.Page />

@@ -17,7 +17,7 @@ const FOR_MACHINES = "/api/";
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const words = useWords().operator;
   const { data, refusal } = useProcedure();
-  const gates = useGates();
+  const gates = useGates().data;
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
   const note = step === null ? "" : stepNote(step, gates?.registration.least_points ?? null, words);

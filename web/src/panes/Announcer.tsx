@@ -8,10 +8,10 @@ const LASTS_MS = 700;
 /** Beside a live picture: reads changes of its state out, never numbers. */
 export function Announcer(): ReactNode {
   const words = useWords();
-  const { video, numbers } = useLive().view;
+  const { video, numbers, firstMessage } = useLive().view;
   const picture = video.live ? words.video.title : `${words.video.none}: ${words.cause[video.cause].state}`;
   const tracking = numbers.live ? words.numbers.tracking : words.numbers.none;
-  const sentence = `${picture}. ${tracking}.`;
+  const sentence = firstMessage === "awaited" ? words.cause.connecting.sentence : `${picture}. ${tracking}.`;
   const [said, setSaid] = useState("");
   useEffect(() => {
     const timer = setTimeout(() => {

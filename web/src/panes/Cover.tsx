@@ -1,8 +1,9 @@
 import type { ReactNode } from "react";
 
-export type Urgency = "medium" | "low";
+/** `none` while a page is loading, which is nothing to be alarmed at. */
+export type Urgency = "medium" | "low" | "none";
 
-const MARKS: Record<Urgency, string> = { medium: "▲▲", low: "●" };
+const MARKS: Record<Urgency, string> = { medium: "▲▲", low: "●", none: "◌" };
 
 interface CoverProps {
   urgency: Urgency;

@@ -10,20 +10,21 @@ export function LiveStatus({ withTracking = false }: { withTracking?: boolean })
   const { view } = useLive();
   const { linkState, source } = heardOf(view);
   const cameraState = source?.state ?? "unknown";
+  const isLoading = view.firstMessage === "awaited";
   return (
     <dl className="facts facts-status" aria-label={words.shell.status}>
       {withTracking && (
         <Fact
           name={words.shell.tracking}
-          value={view.numbers.live ? words.shell.live : words.shell.none}
-          mood={view.numbers.live ? "good" : "bad"}
+          value={isLoading ? words.rest.loading : view.numbers.live ? words.shell.live : words.shell.none}
+          mood={isLoading ? "waiting" : view.numbers.live ? "good" : "bad"}
           testid="tracking-state"
         />
       )}
       <Fact
         name={words.header.camera}
-        value={words.cameraState[cameraState]}
-        mood={cameraState === "running" ? "good" : cameraState === "opening" ? "waiting" : "bad"}
+        value={isLoading ? words.rest.loading : words.cameraState[cameraState]}
+        mood={isLoading || cameraState === "opening" ? "waiting" : cameraState === "running" ? "good" : "bad"}
         testid="camera-state"
       />
       <Fact

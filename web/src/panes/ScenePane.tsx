@@ -88,7 +88,7 @@ export function ScenePane(): ReactNode {
         </div>
         <div className="when-stale" data-testid="scene-cover">
           <Cover
-            urgency={loading ? "low" : "medium"}
+            urgency={loading ? "none" : "medium"}
             title={loading ? words.scene.loading : words.scene.stale}
             sentence={loading ? words.scene.loadingHint : words.scene.staleHint}
           >

@@ -1,16 +1,16 @@
-import { useEffect, useRef, type ReactNode } from "react";
+import { useLayoutEffect, useRef, type ReactNode } from "react";
 import { LineNote } from "../live/LineNote";
 import { useLive, usePainter } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
 import { useWords } from "../words/WordsContext";
 import { Announcer } from "./Announcer";
-import { Cover } from "./Cover";
 import { clearPicture, drawPicture } from "./drawPicture";
 import { Moves } from "./Moves";
 import { Pane } from "./Pane";
 import { setData, setText } from "./setText";
 import { troublesOf } from "./troubles";
+import { VideoCover } from "./VideoCover";
 
 interface VideoPaneProps {
   /** Beside the title. */
@@ -29,7 +29,8 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const stamp = useRef<HTMLParagraphElement>(null);
   const painted = useRef(false);
 
-  useEffect(() => {
+  // Before the painters' first look, which then knows that this canvas is new.
+  useLayoutEffect(() => {
     live.setDraw(async (jpeg, isCurrent) => {
       if (canvas.current === null || coarse.current === null) return false;
       const drawn = await drawPicture(canvas.current, coarse.current, jpeg, isCurrent);
@@ -53,8 +54,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
     setText(stamp.current, video.live ? `${image} · ${words.video.age} ${age}` : "");
   });
 
-  const cause = view.video.live ? null : view.video.cause;
-  const trouble = troublesOf(view)[0];
+  const cause = view.video.live ? "old" : view.video.cause;
   return (
     <Pane
       id="video"
@@ -84,14 +84,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           <span aria-hidden="true">▲▲</span> {words.video.late}
         </p>
         <div className="when-stale" data-testid="video-cover">
-          <Cover
-            urgency="medium"
-            title={words.video.none}
-            state={words.cause[cause ?? "old"].state}
-            sentence={
-              trouble ? `${trouble.message}. ${trouble.remedy}` : words.cause[cause ?? "old"].sentence
-            }
-          />
+          <VideoCover cause={cause} trouble={troublesOf(view)[0]} />
         </div>
       </div>
       <Announcer />

@@ -4,12 +4,16 @@ import type { View } from "../live/live";
 import type { LiveMessage } from "../live/messages";
 
 export interface HeardOf {
-  linkState: LinkState;
+  linkState: LinkState | "not-reached";
   source: LiveMessage["source"] | null;
   snapshot: LiveMessage["snapshot"];
 }
 
-export function heardOf({ link, video, newest }: View): HeardOf {
+export function heardOf({ link, firstMessage, video, newest }: View): HeardOf {
+  if (firstMessage !== "received") {
+    const linkState = firstMessage === "awaited" ? "connecting" : "not-reached";
+    return { linkState, source: null, snapshot: null };
+  }
   const gone = link === "open" && !video.live && video.cause === "server-gone";
   const linkState = gone ? "lost" : link;
   const isHeard = linkState === "open";

@@ -2,6 +2,7 @@
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
 import { Refusal } from "./client";
 
+/** With neither `data` nor `refusal` nothing is known yet: `Unanswered.tsx` stands in its place, never "none". */
 export interface Asked<Data> {
   data: Data | null;
   refusal: Refusal | null;
@@ -9,12 +10,15 @@ export interface Asked<Data> {
   again: () => void;
 }
 
+type Known<Data> = Omit<Asked<Data>, "again">;
+const NOTHING: Known<never> = { data: null, refusal: null, asking: true };
+
 /** `ask` is called when `key` changes, with `again()`, and every `everyMs` where that is given. */
 export function useAsked<Data>(
   ask: (signal: AbortSignal) => Promise<Data>,
   { key = "", everyMs = 0 }: { key?: string; everyMs?: number } = {},
 ): Asked<Data> {
-  const [state, setState] = useState<Omit<Asked<Data>, "again">>({ data: null, refusal: null, asking: true });
+  const [state, setState] = useState<Known<Data> & { key: string }>({ key, ...NOTHING });
   const [round, setRound] = useState(0);
   const onAsk = useEffectEvent(ask);
 
@@ -23,11 +27,11 @@ export function useAsked<Data>(
     const run = async (): Promise<void> => {
       try {
         const data = await onAsk(stop.signal);
-        if (!stop.signal.aborted) setState({ data, refusal: null, asking: false });
+        if (!stop.signal.aborted) setState({ key, data, refusal: null, asking: false });
       } catch (error) {
         if (stop.signal.aborted) return;
         // What was known stands no more beside a refusal: old must not look like now.
-        if (error instanceof Refusal) setState({ data: null, refusal: error, asking: false });
+        if (error instanceof Refusal) setState({ key, data: null, refusal: error, asking: false });
         else throw error;
       }
       if (everyMs > 0 && !stop.signal.aborted) timer = setTimeout(() => void run(), everyMs);
@@ -43,5 +47,7 @@ export function useAsked<Data>(
   const again = useCallback(() => {
     setRound((before) => before + 1);
   }, []);
-  return { ...state, again };
+  // The answer to another question is none to this one.
+  const { data, refusal, asking } = state.key === key ? state : NOTHING;
+  return { data, refusal, asking, again };
 }

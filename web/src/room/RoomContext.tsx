@@ -6,6 +6,7 @@ import { Room, type RoomWords } from "./room";
 const RoomContext = createContext<Room | null>(null);
 const ALONE: RoomWords = {
   stands: false,
+  firstMessage: "awaited",
   you: null,
   people: [],
   hold: null,

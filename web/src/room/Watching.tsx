@@ -7,12 +7,12 @@ const SYMBOL: Record<LineTo, string> = { good: "●", slow: "◐", silent: "▲"
 
 /** Who is watching: how many, who, in which role, and how their line does. */
 export function Watching(): ReactNode {
-  const words = useWords().room;
-  const { stands, people } = useRoomWords();
+  const { room: words, rest } = useWords();
+  const { stands, firstMessage, people } = useRoomWords();
   if (!stands) {
     return (
       <p className="watching" data-testid="watching" data-known="false">
-        {words.unknown}
+        {firstMessage === "awaited" ? rest.loading : words.unknown}
       </p>
     );
   }

@@ -1,5 +1,6 @@
 // The room as this page lives in it: one line, one state; marks are painted past React, words go through it.
 import type { ViewName } from "../app/views";
+import { firstMessageAt, type FirstMessage, type FirstMessageWait } from "../live/firstMessage";
 import type { Hold, Person, RoomMessage, Said, Signable, You } from "./messages";
 import { RoomLine, type RoomSocket } from "./roomLine";
 import { afterMessage, at, NOBODY, type RoomState } from "./roomState";
@@ -7,6 +8,8 @@ import { afterMessage, at, NOBODY, type RoomState } from "./roomState";
 /** What words are made of; another object only when one of them changed. */
 export interface RoomWords {
   stands: boolean;
+  /** Since the page was loaded. */
+  firstMessage: FirstMessage;
   you: You | null;
   people: readonly Person[];
   hold: Hold | null;
@@ -18,7 +21,8 @@ const LOOK_EVERY_MS = 500;
 
 export class Room {
   private state: RoomState = NOBODY;
-  private said: RoomWords = { stands: false, ...wordsOf(NOBODY) };
+  private said: RoomWords = { stands: false, firstMessage: "awaited", ...wordsOf(NOBODY) };
+  private readonly wait: FirstMessageWait = { everHeard: false, waitingSinceMs: performance.now() };
   private readonly listeners = new Set<() => void>();
   private readonly painters = new Set<() => void>();
   private readonly line: RoomLine;
@@ -43,6 +47,7 @@ export class Room {
     this.line.start();
     const timer = setInterval(() => {
       this.line.look();
+      this.tell({ ...this.said, firstMessage: firstMessageAt(this.wait, performance.now()) });
     }, LOOK_EVERY_MS);
     return () => {
       clearInterval(timer);
@@ -75,14 +80,15 @@ export class Room {
   }
 
   private take(message: RoomMessage): void {
+    this.wait.everHeard = true;
     this.state = afterMessage(this.state, message, performance.now());
-    this.tell({ stands: true, ...wordsOf(this.state) });
+    this.tell({ stands: true, firstMessage: "received", ...wordsOf(this.state) });
     for (const paint of this.painters) paint();
   }
 
   private forget(): void {
     this.state = NOBODY;
-    this.tell({ stands: false, ...wordsOf(NOBODY) });
+    this.tell({ stands: false, firstMessage: this.said.firstMessage, ...wordsOf(NOBODY) });
     for (const paint of this.painters) paint();
   }
 
@@ -93,7 +99,13 @@ export class Room {
   }
 }
 
-function wordsOf({ you, people, hold, fadesAfterS, signable }: RoomState): Omit<RoomWords, "stands"> {
+function wordsOf({
+  you,
+  people,
+  hold,
+  fadesAfterS,
+  signable,
+}: RoomState): Omit<RoomWords, "stands" | "firstMessage"> {
   return { you, people, hold, fadesAfterS, signable };
 }
 

@@ -11,10 +11,11 @@ type Ages = Record<Part, { live: boolean; mark: string; text: string }>;
 
 /** The true age of everything that is shown here, measured on this page. */
 export function AgesStrip(): ReactNode {
-  const words = useWords().supervisor.ages;
+  const { supervisor, rest } = useWords();
+  const words = supervisor.ages;
   const strip = useRef<HTMLDListElement>(null);
   usePainter((view) => {
-    const ages = agesOf(view, words);
+    const ages = agesOf(view, words, rest.loading);
     for (const part of PARTS) {
       const fact = strip.current?.querySelector<HTMLElement>(`[data-part=${part}]`) ?? null;
       setData(fact, "live", String(ages[part].live));
@@ -33,7 +34,15 @@ export function AgesStrip(): ReactNode {
   );
 }
 
-function agesOf({ video, numbers, scene, link }: View, words: Record<string, string>): Ages {
+function agesOf(
+  { video, numbers, scene, link, firstMessage }: View,
+  words: Record<string, string>,
+  loading: string,
+): Ages {
+  if (firstMessage === "awaited") {
+    const awaited = { live: false, mark: "◌", text: loading };
+    return { picture: awaited, numbers: awaited, scene: awaited, line: awaited };
+  }
   const say = (key: string): string => words[key] ?? "";
   const young = (ageMs: number): Ages[Part] => ({
     live: true,

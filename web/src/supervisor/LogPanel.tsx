@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { shownSecond } from "../operator/parts/shown";
 import { answered, server } from "../rest/client";
-import { RefusalNote } from "../rest/RefusalNote";
+import { Unanswered } from "../rest/Unanswered";
 import { useAsked } from "../rest/useAsked";
 import { inWords } from "../words/text";
 import { useWords } from "../words/WordsContext";
@@ -15,18 +15,19 @@ const LINES = 100;
 export function LogPanel(): ReactNode {
   const words = useWords();
   const own = words.supervisor.log;
-  const { data, refusal, again } = useAsked((signal) =>
+  const asked = useAsked((signal) =>
     answered(server.GET("/api/alarms/log", { params: { query: { last: LINES } }, signal })),
   );
+  const { data } = asked;
+  if (data === null) return <Unanswered asked={asked} />;
   return (
     <>
-      <button type="button" onClick={again}>
+      <button type="button" onClick={asked.again}>
         {own.again}
       </button>
-      <RefusalNote refusal={refusal} />
-      {data?.lines.length === 0 && <p className="soft">{own.none}</p>}
+      {data.lines.length === 0 && <p className="soft">{own.none}</p>}
       <ul className="log" data-testid="log">
-        {[...(data?.lines ?? [])].reverse().map((line, index) => (
+        {[...data.lines].reverse().map((line, index) => (
           <li key={`${text(line, "at")} ${index}`}>
             <time>{shownSecond(text(line, "at"), words.language)}</time> {said(line, words)}
           </li>

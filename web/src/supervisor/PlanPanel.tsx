@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { shownNumber } from "../live/rounding";
 import { answered, server } from "../rest/client";
-import { RefusalNote } from "../rest/RefusalNote";
+import { Unanswered } from "../rest/Unanswered";
 import { useAsked } from "../rest/useAsked";
 import type { Signable } from "../room/messages";
 import { useWords } from "../words/WordsContext";
@@ -12,13 +12,13 @@ import { SignBox } from "./SignBox";
 export function PlanPanel({ signable }: { signable: Signable }): ReactNode {
   const words = useWords().supervisor;
   const key = signable.document_id ?? "";
-  const { data, refusal } = useAsked(
+  const asked = useAsked(
     (signal) => (key === "" ? Promise.resolve(null) : answered(server.GET("/api/plan", { signal }))),
     { key },
   );
   if (key === "") return <p className="soft">{words.plan.none}</p>;
-  if (refusal !== null) return <RefusalNote refusal={refusal} />;
-  if (data === null) return <p className="soft">{words.loading}</p>;
+  const { data } = asked;
+  if (data === null) return <Unanswered asked={asked} />;
   const active = data.active_channel;
   return (
     <>

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useProcedure, type Step } from "../app/procedure";
 import { stateWord } from "../operator/stepWords";
-import { RefusalNote } from "../rest/RefusalNote";
+import { Unanswered } from "../rest/Unanswered";
 import { useWords } from "../words/WordsContext";
 
 const SYMBOL: Record<Step["state"], string> = {
@@ -15,10 +15,10 @@ const SYMBOL: Record<Step["state"], string> = {
 /** How every step of the procedure stands, in the server's own sentences. */
 export function StepsShown(): ReactNode {
   const words = useWords();
-  const { data, refusal, asking } = useProcedure();
+  const asked = useProcedure();
+  const { data } = asked;
   const own = words.supervisor;
-  if (refusal !== null) return <RefusalNote refusal={refusal} />;
-  if (data === null) return <p className="soft">{asking ? own.loading : own.steps.notAnswered}</p>;
+  if (data === null) return <Unanswered asked={asked} />;
   if (data.case_id === null) return <p className="soft">{own.steps.noCase}</p>;
   return (
     <ol className="steps-shown" data-testid="steps">

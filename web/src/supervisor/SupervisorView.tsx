@@ -1,12 +1,15 @@
 import type { ReactNode } from "react";
 import { AlarmsShown } from "../alarms/AlarmsShown";
+import { LoadingAlarmsShown } from "../alarms/LoadingAlarms";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
+import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { PictureSize } from "../live/PictureSize";
 import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
 import { AlertBand } from "../panes/AlertBand";
+import { LoadingPane } from "../panes/LoadingPane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
@@ -45,7 +48,9 @@ export function SupervisorView(): ReactNode {
         <PictureSize />
         <SignedIn />
       </header>
-      <AlarmsShown />
+      <AfterFirstMessage loading={<LoadingAlarmsShown />}>
+        <AlarmsShown />
+      </AfterFirstMessage>
       <AlertBand />
       <main className="supervisor-body">
         <div className="supervisor-picture">
@@ -57,7 +62,9 @@ export function SupervisorView(): ReactNode {
         </div>
         <div className="supervisor-side">
           <HoldPanel />
-          <NumbersPane />
+          <AfterFirstMessage loading={<LoadingPane id="numbers" title={words.numbers.title} />}>
+            <NumbersPane />
+          </AfterFirstMessage>
         </div>
         <div className="supervisor-folds">
           <Fold id="steps" title={own.steps.title} open>
@@ -81,18 +88,23 @@ export function SupervisorView(): ReactNode {
 
 /** Plan and registration; the state of their signatures is told by the room, and stands there unopened. */
 function Signables(): ReactNode {
-  const own = useWords().supervisor;
-  const { signable } = useRoomWords();
+  const { supervisor: own, rest } = useWords();
+  const { stands, firstMessage, signable } = useRoomWords();
+  const unheard = firstMessage === "awaited" ? rest.loading : own.notKnown;
   const plan = signable?.find((one) => one.what === "plan") ?? null;
   const registration = signable?.find((one) => one.what === "registration") ?? null;
   return (
     <>
       <Fold id="plan" title={own.plan.title} aside={<SignState signable={plan} />}>
-        {plan === null ? <p className="soft">{own.plan.none}</p> : <PlanPanel signable={plan} />}
+        {plan === null ? (
+          <p className="soft">{stands ? own.plan.none : unheard}</p>
+        ) : (
+          <PlanPanel signable={plan} />
+        )}
       </Fold>
       <Fold id="registration" title={own.registration.title} aside={<SignState signable={registration} />}>
         {registration === null ? (
-          <p className="soft">{own.registration.none}</p>
+          <p className="soft">{stands ? own.registration.none : unheard}</p>
         ) : (
           <RegistrationPanel signable={registration} />
         )}

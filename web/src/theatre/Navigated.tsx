@@ -12,12 +12,13 @@ export function Navigated(): ReactNode {
   const { view } = useLive();
   const { linkState, snapshot } = heardOf(view);
   const isHeard = linkState === "open";
-  const procedure = useProcedure().data;
-  const known = isHeard ? procedure : null;
+  const procedure = useProcedure();
+  const known = isHeard ? procedure.data : null;
   const t = words.theatre;
   const registration = registrationText(snapshot, known, t);
   const check = checkText(snapshot, known, t);
-  const unknown = isHeard ? t.unknown : "—";
+  const unknown = isHeard && procedure.refusal !== null ? t.unknown : "—";
+  const unseen = isHeard ? t.unknown : "—";
   return (
     <dl className="facts facts-navigated" aria-label={t.facts}>
       <Fact
@@ -27,10 +28,10 @@ export function Navigated(): ReactNode {
       />
       <Fact
         name={t.channel}
-        value={snapshot === null ? unknown : (snapshot.channel_name ?? t.noChannel)}
+        value={snapshot === null ? unseen : (snapshot.channel_name ?? t.noChannel)}
         testid="channel-name"
       />
-      <Fact name={t.registration} {...(registration ?? { value: unknown })} testid="registered-by" />
+      <Fact name={t.registration} {...(registration ?? { value: unseen })} testid="registered-by" />
       {check !== null && <Fact name={t.check} {...check} testid="checked" />}
     </dl>
   );

@@ -1,10 +1,13 @@
 import type { ReactNode } from "react";
 import { AlarmBand } from "../alarms/AlarmBand";
 import { AlarmsShown } from "../alarms/AlarmsShown";
+import { LoadingAlarmsShown } from "../alarms/LoadingAlarms";
 import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
+import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { AlertBand } from "../panes/AlertBand";
 import { BullseyePane } from "../panes/BullseyePane";
+import { LoadingPane } from "../panes/LoadingPane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
@@ -25,13 +28,23 @@ export function TheatreView(): ReactNode {
         {words.skip}
       </a>
       <TheatreTop />
-      {answersAlarms ? <AlarmBand /> : <AlarmsShown />}
+      {answersAlarms ? (
+        <AlarmBand />
+      ) : (
+        <AfterFirstMessage loading={<LoadingAlarmsShown />}>
+          <AlarmsShown />
+        </AfterFirstMessage>
+      )}
       <ConfirmRestart />
       <AlertBand />
       <main className="theatre-main">
         <VideoPane />
-        <NumbersPane />
-        <BullseyePane />
+        <AfterFirstMessage loading={<LoadingPane id="numbers" title={words.numbers.title} />}>
+          <NumbersPane />
+        </AfterFirstMessage>
+        <AfterFirstMessage loading={<LoadingPane id="bullseye" title={words.theatre.along} />}>
+          <BullseyePane />
+        </AfterFirstMessage>
         <ScenePane />
       </main>
     </div>

@@ -116,7 +116,12 @@ export const de: Words = {
     ended: "am Ende",
     unknown: "unbekannt",
   },
-  linkState: { connecting: "verbindet", open: "verbunden", lost: "weg, verbindet neu" },
+  linkState: {
+    connecting: "verbindet",
+    open: "verbunden",
+    lost: "weg, verbindet neu",
+    "not-reached": "nicht erreicht",
+  },
   details: {
     title: "Zeiten und Zähler",
     stages: "Zeit je Stufe",

@@ -118,7 +118,12 @@ export const en: Words = {
     ended: "at its end",
     unknown: "not known",
   },
-  linkState: { connecting: "connecting", open: "connected", lost: "gone, reconnecting" },
+  linkState: {
+    connecting: "connecting",
+    open: "connected",
+    lost: "gone, reconnecting",
+    "not-reached": "not reached",
+  },
   details: {
     title: "Times and counts",
     stages: "Time of each stage",

@@ -71,7 +71,7 @@ export interface Words {
     string
   >;
   cameraState: Record<"opening" | "running" | "reconnecting" | "ended" | "unknown", string>;
-  linkState: Record<"connecting" | "open" | "lost", string>;
+  linkState: Record<"connecting" | "open" | "lost" | "not-reached", string>;
   details: Record<
     | "title"
     | "stages"

@@ -1,8 +1,7 @@
-import { Loader } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { useGates } from "../parts/useGates";
@@ -21,12 +20,14 @@ const ASK_EVERY_MS = 2000;
 export function CameraPage(): ReactNode {
   const words = useWords().camera;
   const procedure = useProcedure();
-  const gates = useGates();
+  const askedGates = useGates();
   const [calibratedHere, setCalibratedHere] = useState(false);
   const [board, setBoard] = useState<Board>(startingBoard);
-  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/camera", { signal })), {
+  const asked = useAsked((signal) => answered(server.GET("/api/camera", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
+  const { data, again } = asked;
+  const gates = askedGates.data;
   const changed = (): void => {
     again();
     procedure.again();
@@ -36,9 +37,16 @@ export function CameraPage(): ReactNode {
     <div className="beside">
       <div className="cards">
         <CameraTest />
-        {gates !== null && <Markers gate={gates.tracker} canAdd={caseId !== null} onChange={changed} />}
-        <RefusalNote refusal={refusal} />
-        {(data === null || gates === null) && refusal === null && <Loader aria-label={words.loading} />}
+        {gates === null ? (
+          <Unanswered asked={askedGates} />
+        ) : (
+          <Markers
+            gate={gates.tracker}
+            canAdd={procedure.data === null ? null : caseId !== null}
+            onChange={changed}
+          />
+        )}
+        {gates !== null && data === null && <Unanswered asked={asked} />}
         {procedure.data !== null && caseId === null && <p className="card-lead">{words.noCase}</p>}
         {data !== null && gates !== null && caseId !== null && (
           <>

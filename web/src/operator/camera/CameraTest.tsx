@@ -11,6 +11,7 @@ export function CameraTest(): ReactNode {
   const words = useWords();
   const { view, dashboard } = useLive();
   const { newest, video } = view;
+  const noAge = view.firstMessage === "awaited" ? "—" : words.video.none;
   const snapshot = newest?.snapshot ?? null;
   const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
   const rateHz = newest?.source.rate_hz ?? null;
@@ -24,7 +25,7 @@ export function CameraTest(): ReactNode {
     [words.header.rate, rateHz === null ? "—" : `${shownNumber(rateHz)} Hz`],
     [
       words.camera.age,
-      video.live ? `${shownNumber(video.ageMs, 0)} ms` : words.video.none,
+      video.live ? `${shownNumber(video.ageMs, 0)} ms` : noAge,
       dashboard === null
         ? undefined
         : `${words.case.measure.most} ${shownNumber(dashboard.limits.video_stale_after_ms, 0)} ms`,

@@ -1,8 +1,9 @@
-import { Button, Loader } from "@mantine/core";
+import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, Refusal, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
 import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { isOver, useJob } from "../../rest/useJob";
@@ -30,10 +31,10 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
   const words = useWords().camera;
   const madeBy = useMaker();
   const doing = useDo();
-  const { data, refusal, again } = useAsked(
-    (signal) => answered(server.GET("/api/camera/collection", { signal })),
-    { everyMs: ASK_EVERY_MS },
-  );
+  const asked = useAsked((signal) => answered(server.GET("/api/camera/collection", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const { data, again } = asked;
   const end = async (): Promise<void> => {
     await doing.run(async () => {
       await answered(server.DELETE("/api/camera/collection"));
@@ -51,9 +52,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
       followed.follow(await answered(server.POST("/api/camera/calibration", { body: { made_by: madeBy } })));
     });
   };
-  if (data === null) {
-    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
-  }
+  if (data === null) return <Unanswered asked={asked} />;
   const working = followed.job !== null && !isOver(followed.job);
   const enough = data.missing.length === 0;
   const { collecting } = gates;

@@ -32,7 +32,9 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
   const seen = sighting?.kind === "seen" ? sighting : null;
   const state =
     sighting === null
-      ? words.camera.notSearched
+      ? view.firstMessage === "awaited"
+        ? words.rest.loading
+        : words.camera.notSearched
       : sighting.kind === "seen"
         ? `● ${words.markers.seen}, ${words.foundBy[sighting.found_by]}`
         : `▲ ${words.markers.unseen}: ${words.unseen[sighting.reason]}`;

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -12,34 +12,33 @@ export type MarkerGate = components["schemas"]["TrackerConfig"];
 
 interface MarkersProps {
   gate: MarkerGate;
-  canAdd: boolean;
+  /** Whether a case is open to keep one in; null until that is known. */
+  canAdd: boolean | null;
   onChange: () => void;
 }
 
 /** The markers that are looked for, with their pictures and their search as it goes; another one sent. */
 export function Markers({ gate, canAdd, onChange }: MarkersProps): ReactNode {
   const words = useWords().camera;
-  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
+  const asked = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
     everyMs: 3000,
   });
+  const { data, again } = asked;
   const changed = (): void => {
     again();
     onChange();
   };
   return (
     <Card title={words.markersTitle} testId="markers">
-      <RefusalNote refusal={refusal} />
+      {data === null && <Unanswered asked={asked} />}
       {data?.markers.length === 0 && <p className="card-lead">{words.noMarkers}</p>}
       <ul className="rows">
         {data?.markers.map((marker) => (
           <MarkerRow key={marker.name} marker={marker} gate={gate} onRemoved={changed} />
         ))}
       </ul>
-      {canAdd ? (
-        <NewMarker known={data?.markers ?? []} onAdded={changed} />
-      ) : (
-        <p className="soft">{words.markerNeedsCase}</p>
-      )}
+      {canAdd === true && <NewMarker known={data?.markers ?? []} onAdded={changed} />}
+      {canAdd === false && <p className="soft">{words.markerNeedsCase}</p>}
     </Card>
   );
 }

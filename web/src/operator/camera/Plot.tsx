@@ -7,7 +7,7 @@ import { fetched } from "../parts/transfer";
 
 /** A picture that belongs to a calibration. It comes as plain bytes, and is only ever shown as a picture. */
 export function Plot({ caseId, file, name }: { caseId: string; file: string; name: string }): ReactNode {
-  const words = useWords().camera;
+  const words = useWords().rest;
   const [address, setAddress] = useState<string | null>(null);
   const [refusal, setRefusal] = useState<Refusal | null>(null);
   useEffect(() => {

@@ -1,9 +1,7 @@
-import { Loader } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
-import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
 import { ArchiveIn } from "./ArchiveIn";
 import { CaseList } from "./CaseList";
@@ -18,18 +16,16 @@ const ASK_EVERY_MS = 3000;
 
 /** The case that is worked in: made, opened, looked through, copied out, put away. */
 export function CasePage(): ReactNode {
-  const words = useWords().case;
   const { again: askProcedure } = useProcedure();
-  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/cases", { signal })), {
+  const asked = useAsked((signal) => answered(server.GET("/api/cases", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
+  const { data, again } = asked;
   const changed = (): void => {
     again();
     askProcedure();
   };
-  if (data === null) {
-    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
-  }
+  if (data === null) return <Unanswered asked={asked} />;
   const opened = data.cases.find((one) => one.id === data.opened_id) ?? null;
   const newCase = <NewCase first={data.cases.length === 0} onMade={changed} />;
   return (

@@ -1,7 +1,7 @@
 import { Badge, Switch, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -19,13 +19,14 @@ const ASK_EVERY_MS = 3000;
 export function Documents({ caseId }: { caseId: string }): ReactNode {
   const words = useWords().case;
   const [all, setAll] = useState(false);
-  const { data, refusal } = useAsked(
+  const asked = useAsked(
     (signal) =>
       answered(
         server.GET("/api/cases/{case_id}/documents", { signal, params: { path: { case_id: caseId } } }),
       ),
     { key: caseId, everyMs: ASK_EVERY_MS },
   );
+  const { data } = asked;
   const shown = data === null ? [] : all ? [...data.documents].reverse() : newestOf(data.documents);
   return (
     <Card
@@ -42,7 +43,7 @@ export function Documents({ caseId }: { caseId: string }): ReactNode {
         />
       }
     >
-      <RefusalNote refusal={refusal} />
+      {data === null && <Unanswered asked={asked} />}
       {data !== null && shown.length === 0 && <p className="soft">{words.noDocuments}</p>}
       {shown.length > 0 && (
         <Table.ScrollContainer minWidth={520}>

@@ -12,7 +12,7 @@ import { filled } from "../../words/filled";
 
 /** The files of a case, read from end to end when somebody wants to know. */
 export function Verification({ caseId }: { caseId: string }): ReactNode {
-  const words = useWords().case;
+  const { case: words, rest } = useWords();
   const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
   const verifying = useDo();
   const params = { path: { case_id: caseId } };
@@ -33,7 +33,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
       <div className="row row-mid">
         <p className="grow">
           {data === null
-            ? words.loading
+            ? refusal === null && rest.loading
             : filled(words.filesCount, { count: data.files.length, size: shownBytes(bytes) })}
         </p>
         <Button size="lg" variant="default" loading={verifying.busy} onClick={verify}>

@@ -1,6 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
@@ -24,11 +25,11 @@ interface CheckChoiceProps {
 export function CheckChoice({ vertebra, used, mostMm, onBegun }: CheckChoiceProps): ReactNode {
   const words = useWords().check;
   const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
-  const first = useTools()[0]?.name ?? "";
+  const first = useTools()?.[0]?.name ?? "";
   const [tool, setTool] = useState("");
   const [picked, setPicked] = useState<string | null>(null);
   const beginning = useDo();
-  if (plan.data === null) return <Refused refusal={plan.refusal} />;
+  if (plan.data === null) return <Unanswered asked={plan} Note={Refused} />;
   const landmarks = plannedVertebrae(plan.data.plan).find((one) => one.name === vertebra)?.landmarks ?? [];
   const free = landmarks.filter((one) => !used.includes(one.name));
   const landmark = free.find((one) => one.name === picked) ?? null;

@@ -1,6 +1,7 @@
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
@@ -18,7 +19,7 @@ export function CheckPage(): ReactNode {
   const words = useWords().check;
   const procedure = useProcedure();
   const register = procedure.data?.steps.find((one) => one.step === "register");
-  if (register === undefined) return null;
+  if (register === undefined) return <Unanswered asked={procedure} />;
   if (register.state !== "done" || register.document_id === null)
     return (
       <p className="warning" data-testid="check-shut">
@@ -37,13 +38,15 @@ function Checking({ registrationId }: { registrationId: string }): ReactNode {
   const registration = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
     key: registrationId,
   });
-  if (registration.data === null) return <Refused refusal={registration.refusal} />;
+  if (registration.data === null) return <Unanswered asked={registration} Note={Refused} />;
   const { check, vertebra } = registration.data;
   return (
     <div className="registration">
       <RehearsalStrip scenes={["check"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
       <CheckDue rule={check} fresh={kept === 0 ? null : String(kept)} />
-      {running.data?.check === true ? (
+      {running.data === null ? (
+        <Unanswered asked={running} Note={Refused} />
+      ) : running.data.check ? (
         <CheckWork
           onOver={running.again}
           onKept={() => {

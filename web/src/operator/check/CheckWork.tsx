@@ -2,6 +2,7 @@ import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, server } from "../../rest/client";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { Icon } from "../../panes/Icon";
@@ -33,7 +34,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
   });
   const doing = useDo();
   const { data } = asked;
-  if (data === null) return <Refused refusal={asked.refusal} />;
+  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
   const { outcome, capture } = data;
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing

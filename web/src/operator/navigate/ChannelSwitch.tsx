@@ -1,5 +1,6 @@
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
@@ -25,7 +26,8 @@ export function ChannelSwitch(): ReactNode {
   );
   const [shown, setShown] = useState(false);
   const switching = useDo();
-  if (plan.data === null) return <Refused refusal={plan.refusal} />;
+  if (isPlanned === false) return null;
+  if (plan.data === null) return <Unanswered asked={plan} Note={Refused} />;
   const active = plan.data.active_channel;
   const others = plannedVertebrae(plan.data.plan)
     .flatMap((one) => one.sides.map((side) => ({ vertebra: one.name, side })))

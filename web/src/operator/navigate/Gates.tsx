@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { shownNumber } from "../../live/rounding";
+import { Unanswered } from "../../rest/Unanswered";
 import { useWords } from "../../words/WordsContext";
 import { filled } from "../../words/filled";
 import { stateWord } from "../stepWords";
@@ -9,8 +10,9 @@ import { useProcedure, type Step } from "../../app/procedure";
 /** Every step that does not hold or is due again, why, and the way to it; or that all hold. */
 export function Gates(): ReactNode {
   const words = useWords();
-  const { data } = useProcedure();
-  if (data === null) return null;
+  const procedure = useProcedure();
+  const { data } = procedure;
+  if (data === null) return <Unanswered asked={procedure} />;
   const open = data.steps.filter((one) => one.step !== "navigate" && one.state !== "done");
   const check = data.steps.find((one) => one.step === "check");
   if (open.length === 0)

@@ -12,11 +12,12 @@ export function StandsOn({
   documents,
 }: {
   heading: Heading;
-  documents: readonly Heading[];
+  /** Null until they are known: then nothing is said of what it was made from. */
+  documents: readonly Heading[] | null;
 }): ReactNode {
   const words = useWords().case;
-  const bases = heading.stands_on.map((id) => {
-    const found = documents.find((one) => one.id === id);
+  const bases = (documents === null ? [] : heading.stands_on).map((id) => {
+    const found = documents?.find((one) => one.id === id);
     return found === undefined
       ? words.another
       : `${documentTitle(found, words)}, ${words.version} ${String(found.version)}`;

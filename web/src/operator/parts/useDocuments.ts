@@ -5,9 +5,10 @@ import { useProcedure } from "../../app/procedure";
 
 type Heading = components["schemas"]["HeadingMessage"];
 
-/** The documents of the open case; none while none is open. */
-export function useDocuments(): readonly Heading[] {
-  const caseId = useProcedure().data?.case_id ?? null;
+/** The documents of the open case, none while none is open; null until the server has told them. */
+export function useDocuments(): readonly Heading[] | null {
+  const procedure = useProcedure().data;
+  const caseId = procedure?.case_id ?? null;
   const { data } = useAsked(
     async (signal) => {
       if (caseId === null) return { documents: [] };
@@ -16,5 +17,5 @@ export function useDocuments(): readonly Heading[] {
     },
     { key: caseId ?? "", everyMs: 3000 },
   );
-  return data?.documents ?? [];
+  return procedure === null ? null : (data?.documents ?? null);
 }

@@ -1,7 +1,7 @@
 import { Alert, Button, Table } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { shownSecond } from "../parts/shown";
@@ -15,16 +15,16 @@ export function AuditLog(): ReactNode {
   const words = all.people;
   const [before, setBefore] = useState<number | null>(null);
   const query = before === null ? { last: LINES } : { last: LINES, before };
-  const { data, refusal, again } = useAsked(
-    (signal) => answered(server.GET("/api/audit", { params: { query }, signal })),
-    { key: String(before) },
-  );
+  const asked = useAsked((signal) => answered(server.GET("/api/audit", { params: { query }, signal })), {
+    key: String(before),
+  });
+  const { data, again } = asked;
   const rows = (data?.lines ?? []).map((line) => auditRow(line, all)).reverse();
   const oldest = rows.at(-1)?.number ?? 0;
   return (
     <section className="audit" aria-labelledby="audit">
       <h3 id="audit">{words.log}</h3>
-      <RefusalNote refusal={refusal} />
+      {data === null && <Unanswered asked={asked} />}
       {data?.is_whole === true && (
         <p>
           ✓ {words.whole} · {data.count} {words.lines} · <code title={data.sum}>{data.sum.slice(0, 16)}</code>

@@ -2,7 +2,7 @@ import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { SignedIn } from "../../app/SignedIn";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { AuditLog } from "./AuditLog";
@@ -15,12 +15,13 @@ const ASK_EVERY_MS = 3000;
 /** Who is signed in, who is invited, and what was done. */
 export function PeoplePage(): ReactNode {
   const words = useWords().people;
-  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/people", { signal })), {
+  const asked = useAsked((signal) => answered(server.GET("/api/people", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
+  const { data, again } = asked;
   return (
     <div className="people">
-      <RefusalNote refusal={refusal} />
+      {data === null && <Unanswered asked={asked} />}
       <SignedIn />
       {data?.sign_in_required === false && <Alert title={words.off} />}
       {data?.sign_in_required === true && (

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
@@ -15,8 +15,9 @@ import { Workplace } from "./Workplace";
 /** Planning on CT: the CT comes in, and on its slices the plan is made. */
 export function PlanPage(): ReactNode {
   const words = useWords().plan;
-  const { data: procedure } = useProcedure();
-  if (procedure === null) return <p role="status">{words.loading}</p>;
+  const asked = useProcedure();
+  const { data: procedure } = asked;
+  if (procedure === null) return <Unanswered asked={asked} />;
   if (procedure.case_id === null) {
     return (
       <section className="plan-empty">
@@ -47,8 +48,7 @@ function PlanOfCase({ caseId }: { caseId: string }): ReactNode {
   if (ct.data === null) {
     return (
       <section className="plan-empty">
-        <RefusalNote refusal={ct.refusal} />
-        {ct.refusal === null && <p role="status">{words.loading}</p>}
+        <Unanswered asked={ct} />
       </section>
     );
   }

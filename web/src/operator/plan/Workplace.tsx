@@ -1,4 +1,5 @@
 import { useEffect, type ReactNode } from "react";
+import { Unanswered } from "../../rest/Unanswered";
 import { useWords } from "../../words/WordsContext";
 import { ChannelPart } from "./channel/ChannelPart";
 import { CtPart } from "./ct/CtPart";
@@ -19,6 +20,7 @@ import { SurfacePart } from "./surface/SurfacePart";
 export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
   const words = useWords().plan;
   const { part } = useWork();
+  const { asking, planRefusal, askAgain } = usePlanning();
   useWayOfChannel();
   const parts: Record<Part, () => ReactNode> = {
     ct: () => <CtPart onTaken={onCtTaken} />,
@@ -35,7 +37,11 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
       <div className="plan-body">
         <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
         <aside className="plan-side" aria-label={words.part[part]}>
-          {parts[part]()}
+          {asking && part !== "ct" ? (
+            <Unanswered asked={{ refusal: planRefusal, again: askAgain }} />
+          ) : (
+            parts[part]()
+          )}
         </aside>
       </div>
     </div>

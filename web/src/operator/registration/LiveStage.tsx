@@ -1,11 +1,11 @@
 import { Button } from "@mantine/core";
-import { useEffect, useRef, useState, type ReactNode, type RefObject } from "react";
+import { useEffect, useLayoutEffect, useRef, useState, type ReactNode, type RefObject } from "react";
 import { useLive, usePainter } from "../../live/LiveContext";
 import { shownNumber } from "../../live/rounding";
 import { Announcer } from "../../panes/Announcer";
-import { Cover } from "../../panes/Cover";
 import { clearPicture, drawPicture } from "../../panes/drawPicture";
 import { setData, setText } from "../../panes/setText";
+import { VideoCover } from "../../panes/VideoCover";
 import { useWords } from "../../words/WordsContext";
 import { shownClock } from "../parts/shown";
 import { filled } from "../../words/filled";
@@ -36,7 +36,8 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
   const box = stage ?? ownStage;
   const canvas = picture ?? ownCanvas;
 
-  useEffect(() => {
+  // Before the painters' first look, which then knows that this canvas is new.
+  useLayoutEffect(() => {
     live.setDraw((jpeg, isCurrent) =>
       canvas.current === null || coarse.current === null
         ? Promise.resolve(false)
@@ -120,12 +121,7 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
           {children}
         </div>
         <div className="when-stale">
-          <Cover
-            urgency="medium"
-            title={words.video.none}
-            state={words.cause[cause].state}
-            sentence={words.cause[cause].sentence}
-          />
+          <VideoCover cause={cause} />
         </div>
       </div>
       <Announcer />

@@ -2,6 +2,7 @@ import { Badge } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
@@ -36,7 +37,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
   });
   const withdrawing = useDo();
   const { data } = asked;
-  if (data === null) return <Refused refusal={asked.refusal} />;
+  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
   const { heading } = data;
   const lost = heading.withdrawn?.reason ?? heading.out_of_date;
   const check = procedure.data?.steps.find((one) => one.step === "check");

@@ -1,5 +1,6 @@
 import type { ReactNode } from "react";
 import { Link, useLocation } from "wouter";
+import { Unanswered } from "../../rest/Unanswered";
 import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
 import { MethodChoice } from "./MethodChoice";
@@ -15,10 +16,13 @@ type Way = keyof typeof WAYS;
 export function RegistrationPage(): ReactNode {
   const words = useWords().registration;
   const [path] = useLocation();
-  const { data } = useProcedure();
-  const step = data?.steps.find((one) => one.step === "register");
+  const procedure = useProcedure();
+  const step = procedure.data?.steps.find((one) => one.step === "register");
   const named = path.split("/")[3] ?? "";
   const way = Object.hasOwn(WAYS, named) ? (named as Way) : null;
+  // The ways begin from what the case is and has: they wait for the first answer. One that fails later must not
+  // take away what a hand has marked.
+  if (step === undefined && procedure.refusal === null) return <Unanswered asked={procedure} />;
   if (step !== undefined && !step.allowed)
     return (
       <p className="warning" data-testid="register-shut">

@@ -10,8 +10,9 @@ interface ToolChoiceProps {
 
 /** Which tool touches; nothing to choose where there is but one. */
 export function ToolChoice({ tool, onTool }: ToolChoiceProps): ReactNode {
-  const words = useWords().registration;
+  const { registration: words, rest } = useWords();
   const tools = useTools();
+  if (tools === null) return <p className="loading">{rest.loading}</p>;
   if (tools.length === 0) return <p className="warning">▲ {words.tool.none}</p>;
   if (tools.length === 1)
     return (

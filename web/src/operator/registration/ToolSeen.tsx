@@ -4,7 +4,8 @@ import { shownNumber } from "../../live/rounding";
 import { setData, setText } from "../../panes/setText";
 import { useWords } from "../../words/WordsContext";
 
-/** Whether the tool is seen in the newest image, and how sure its tip is; painted with every image. */
+/** Whether the tool is seen in the newest image, and how sure its tip is; painted with every image. Says nothing
+ *  without a tool or a live image: why there is none stands over the picture. */
 export function ToolSeen({ tool }: { tool: string }): ReactNode {
   const words = useWords().registration.tool;
   const line = useRef<HTMLParagraphElement>(null);
@@ -12,6 +13,10 @@ export function ToolSeen({ tool }: { tool: string }): ReactNode {
     const now = newest?.snapshot?.tools.find((one) => one.name === tool);
     const pose = video.live && now?.pose.kind === "tool" ? now.pose : null;
     setData(line.current, "seen", String(pose !== null));
+    if (tool === "" || !video.live) {
+      setText(line.current, "");
+      return;
+    }
     setText(
       line.current,
       pose === null

@@ -1,7 +1,7 @@
 import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { inWords } from "../../words/text";
 import { useWords } from "../../words/WordsContext";
@@ -13,14 +13,15 @@ const MOST_LINES = 10_000;
 /** The alarm log in short: which, how often, from when to when, acknowledged by whom. */
 export function Alarms(): ReactNode {
   const words = useWords();
-  const { data, refusal } = useAsked((signal) =>
+  const asked = useAsked((signal) =>
     answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MOST_LINES } } })),
   );
+  const { data } = asked;
   const alarms = data === null ? [] : alarmsIn(data.lines);
   return (
     <section className="stack">
       <h4>{words.report.alarms}</h4>
-      <RefusalNote refusal={refusal} />
+      {data === null && <Unanswered asked={asked} />}
       {data !== null && alarms.length === 0 && <p className="soft">{words.report.noAlarms}</p>}
       {data?.lines.length === MOST_LINES && <p className="bad">▲ {words.report.logCut}</p>}
       {alarms.length > 0 && (

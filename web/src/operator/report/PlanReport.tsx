@@ -3,7 +3,7 @@ import { Table } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownFigure } from "../../live/rounding";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -19,13 +19,14 @@ interface PlanReportProps {
 export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
   const all = useWords();
   const words = all.report;
-  const { data, refusal } = useAsked(
+  const asked = useAsked(
     (signal) => {
       const params = { path: { case_id: caseId, document_id: heading.id } };
       return answered(server.GET("/api/cases/{case_id}/documents/{document_id}", { signal, params }));
     },
     { key: heading.id },
   );
+  const { data } = asked;
   const channels = data === null ? [] : channelsIn(data.content);
   return (
     <section className="stack">
@@ -34,7 +35,7 @@ export function PlanReport({ caseId, heading }: PlanReportProps): ReactNode {
         {all.case.version} {heading.version} · {shownTime(heading.made_at, all.language)} ·{" "}
         <Maker of={heading} />
       </p>
-      <RefusalNote refusal={refusal} />
+      {data === null && <Unanswered asked={asked} />}
       {data !== null && channels.length === 0 && <p className="soft">{words.noChannels}</p>}
       {channels.length > 0 && (
         <Table.ScrollContainer minWidth={480}>

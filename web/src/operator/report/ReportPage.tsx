@@ -1,8 +1,8 @@
-import { Button, Loader } from "@mantine/core";
+import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { ArchiveOut } from "../case/ArchiveOut";
@@ -20,10 +20,9 @@ import { StepsReport } from "./StepsReport";
 /** The case on paper: the record of what was made, the plan, the alarms, and how the steps stood at last. */
 export function ReportPage(): ReactNode {
   const words = useWords().report;
-  const { data, refusal } = useProcedure();
-  if (data === null) {
-    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
-  }
+  const procedure = useProcedure();
+  const { data } = procedure;
+  if (data === null) return <Unanswered asked={procedure} />;
   if (data.case_id === null) {
     return (
       <p className="card-lead">
@@ -40,7 +39,7 @@ export function ReportPage(): ReactNode {
 function Report({ caseId }: { caseId: string }): ReactNode {
   const all = useWords();
   const words = all.report;
-  const { data, refusal, again } = useAsked(
+  const asked = useAsked(
     async (signal) => {
       const params = { path: { case_id: caseId } };
       const [kept, { documents }, procedure] = await Promise.all([
@@ -55,9 +54,8 @@ function Report({ caseId }: { caseId: string }): ReactNode {
     },
     { key: caseId },
   );
-  if (data === null) {
-    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
-  }
+  const { data, again } = asked;
+  if (data === null) return <Unanswered asked={asked} />;
   const { kept, documents, entries, contents, procedure, readAt } = data;
   const plan = newestOf(documents).find((one) => one.kind === "plan" && one.name === "main") ?? null;
   return (

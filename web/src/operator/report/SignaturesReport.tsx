@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { SignatureLine } from "../../supervisor/SignatureLine";
 import { useWords } from "../../words/WordsContext";
@@ -9,11 +9,10 @@ import { Maker } from "../parts/Maker";
 /** Who signed plan and registration, and who had invited them. */
 export function SignaturesReport(): ReactNode {
   const words = useWords().supervisor.sign;
-  const { data, refusal } = useAsked((signal) =>
-    answered(server.GET("/api/supervision/signatures", { signal })),
-  );
-  const there = data?.signable.filter((one) => one.document_id !== null) ?? [];
-  if (refusal !== null) return <RefusalNote refusal={refusal} />;
+  const asked = useAsked((signal) => answered(server.GET("/api/supervision/signatures", { signal })));
+  const { data } = asked;
+  if (data === null) return <Unanswered asked={asked} />;
+  const there = data.signable.filter((one) => one.document_id !== null);
   if (there.length === 0) return null;
   return (
     <section className="stack" data-testid="report-signatures">

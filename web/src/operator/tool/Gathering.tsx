@@ -1,8 +1,9 @@
-import { Button, Loader } from "@mantine/core";
+import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { Refusal } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
@@ -29,9 +30,10 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
   const madeBy = useMaker();
   const doing = useDo();
   const [shape, setShape] = useState<ShapeMm>({ diameterMm: "", lengthMm: "" });
-  const { data, refusal } = useAsked((signal) => answered(server.GET("/api/tools/collection", { signal })), {
+  const asked = useAsked((signal) => answered(server.GET("/api/tools/collection", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
+  const { data } = asked;
   const end = (): void => {
     void doing
       .run(async () => {
@@ -41,9 +43,7 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
         onOver(null);
       });
   };
-  if (data === null) {
-    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
-  }
+  if (data === null) return <Unanswered asked={asked} />;
   const known = tools.find((tool) => tool.name === data.tool) ?? null;
   const before = known?.kept == null ? null : keptTool(known.kept.content);
   const needsShape = data.purpose === "pivot" && (before?.radiusMm ?? known?.radius_mm ?? null) === null;

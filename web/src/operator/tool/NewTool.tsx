@@ -2,7 +2,7 @@ import { Button, Select, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
@@ -21,9 +21,10 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
   const words = useWords().tool;
   const [typed, setTyped] = useState<string | null>(null);
   const [chosen, setChosen] = useState<string | null>(null);
-  const { data, refusal } = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
+  const asked = useAsked((signal) => answered(server.GET("/api/markers", { signal })), {
     everyMs: 3000,
   });
+  const { data } = asked;
   const markers = (data?.markers ?? []).map((one) => one.name);
   const marker = chosen !== null && markers.includes(chosen) ? chosen : (markers[0] ?? null);
   // The first tool is mostly called as its marker is.
@@ -32,8 +33,9 @@ export function NewTool({ first, taken, busy, onBegin }: NewToolProps): ReactNod
   return (
     <Card title={first ? words.firstTitle : words.newTitle} testId="new-tool">
       {first && <p className="card-lead">{words.firstLead}</p>}
-      <RefusalNote refusal={refusal} />
-      {data !== null && markers.length === 0 ? (
+      {data === null ? (
+        <Unanswered asked={asked} />
+      ) : markers.length === 0 ? (
         <p>
           {words.noMarker}{" "}
           <Link className="way" href="/operator/camera">

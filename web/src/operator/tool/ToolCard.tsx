@@ -14,7 +14,7 @@ const PURPOSES: readonly Purpose[] = ["pivot", "spin", "tip_check"];
 interface ToolCardProps {
   tool: KnownTool;
   gate: ToolGate;
-  documents: readonly components["schemas"]["HeadingMessage"][];
+  documents: readonly components["schemas"]["HeadingMessage"][] | null;
   busy: boolean;
   /** Names this tool where something of it was just kept here. */
   fresh: string | null;

@@ -1,8 +1,8 @@
-import { Loader } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
 import { answered, server } from "../../rest/client";
 import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
@@ -22,9 +22,10 @@ export function ToolPage(): ReactNode {
   const procedure = useProcedure();
   const gates = useGates();
   const documents = useDocuments();
-  const { data, refusal, again } = useAsked((signal) => answered(server.GET("/api/tools", { signal })), {
+  const asked = useAsked((signal) => answered(server.GET("/api/tools", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
+  const { data, again } = asked;
   const beginning = useDo();
   const [keptHere, setKeptHere] = useState<string | null>(null);
   const begin = (tool: string, purpose: Purpose, marker: string | null): void => {
@@ -39,23 +40,24 @@ export function ToolPage(): ReactNode {
     again();
     procedure.again();
   };
-  if (data === null || gates === null) {
-    return refusal === null ? <Loader aria-label={words.loading} /> : <RefusalNote refusal={refusal} />;
-  }
+  if (data === null) return <Unanswered asked={asked} />;
+  if (gates.data === null) return <Unanswered asked={gates} />;
+  if (procedure.data === null && procedure.refusal === null) return <Unanswered asked={procedure} />;
+  const gate = gates.data.tool_calibration;
   if (procedure.data?.case_id === null) return <p className="card-lead">{words.noCase}</p>;
   return (
     <div className="beside">
       <div className="cards">
         <RefusalNote refusal={beginning.refusal} />
         {data.collecting ? (
-          <Gathering tools={data.tools} gate={gates.tool_calibration} onOver={over} />
+          <Gathering tools={data.tools} gate={gate} onOver={over} />
         ) : (
           <>
             {data.tools.map((tool) => (
               <ToolCard
                 key={tool.name}
                 tool={tool}
-                gate={gates.tool_calibration}
+                gate={gate}
                 documents={documents}
                 busy={beginning.busy}
                 fresh={keptHere === tool.name ? tool.name : null}

@@ -2,7 +2,6 @@ import type { CameraWords } from "./en";
 
 export const cameraDe: CameraWords = {
   title: "Kamera",
-  loading: "Der Server wird gefragt …",
   noCase: "Öffnen Sie zuerst einen Fall: darin wird die Kalibrierung gespeichert.",
   testTitle: "Kameratest",
   age: "Alter des Bildes",

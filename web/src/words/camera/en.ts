@@ -1,6 +1,5 @@
 export const cameraEn = {
   title: "Camera",
-  loading: "Asking the server …",
   noCase: "Open a case first: what is calibrated is kept in it.",
   testTitle: "Camera test",
   age: "Age of the picture",

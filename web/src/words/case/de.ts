@@ -2,7 +2,6 @@ import type { CaseWords } from "./en";
 
 export const caseDe: CaseWords = {
   title: "Fälle",
-  loading: "Der Server wird gefragt …",
   thisTablet: "dieses Tablet",
   serverWorks: "angekommen, der Server liest …",
   measure: {

@@ -1,6 +1,5 @@
 export const caseEn = {
   title: "Cases",
-  loading: "Asking the server …",
   thisTablet: "this tablet",
   serverWorks: "arrived, the server is reading it …",
   measure: { most: "at most", least: "at least", holds: "within the limit", fails: "past the limit" },

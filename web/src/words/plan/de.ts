@@ -9,7 +9,6 @@ export const planDe: PlanWords = {
   nobodyNamed: "Bedienung",
   noCase: "Eine Planung gehört zu einem Fall, und es ist keiner offen.",
   toCase: "Fall öffnen oder beginnen",
-  loading: "Das CT wird gesucht …",
   parts: "Teile der Planung",
   less: "weniger",
   more: "mehr",

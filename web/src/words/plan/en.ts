@@ -8,7 +8,6 @@ export const planEn = {
   nobodyNamed: "operator",
   noCase: "A plan belongs to a case, and none is open.",
   toCase: "Open or begin a case",
-  loading: "Looking for the CT …",
   parts: "Parts of the plan",
   less: "less",
   more: "more",

@@ -7,7 +7,11 @@ export const reasonsDe: Pick<Words, "cause" | "unseen"> = {
       state: "SEITE WAR VERDECKT",
       sentence: "Sobald sie sichtbar ist, zeigt sie wieder, was live ist.",
     },
-    connecting: { state: "VERBINDET", sentence: "Wartet auf das erste Wort vom Server." },
+    connecting: { state: "VERBINDET", sentence: "Wartet auf den Server." },
+    "not-reached": {
+      state: "SERVER NICHT ERREICHT",
+      sentence: "Prüfen, ob dieses Gerät im Netz ist und Coaxial läuft. Neuer Versuch von selbst.",
+    },
     "server-gone": { state: "SERVER WEG", sentence: "Keine Antwort vom Server. Neuer Versuch von selbst." },
     "process-starting": {
       state: "STARTET",

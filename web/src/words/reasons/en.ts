@@ -4,7 +4,11 @@ import type { Words } from "../shape";
 export const reasonsEn: Pick<Words, "cause" | "unseen"> = {
   cause: {
     hidden: { state: "PAGE WAS HIDDEN", sentence: "It shows again what is live as soon as it is in view." },
-    connecting: { state: "CONNECTING", sentence: "Waiting for the first word from the server." },
+    connecting: { state: "CONNECTING", sentence: "Waiting for the server." },
+    "not-reached": {
+      state: "SERVER NOT REACHED",
+      sentence: "Check this device's network, and that Coaxial is running. Trying again by itself.",
+    },
     "server-gone": { state: "SERVER GONE", sentence: "No answer from the server. Trying again by itself." },
     "process-starting": {
       state: "STARTING",

@@ -2,7 +2,6 @@ import type { ReportWords } from "./en";
 
 export const reportDe: ReportWords = {
   title: "Bericht",
-  loading: "Der Server wird gefragt …",
   noCase: "Es ist kein Fall geöffnet, also gibt es nichts zu berichten.",
   toCases: "Einen Fall öffnen",
   print: "Drucken",

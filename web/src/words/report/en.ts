@@ -1,6 +1,5 @@
 export const reportEn = {
   title: "Report",
-  loading: "Asking the server …",
   noCase: "No case is open, so there is nothing to report.",
   toCases: "Open a case",
   print: "Print",

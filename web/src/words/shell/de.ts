@@ -7,5 +7,4 @@ export const shellDe: ShellWords = {
   tracking: "Verfolgung",
   live: "Zahlen aktuell",
   none: "keine Zahlen",
-  loading: "Wird geladen",
 };

@@ -5,7 +5,6 @@ export const shellEn = {
   tracking: "Tracking",
   live: "numbers live",
   none: "no numbers",
-  loading: "Loading",
 };
 
 export type ShellWords = typeof shellEn;

@@ -30,7 +30,6 @@ export const supervisorDe: SupervisorWords = {
     title: "Ablauf",
     noCase: "Im Saal ist kein Fall geöffnet. Sobald einer offen ist, stehen die Schritte hier.",
     lacks: "wartet auf eine Gegenzeichnung",
-    notAnswered: "Der Server sagt nicht, wie weit der Eingriff ist.",
   },
   plan: {
     title: "Planung",
@@ -112,6 +111,6 @@ export const supervisorDe: SupervisorWords = {
     },
     by: "durch",
   },
+  notKnown: "Zurzeit nicht bekannt: der Server antwortet nicht.",
   scene: { title: "3-D", hint: "Braucht eine gute Leitung" },
-  loading: "Wird erfragt …",
 };

@@ -28,7 +28,6 @@ export const supervisorEn = {
     title: "Procedure",
     noCase: "No case is open in theatre. The steps appear here as soon as one is.",
     lacks: "waits for a co-signature",
-    notAnswered: "The server does not say how the procedure stands.",
   },
   plan: {
     title: "Plan",
@@ -115,8 +114,8 @@ export const supervisorEn = {
     },
     by: "by",
   },
+  notKnown: "Not known now: the server is not heard.",
   scene: { title: "3-D", hint: "Needs a good line" },
-  loading: "Is being asked for …",
 };
 
 export type SupervisorWords = typeof supervisorEn;

@@ -2,7 +2,6 @@ import type { ToolWords } from "./en";
 
 export const toolDe: ToolWords = {
   title: "Instrumente",
-  loading: "Der Server wird gefragt …",
   noCase: "Öffnen Sie zuerst einen Fall: darin wird die Kalibrierung gespeichert.",
   ofSettings: "Aus den Einstellungen bekannt. Was hier kalibriert wird, geht vor.",
   nothing: "In diesem Fall nicht kalibriert.",

@@ -1,6 +1,5 @@
 export const toolEn = {
   title: "Tools",
-  loading: "Asking the server …",
   noCase: "Open a case first: what is calibrated is kept in it.",
   ofSettings: "Known from the settings. What is calibrated here counts before them.",
   nothing: "Not calibrated in this case.",

@@ -38,7 +38,7 @@ export function LandmarksPart(): ReactNode {
     <>
       <VertebraChooser />
       <p>{words.hint}</p>
-      <p className={isEnough ? "enough" : "warning"} data-testid="landmark-count">
+      <p className={least === null ? "soft" : isEnough ? "enough" : "warning"} data-testid="landmark-count">
         {landmarks.length} {words.set}
         {least !== null && ` · ${words.needed} ${least}`} · {words.better}
       </p>

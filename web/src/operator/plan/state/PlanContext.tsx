@@ -16,7 +16,9 @@ interface PlanValue {
   caseId: string;
   plan: PlanAnswer | null;
   planRefusal: Refusal | null;
+  /** Whether the first answer is still awaited. */
   asking: boolean;
+  askAgain: () => void;
   vertebrae: Vertebra[];
   /** The vertebra that is worked on; null while there is none. */
   vertebra: Vertebra | null;
@@ -103,6 +105,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     plan,
     planRefusal,
     asking,
+    askAgain: () => void again(),
     vertebrae,
     side,
     conflict,

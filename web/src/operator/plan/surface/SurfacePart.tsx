@@ -4,6 +4,7 @@ import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
 import { RefusalNote } from "../../../rest/RefusalNote";
+import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import { isOver, useJob } from "../../../rest/useJob";
@@ -59,7 +60,7 @@ export function SurfacePart(): ReactNode {
       <h3>{words.title}</h3>
       <p>{words.hint}</p>
       {surface.data === "none" && <p className="soft">{words.none}</p>}
-      <RefusalNote refusal={surface.refusal} />
+      {surface.data === null && <Unanswered asked={surface} />}
       {found !== null && <SurfaceNumbers surface={found} />}
       <Button size="xl" fullWidth disabled={isBusy} data-testid="make-surface" onClick={make}>
         {found === null ? words.make : words.makeAnew}

@@ -1,5 +1,6 @@
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
+import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
@@ -20,7 +21,7 @@ export function NeedlesPage(): ReactNode {
   const [view, setView] = useState(known ?? FIRST_VIEW);
   const [measured, setMeasured] = useState(known !== null);
   const [chosen, setChosen] = useState<string[] | null>(null);
-  if (plan.data === null) return <Refused refusal={plan.refusal} />;
+  if (plan.data === null) return <Unanswered asked={plan} Note={Refused} />;
   const name = plan.data.active_channel?.vertebra ?? "";
   const vertebra = plannedVertebrae(plan.data.plan).find((one) => one.name === name);
   if (vertebra === undefined) return <p className="warning">▲ {words.noVertebra}</p>;

@@ -1,4 +1,5 @@
 import type { ReactNode } from "react";
+import { Unanswered } from "../../../rest/Unanswered";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
@@ -7,8 +8,9 @@ import { NudgesWork } from "./NudgesWork";
 /** Small steps by hand, with the drawn vertebra in sight. */
 export function NudgesPage(): ReactNode {
   const words = useWords().registration.nudges;
-  const step = useProcedure().data?.steps.find((one) => one.step === "register");
-  if (step === undefined) return null;
+  const procedure = useProcedure();
+  const step = procedure.data?.steps.find((one) => one.step === "register");
+  if (step === undefined) return <Unanswered asked={procedure} />;
   if (step.state !== "done") return <p className="warning">▲ {words.needsRegistration}</p>;
   return (
     <div className="work">

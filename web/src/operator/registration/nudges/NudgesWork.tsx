@@ -1,6 +1,7 @@
 import { Button, SegmentedControl } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
+import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import { Icon } from "../../../panes/Icon";
@@ -71,7 +72,8 @@ export function NudgesWork(): ReactNode {
           />
         </div>
         <NudgePad kind={kind} disabled={doing.busy} onNudge={nudge} />
-        <Refused refusal={doing.refusal ?? asked.refusal} />
+        <Refused refusal={doing.refusal} />
+        {data === null && <Unanswered asked={asked} Note={Refused} />}
         <Button
           size="lg"
           variant="default"

@@ -12,7 +12,7 @@ import { useTools } from "../useTools";
 /** Before the first landmark: what is to come, and with which tool. */
 export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const words = useWords().registration;
-  const first = useTools()[0]?.name ?? "";
+  const first = useTools()?.[0]?.name ?? "";
   const [chosen, setChosen] = useState("");
   const tool = chosen || first;
   const beginning = useDo();

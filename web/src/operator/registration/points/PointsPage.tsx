@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { Unanswered } from "../../../rest/Unanswered";
 import { RehearsalStrip } from "../RehearsalStrip";
 import { TipRests } from "../TipRests";
 import { useRunning } from "../useRunning";
@@ -12,7 +12,7 @@ export function PointsPage(): ReactNode {
   return (
     <>
       <RehearsalStrip scenes={["landmarks"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
-      <RefusalNote refusal={running.refusal} />
+      {running.data === null && <Unanswered asked={running} />}
       {running.data !== null &&
         (running.data.points ? (
           <PointsWork onOver={running.again} />

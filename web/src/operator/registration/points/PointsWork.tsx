@@ -1,6 +1,7 @@
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, server } from "../../../rest/client";
+import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
@@ -32,7 +33,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
   const [order, setOrder] = useState<string[]>([]);
   const doing = useDo();
   const { data } = asked;
-  if (data === null) return <Refused refusal={asked.refusal} />;
+  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
   const wanted = nextLandmark(data, picked);
   const landmark = data.landmarks.find((one) => one.name === wanted) ?? null;
 

@@ -14,7 +14,7 @@ import { useTools } from "../useTools";
 export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
   const words = useWords().registration;
   const procedure = useProcedure().data;
-  const first = useTools()[0]?.name ?? "";
+  const first = useTools()?.[0]?.name ?? "";
   const [chosen, setChosen] = useState("");
   const tool = chosen || first;
   const beginning = useDo();

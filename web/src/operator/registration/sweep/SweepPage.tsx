@@ -1,5 +1,5 @@
 import type { ReactNode } from "react";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { Unanswered } from "../../../rest/Unanswered";
 import { RehearsalStrip } from "../RehearsalStrip";
 import { useRunning } from "../useRunning";
 import { SweepBegin } from "./SweepBegin";
@@ -11,7 +11,7 @@ export function SweepPage(): ReactNode {
   return (
     <>
       <RehearsalStrip scenes={["sweep"]} />
-      <RefusalNote refusal={running.refusal} />
+      {running.data === null && <Unanswered asked={running} />}
       {running.data !== null &&
         (running.data.sweep ? <SweepWork onOver={running.again} /> : <SweepBegin onBegun={running.again} />)}
     </>

@@ -2,6 +2,7 @@ import { Button, Loader } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
 import { answered, Refusal, server } from "../../../rest/client";
+import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
@@ -32,7 +33,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   const doing = useDo();
   const fitting = useDo();
   const { data } = asked;
-  if (data === null) return <Refused refusal={asked.refusal} />;
+  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
 
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing

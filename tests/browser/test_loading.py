@@ -1,0 +1,240 @@
+"""A page that is loading is calm: it claims nothing that nobody has told it yet.
+
+Answers and live messages are held back until the test lets them go, and the page's time is made: it passes
+when the test says so.
+"""
+
+import re
+from collections.abc import Callable, Iterator
+
+import pytest
+from playwright.sync_api import Page, Route, WebSocketRoute, expect
+
+from tests.browser.test_supervision_in_browser import Supervised
+from tests.browser.theatre import CHECKOUT, PATIENCE_MS, Watched
+
+pytestmark = pytest.mark.browser
+expect.set_options(timeout=PATIENCE_MS)
+
+Watch = Callable[..., Watched]
+NAME = "L3, rehearsal"
+STEPS = (
+    "",
+    "/case",
+    "/camera",
+    "/tool",
+    "/plan",
+    "/register",
+    "/register/points",
+    "/register/needles",
+    "/register/sweep",
+    "/register/nudges",
+    "/check",
+    "/navigate",
+    "/report",
+    "/people",
+)
+PAGES = [
+    ("o1", "theatre"),
+    ("v1", "theatre"),
+    ("s1", "supervisor"),
+    *(("o1", f"operator{step}") for step in STEPS),
+]
+
+# Nothing of this is true of the server that is loaded from, so none of it may ever be seen.
+FALSE = [
+    "SERVER GONE",
+    "SERVER NOT REACHED",
+    "ALARMS NOT KNOWN",
+    "NO VIDEO",
+    "NO TRACKING",
+    "NO NUMBERS",
+    "SCENE STALE",
+    "No drill to show",
+    "No tool is in use",
+    "is not seen: turn",
+    "not registered",
+    "No case is open",
+    "no case open",
+    "none chosen",
+    "Nobody knows",
+    "no numbers",
+    "not known",
+    "gone, reconnecting",
+    "There is no plan",
+    "There is no registration",
+    "Open a case",
+    "▲  ",
+]
+# Stands in the page before its own script does, and writes down what is seen of this, and every alert.
+RECORDER = f"""(() => {{
+    if (window.parent !== window) return;
+    const wrong = {FALSE!r};
+    const seen = window.seen = [];
+    const look = (part) => {{
+        const words = document.createTreeWalker(part, NodeFilter.SHOW_TEXT);
+        for (let node = words.currentNode; node; node = words.nextNode()) {{
+            const around = node.nodeType === Node.TEXT_NODE ? node.parentElement : null;
+            if (!around?.checkVisibility({{ visibilityProperty: true }})) continue;
+            if (wrong.some((one) => node.data.includes(one))) seen.push(node.data);
+            // What the server has told may be an alarm.
+            else if (!window.told && around.closest("[role=alert]")) seen.push(node.data);
+        }}
+    }};
+    new MutationObserver((records) => {{
+        for (const {{ target }} of records) look(target.nodeName === "#text" ? target.parentNode : target);
+    }}).observe(document, {{ subtree: true, childList: true, characterData: true, attributes: true }});
+}})()"""
+# A page takes up to so long to load on a busy machine; a server on an open line is gone after 0.8 s.
+LOADS_FOR_MS = 4000
+REACHED_WITHIN_MS = 10_000
+
+
+class Loading:
+    """A page whose answers and live messages wait until they are let go, in a time that the test makes."""
+
+    def __init__(self, watched: Watched, *, refuses: bool = False) -> None:
+        self.page = watched.page
+        self._refuses = refuses
+        self._held: dict[str, list[Route]] = {"session": [], "rest": [], "live": []}
+        self._lines: list[WebSocketRoute] = []
+        self._open: set[str] = set()
+        self.page.add_init_script(RECORDER)
+        self.page.route("**/api/**", self._answer)
+        self.page.route_web_socket(re.compile(r"/ws/(view|room)"), self._line)
+        self.page.clock.install(time=0)
+
+    def go(self, path: str) -> None:
+        """Load it, and have its time stand still."""
+        self.page.goto(path)
+        # The views come in files of their own, and are not what is waited for here.
+        for view in sorted((CHECKOUT / "web" / "dist" / "assets").glob("*View-*.js")):
+            self.page.evaluate("name => import(name)", f"/assets/{view.name}")
+        self.page.clock.pause_at(600_000)
+
+    def release(self, *kinds: str) -> None:
+        """Let the session, all other answers (rest), or what is live go, from now on."""
+        self._open.update(kinds)
+        for kind in kinds:
+            while self._held[kind]:
+                self._held[kind].pop().continue_()
+        if kinds != ("session",):
+            self.page.evaluate("window.told = true")
+        if "live" in kinds:
+            while self._lines:
+                self._lines.pop().close()
+
+    def shows(self, path: str) -> None:
+        """The view stands there: React shows what came late only when a moment of its time has passed."""
+        view = self.page.locator(f".{path.split('/', maxsplit=1)[0]}")
+        for _ in range(20):
+            self.pass_ms(50)
+            if view.is_visible():
+                return
+        pytest.fail(f"no view of {path}")
+
+    def pass_ms(self, ms: int) -> None:
+        """Let so much of the page's time pass, with every timer in it."""
+        self.page.clock.run_for(ms)
+
+    def seen(self) -> list[str]:
+        """What was false and still seen, and every alert."""
+        return sorted(set(self.page.evaluate("seen")))
+
+    def _answer(self, route: Route) -> None:
+        name = route.request.url.rsplit("/api/", maxsplit=1)[-1]
+        kind = {"session": "session", "dashboard": "live", "live": "live"}.get(name, "rest")
+        if kind in self._open:
+            route.continue_()
+        else:
+            self._held[kind].append(route)
+
+    def _line(self, line: WebSocketRoute) -> None:
+        if "live" in self._open:
+            line.connect_to_server()
+        elif self._refuses:
+            line.close()
+        else:
+            self._lines.append(line)
+
+
+@pytest.fixture(scope="module")
+def supervised() -> Iterator[Supervised]:
+    server = Supervised()
+    yield server
+    server.process.communicate(timeout=30)
+
+
+def begun(watch: Watch, server: Supervised, person: str, path: str, *, refuses: bool = False) -> Loading:
+    # This server's CT has no slices, and the browser writes each refusal into its console.
+    watched = watch(server, 1180, 820, strict=path != "operator/plan")
+    address = f"http://127.0.0.1:{server.port}"
+    watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])
+    loading = Loading(watched, refuses=refuses)
+    loading.go(f"{address}/{path}")
+    return loading
+
+
+def is_true(page: Page, path: str) -> None:
+    """What the server tells stands there."""
+    if path.startswith("operator"):
+        expect(page.get_by_test_id("link-state")).to_contain_text("connected")
+        expect(page.get_by_test_id("open-case")).to_contain_text(NAME)
+        expect(page.get_by_test_id("step-register")).to_contain_text("done")
+        expect(page.get_by_test_id("alarms")).not_to_have_attribute("data-priority", "loading")
+    elif path == "theatre":
+        expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true")
+        expect(page.get_by_test_id("case-name")).to_contain_text(NAME)
+    else:
+        expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true")
+        expect(page.get_by_test_id("steps").locator("li").first).to_be_visible()
+    expect(page.locator("main .loading:visible")).to_have_count(0)
+
+
+@pytest.mark.parametrize("first", ["rest", "live"])
+@pytest.mark.parametrize(("person", "path"), PAGES)
+def test_nothing_false_is_seen_while_a_page_loads(
+    supervised: Supervised, watch: Watch, person: str, path: str, first: str
+) -> None:
+    loading = begun(watch, supervised, person, path)
+    page = loading.page
+    loading.pass_ms(LOADS_FOR_MS // 2)
+    loading.release("session")
+    loading.shows(path)
+    loading.pass_ms(LOADS_FOR_MS)
+    assert loading.seen() == []
+    loading.release(first)
+    if first == "rest":
+        loading.pass_ms(LOADS_FOR_MS // 2)
+    else:
+        # Live images age in a time of their own.
+        page.clock.resume()
+        expect(page.locator("[aria-busy=true], .alarms[data-priority=loading]")).to_have_count(0)
+    assert loading.seen() == []
+    loading.release("rest", "live")
+    page.clock.resume()
+    is_true(page, path)
+    assert loading.seen() == []
+
+
+@pytest.mark.parametrize(
+    ("person", "path"), [("o1", "theatre"), ("s1", "supervisor"), ("o1", "operator/check")]
+)
+def test_server_that_is_not_reached_is_told_after_ten_seconds_and_not_before(
+    supervised: Supervised, watch: Watch, person: str, path: str
+) -> None:
+    loading = begun(watch, supervised, person, path, refuses=True)
+    page = loading.page
+    loading.release("session", "rest")
+    loading.shows(path)
+    loading.pass_ms(REACHED_WITHIN_MS - 1500)
+    assert loading.seen() == []
+    loading.pass_ms(2000)
+    cover = page.locator(".when-stale:visible").first
+    expect(cover).to_contain_text("SERVER NOT REACHED")
+    expect(cover).to_contain_text("that Coaxial is running")
+    expect(page.locator(".alarms [role=alert]")).to_be_visible()
+    loading.release("live")
+    page.clock.resume()
+    is_true(page, path)
+    expect(page.get_by_text("SERVER NOT REACHED").locator("visible=true")).to_have_count(0)

@@ -1,0 +1,30 @@
+import { Button, Loader } from "@mantine/core";
+import type { ReactNode } from "react";
+import { useWords } from "../words/WordsContext";
+import { RefusalNote } from "./RefusalNote";
+import type { Asked } from "./useAsked";
+
+interface UnansweredProps {
+  asked: Pick<Asked<unknown>, "refusal" | "again">;
+  /** How a refusal is shown. */
+  Note?: typeof RefusalNote;
+}
+
+/** In place of an answer that is not there: that it is awaited, or why it failed and a way to ask again. */
+export function Unanswered({ asked: { refusal, again }, Note = RefusalNote }: UnansweredProps): ReactNode {
+  const words = useWords().rest;
+  if (refusal === null)
+    return (
+      <p className="loading" role="status">
+        <Loader size="sm" color="gray" aria-hidden="true" /> {words.loading}
+      </p>
+    );
+  return (
+    <div className="stack unanswered">
+      <Note refusal={refusal} />
+      <Button size="lg" variant="default" onClick={again}>
+        {words.again}
+      </Button>
+    </div>
+  );
+}
