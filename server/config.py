@@ -253,9 +253,9 @@ class AlarmsConfig(Section):
 
     warning_distance_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 1.0
     """Bone between the drill's cylinder and the pedicle's wall."""
-    hysteresis_mm: Annotated[float, Field(ge=0.05, le=5.0)] = 0.3
+    hysteresis_mm: Annotated[float, Field(ge=0.05, le=1.0)] = 0.3
     """How much better a distance must be than its limit for the alarm to clear."""
-    breach_ratio: Annotated[float, Field(gt=0.0, lt=1.0)] = 0.05
+    breach_ratio: Annotated[float, Field(ge=0.01, lt=1.0)] = 0.05
     """Probability of being through the wall."""
     breach_hysteresis_ratio: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.02
     again_after_mm: Annotated[float, Field(ge=0.1, le=20.0)] = 1.0

@@ -222,6 +222,7 @@ class Preparation:
             registration=self.registration,
             reference=self.reference,
             screw=None if self.guide is None else self.guide.screw,
+            side=None if self.guide is None else self.guide.side,
             withheld=self.withheld,
             most_tip_sd_mm=self.most_tip_sd_mm,
             limits=self.limits,

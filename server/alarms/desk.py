@@ -27,6 +27,7 @@ from tracker.navigation.alarms import (
     observed_of,
     remembered,
 )
+from tracker.navigation.figures import rounded_down, rounded_up
 
 # A clock that is disciplined by NTP drifts less than this between two looks.
 MAX_CLOCK_DRIFT_S = 0.5
@@ -52,12 +53,12 @@ class ProcedureFacts:
 
 
 def alarm_limits(config: Config) -> AlarmLimits:
-    """The limits as the settings have them."""
+    """The limits as the settings have them, rounded as those of the figures are."""
     alarms = config.alarms
     return AlarmLimits(
-        warning_distance_mm=alarms.warning_distance_mm,
+        warning_distance_mm=rounded_up(alarms.warning_distance_mm),
         hysteresis_mm=alarms.hysteresis_mm,
-        breach_ratio=alarms.breach_ratio,
+        breach_ratio=rounded_down(100.0 * alarms.breach_ratio, decimals=0) / 100.0,
         breach_hysteresis_ratio=alarms.breach_hysteresis_ratio,
         again_after_mm=alarms.again_after_mm,
         drill_unseen_after_s=alarms.drill_unseen_after_ms / 1000.0,
@@ -209,7 +210,8 @@ class AlarmDesk:
             self._snapshot,
             self._memory,
             now_s=at_s,
-            fresh_s=self._limits.camera_silent_after_s,
+            # Of a camera or a tracker that is known not to work no number is of now.
+            fresh_s=self._limits.camera_silent_after_s if self._camera_works else -inf,
             put_away_after_s=self._put_away_after_s,
             navigating=facts.navigating,
         )

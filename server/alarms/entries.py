@@ -49,7 +49,7 @@ def entry_of(
 
 def _alarm(alarm: Alarm, *, unix_offset_s: float) -> Line:
     """The alarm in numbers and in words, as page and video have them."""
-    words = alarm_text(alarm, unix_offset_s=unix_offset_s)
+    words = alarm_text(alarm, unix_offset_s=unix_offset_s, of_now=False)
     line: dict[str, object] = {
         "number": alarm.number,
         "condition": alarm.condition.value,

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from server.overlay.ink import REGULAR, SEMIBOLD, WHITE, Box, Image, ground, text, text_width_px
 from server.texts import Language, Text, alarm_text
-from tracker.navigation.alarms import AlarmPicture, AlarmState, Priority
+from tracker.navigation.alarms import AlarmPicture, AlarmState, Priority, Showing
 
 # BGR; the words say the same, because colour alone says nothing to one man in twelve.
 COLOURS = {Priority.HIGH: (110, 110, 255), Priority.MEDIUM: (77, 216, 255), Priority.LOW: (242, 211, 111)}
@@ -45,9 +45,11 @@ def draw_alarm_band(
         return
     words = alarm_text(top, unix_offset_s=alarms.unix_offset_s)
     more = f"  +{len(alarms.alarms) - 1}" if len(alarms.alarms) > 1 else ""
-    known = f" ({STATES[top.state][language]})" if top.state in STATES else ""
+    # What was over and shows again is not over.
+    is_over = top.state is AlarmState.LATCHED and top.presence is not Showing.YES
+    has_state = is_over or top.state is AlarmState.ACKNOWLEDGED
+    known = f" ({STATES[top.state][language]})" if has_state else ""
     # What is over is no alarm any more: it has no marks, and no colour.
-    is_over = top.state is AlarmState.LATCHED
     marks, colour = ("", WHITE) if is_over else (f"{MARKS[top.priority]} ", COLOURS[top.priority])
     rows = [(f"{marks}{words.title[language]}{known}{more}", STATE_PX, SEMIBOLD)]
     rows += [

@@ -105,7 +105,7 @@ def _draw_inset(
         return below_px
     side = WIDTH_PX * scale
     top_px = below_px - GAP_PX * scale - side
-    seen, judged = seen_along(placed, channel), snapshot.judgements[tool]
+    seen, judged = seen_along(placed, channel, snapshot.setup.side), snapshot.judgements[tool]
     draw_bullseye(
         image,
         Inset(

@@ -40,7 +40,7 @@ def along_message(snapshot: NavigationSnapshot, tool: str) -> AlongMessage | Non
     known = isinstance(snapshot.deviations[tool], Deviation)
     if not known or isinstance(channel, Absent) or isinstance(placed, Absent):
         return None
-    seen, judged = seen_along(placed, channel), snapshot.judgements[tool]
+    seen, judged = seen_along(placed, channel, snapshot.setup.side), snapshot.judgements[tool]
     nearest = judged.clearance.now if isinstance(judged, Judged) else None
     half_axes = seen.half_axes_95_mm(judged.spread.tip_covariance_mm2) if isinstance(judged, Judged) else None
     return AlongMessage(

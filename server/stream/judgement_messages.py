@@ -32,6 +32,10 @@ class DeviationMessage(Message):
     """By how much the drill runs more to the middle than the channel, in an axial slice."""
     sagittal_deg: float
     """By how much it runs more to the head, in a sagittal slice."""
+    angle_medial_deg: float
+    """The part of the angle to the patient's middle, across the channel itself."""
+    angle_cranial_deg: float
+    """The part to the head, likewise."""
 
 
 class NearestMessage(Message):
@@ -133,6 +137,8 @@ def deviation_message(deviation: Deviation | Absent) -> DeviationMessage | Absen
         entry_cranial_mm=_finite(deviation.entry_cranial_mm),
         transverse_deg=deviation.transverse_deg,
         sagittal_deg=deviation.sagittal_deg,
+        angle_medial_deg=deviation.angle_medial_deg,
+        angle_cranial_deg=deviation.angle_cranial_deg,
     )
 
 

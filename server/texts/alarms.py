@@ -36,16 +36,17 @@ def alarm_title(condition: Condition) -> Text:
     return text_of(lambda language: PHRASES[language][condition].title)
 
 
-def alarm_text(alarm: Alarm, *, unix_offset_s: float) -> AlarmText:
+def alarm_text(alarm: Alarm, *, unix_offset_s: float, of_now: bool = True) -> AlarmText:
     """The words of one alarm.
 
     Args:
         alarm: as the engine has it.
         unix_offset_s: to be added to the alarm's times to have them as Unix time.
+        of_now: to be read at this moment; a line of the log is read later, and says nothing of then.
     """
     return AlarmText(
         title=alarm_title(alarm.condition),
-        sentence=text_of(lambda language: _sentence(alarm, language, unix_offset_s)),
+        sentence=text_of(lambda language: _sentence(alarm, language, unix_offset_s, of_now=of_now)),
         remedy=text_of(lambda language: _remedy(alarm, language)),
         known=text_of(lambda language: KNOWN[language].format(by=alarm.acknowledged_by))
         if alarm.acknowledged_by
@@ -53,7 +54,7 @@ def alarm_text(alarm: Alarm, *, unix_offset_s: float) -> AlarmText:
     )
 
 
-def _sentence(alarm: Alarm, language: Language, unix_offset_s: float) -> str:
+def _sentence(alarm: Alarm, language: Language, unix_offset_s: float, *, of_now: bool) -> str:
     phrases = PHRASES[language][alarm.condition]
     fields = _fields(alarm, language, unix_offset_s)
     if alarm.presence is Showing.YES:
@@ -64,7 +65,9 @@ def _sentence(alarm: Alarm, language: Language, unix_offset_s: float) -> str:
         return (phrases.lost or LOST[language]).format(**fields)
     if alarm.worst is None and phrases.bare_past:
         return phrases.bare_past.format(**fields)
-    return phrases.past.format(**fields)
+    # That it is over is said of what is measured now, and of nothing else.
+    is_measured = of_now and alarm.presence is Showing.NO
+    return phrases.past.format(**fields) + (phrases.over if is_measured else "")
 
 
 def is_lost(alarm: Alarm) -> bool:

@@ -127,6 +127,8 @@ def _tone(verdict: Verdict, alarms: AlarmPicture) -> Tone:
 def _title(assessment: Assessment, language: Language) -> str:
     figures, verdict = assessment.figures, assessment.verdict
     words = TITLES[language]
+    if verdict is Verdict.CORRECT_ANGLE and not assessment.corrections:
+        return ACROSS[language]
     if verdict is Verdict.CORRECT_END and isnan(figures[FigureName.END].value):
         return MISSES[language]
     of_channel = assessment.against is MeasuredAgainst.CHANNEL
@@ -162,7 +164,7 @@ def _corrections(corrections: tuple[Correction, ...], unit: str, language: Langu
 def _detail(assessment: Assessment, language: Language) -> str:
     figures, verdict = assessment.figures, assessment.verdict
     move = ""
-    if assessment.corrections and verdict in (Verdict.NEAR_WALL, Verdict.BREACH_LIKELY):
+    if assessment.corrections and verdict is Verdict.NEAR_WALL:
         move = MOVES[language].format(towards=_corrections(assessment.corrections, "", language))
     entry, angle, end = (figures[name] for name in (FigureName.ENTRY, FigureName.ANGLE, FigureName.END))
     if verdict is Verdict.CORRECT_END and isnan(end.value):
@@ -201,6 +203,7 @@ def _one_event(alarm: Alarm, unix_offset_s: float, language: Language) -> str:
 
 
 NO_IMAGE: Text = {"en": "NO IMAGE", "de": "KEIN BILD"}
+ACROSS: Text = {"en": "DRILL ACROSS CHANNEL", "de": "BOHRER QUER ZUM KANAL"}
 MISSES: Text = {"en": "MISSES PEDICLE", "de": "VERFEHLT PEDIKEL"}
 MISSES_DETAIL: Text = {
     "en": "this direction does not lead into the pedicle",
@@ -261,7 +264,7 @@ DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.THROUGH_WALL: "Stop. Withdraw the drill.",
         Verdict.TOO_DEEP: "Stop. Withdraw the drill.",
         Verdict.UNCERTAIN: "95 % error, limit {error_limit}",
-        Verdict.BREACH_LIKELY: "within 2 mm, limit {risk_limit}{move}",
+        Verdict.BREACH_LIKELY: "within 2 mm, limit {risk_limit}",
         Verdict.NEAR_WALL: "limit {wall_limit}{move}",
         Verdict.CORRECT_ENTRY: "entry {entry_mm}, limit {entry_limit}",
         Verdict.CORRECT_ANGLE: "angle {angle_deg}, limit {angle_limit}",
@@ -273,7 +276,7 @@ DETAILS: Mapping[Language, Mapping[Verdict, str]] = {
         Verdict.THROUGH_WALL: "Anhalten. Bohrer zurückziehen.",
         Verdict.TOO_DEEP: "Anhalten. Bohrer zurückziehen.",
         Verdict.UNCERTAIN: "95-%-Fehler, Grenze {error_limit}",
-        Verdict.BREACH_LIKELY: "innerhalb von 2 mm, Grenze {risk_limit}{move}",
+        Verdict.BREACH_LIKELY: "innerhalb von 2 mm, Grenze {risk_limit}",
         Verdict.NEAR_WALL: "Grenze {wall_limit}{move}",
         Verdict.CORRECT_ENTRY: "Eintritt {entry_mm}, Grenze {entry_limit}",
         Verdict.CORRECT_ANGLE: "Winkel {angle_deg}, Grenze {angle_limit}",

@@ -15,6 +15,7 @@ class Phrases:
         title: in capitals.
         present: it is there now.
         past: it was there.
+        over: added to `past` where it is measured that it is not there now.
         lost: it was there when it was last seen, and nobody sees whether it still is.
         remedy, lost_remedy: what to do, while it is there and while that is not known.
         bare: `present` where there is no number; empty where there always is one, or never.
@@ -24,6 +25,7 @@ class Phrases:
     title: str
     present: str
     past: str
+    over: str = ""
     lost: str = ""
     remedy: str = ""
     lost_remedy: str = ""
@@ -32,40 +34,43 @@ class Phrases:
 
 
 _WITHDRAW: Text = {"en": "Stop. Withdraw the drill.", "de": "Anhalten. Bohrer zurückziehen."}
-_SHOW: Text = {"en": "Stop. Bring the marker into view.", "de": "Anhalten. Marker ins Bild bringen."}
+# Why it is not tracked, and what to do about it, is another alarm's or the headline's.
+_STOP: Text = {"en": "Stop.", "de": "Anhalten."}
 
 ENGLISH: Mapping[Condition, Phrases] = {
     Condition.BREACH: Phrases(
         title="BREACH",
         present="{tool}Drill {value} {through}{at}.",
-        past="{worst_tool}Was {worst} {worst_through}{worst_at}, {time}. Not through now.",
+        past="{worst_tool}Was {worst} {worst_through}{worst_at}, {time}.",
+        over=" Not through now.",
         lost="Not tracked. {worst_tool}Was {worst} {worst_through}{worst_at}, {time}.",
         remedy=_WITHDRAW["en"],
-        lost_remedy=_SHOW["en"],
+        lost_remedy=_STOP["en"],
     ),
     Condition.PAST_DEPTH: Phrases(
         title="TOO DEEP",
         present="{tool}Tip {value} past the planned depth.",
-        past="{worst_tool}Was {worst} past the planned depth, {time}. Not past it now.",
+        past="{worst_tool}Was {worst} past the planned depth, {time}.",
+        over=" Not past it now.",
         lost="Not tracked. {worst_tool}Was {worst} past the planned depth, {time}.",
         remedy=_WITHDRAW["en"],
-        lost_remedy=_SHOW["en"],
+        lost_remedy=_STOP["en"],
     ),
     Condition.BREACH_LIKELY: Phrases(
         title="BREACH RISK",
         present="{tool}Risk of breach {value} within 2 mm, limit {limit}.",
         past="{worst_tool}Risk of breach was {worst}.",
         lost="Not tracked. {worst_tool}Risk of breach was {worst}.",
-        remedy="Stop. Hold still, marker in full view.",
-        lost_remedy=_SHOW["en"],
+        remedy="Do not advance. Aim back to the channel's axis.",
+        lost_remedy=_STOP["en"],
     ),
     Condition.CLEARANCE_LOW: Phrases(
         title="NEAR WALL",
         present="{tool}{value} to the {near}, limit {limit}.",
         past="{worst_tool}Was {worst} from the {worst_near}.",
         lost="Not tracked. {worst_tool}Was {worst} from the {worst_near}.",
-        remedy="Aim back to the channel's axis.",
-        lost_remedy=_SHOW["en"],
+        remedy="Do not advance. Aim back to the channel's axis.",
+        lost_remedy=_STOP["en"],
     ),
     Condition.DRILL_UNSEEN: Phrases(
         title="DRILL NOT SEEN",
@@ -171,34 +176,36 @@ GERMAN: Mapping[Condition, Phrases] = {
     Condition.BREACH: Phrases(
         title="WANDDURCHBRUCH",
         present="{tool}Bohrer {value} {through}{at}.",
-        past="{worst_tool}War {worst} {worst_through}{worst_at}, {time}. Jetzt nicht mehr.",
+        past="{worst_tool}War {worst} {worst_through}{worst_at}, {time}.",
+        over=" Jetzt nicht mehr.",
         lost="Nicht verfolgt. {worst_tool}War {worst} {worst_through}{worst_at}, {time}.",
         remedy=_WITHDRAW["de"],
-        lost_remedy=_SHOW["de"],
+        lost_remedy=_STOP["de"],
     ),
     Condition.PAST_DEPTH: Phrases(
         title="ZU TIEF",
         present="{tool}Spitze {value} über der geplanten Tiefe.",
-        past="{worst_tool}War {worst} über der geplanten Tiefe, {time}. Jetzt nicht mehr.",
+        past="{worst_tool}War {worst} über der geplanten Tiefe, {time}.",
+        over=" Jetzt nicht mehr.",
         lost="Nicht verfolgt. {worst_tool}War {worst} über der geplanten Tiefe, {time}.",
         remedy=_WITHDRAW["de"],
-        lost_remedy=_SHOW["de"],
+        lost_remedy=_STOP["de"],
     ),
     Condition.BREACH_LIKELY: Phrases(
         title="DURCHBRUCHRISIKO",
         present="{tool}Durchbruchrisiko {value} innerhalb von 2 mm, Grenze {limit}.",
         past="{worst_tool}Durchbruchrisiko war {worst}.",
         lost="Nicht verfolgt. {worst_tool}Durchbruchrisiko war {worst}.",
-        remedy="Anhalten. Ruhig halten, Marker voll im Bild.",
-        lost_remedy=_SHOW["de"],
+        remedy="Nicht weiter bohren. Zurück zur Kanalachse richten.",
+        lost_remedy=_STOP["de"],
     ),
     Condition.CLEARANCE_LOW: Phrases(
         title="NAHE DER WAND",
         present="{tool}Noch {value}: {near}, Grenze {limit}.",
         past="{worst_tool}Kleinster Abstand war {worst}: {worst_near}.",
         lost="Nicht verfolgt. {worst_tool}Kleinster Abstand war {worst}: {worst_near}.",
-        remedy="Zurück zur Kanalachse richten.",
-        lost_remedy=_SHOW["de"],
+        remedy="Nicht weiter bohren. Zurück zur Kanalachse richten.",
+        lost_remedy=_STOP["de"],
     ),
     Condition.DRILL_UNSEEN: Phrases(
         title="BOHRER NICHT GESEHEN",

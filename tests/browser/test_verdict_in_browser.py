@@ -78,7 +78,7 @@ def test_a_breach_from_the_path_to_its_acknowledgement(theatre: Theatre, watch: 
     expect(alarm).to_contain_text(
         re.compile(rf"Not tracked\. Was 0\.8 mm through the medial wall at 29\.0 mm depth, {TIME}\.")
     )
-    expect(alarm).to_contain_text("Stop. Bring the marker into view.")
+    expect(alarm).to_contain_text("Stop.")
     expect(page.get_by_test_id("headline-event")).to_have_text("BREACH when last seen")
     keep(page, "lost-in-a-breach")
     theatre.tell("path")

@@ -7,6 +7,7 @@ import numpy as np
 from tracker.geometry import Array, Rigid, Tool, Vertebra
 from tracker.navigation.directions import directions_of
 from tracker.plan import Channel
+from tracker.plan.pedicle import Side
 
 # A drill across the channel (89.4 degrees) crosses its planes metres away.
 LEAST_ALONG = 0.01
@@ -54,9 +55,11 @@ def half_axes_95_mm(covariance_mm2: Array) -> Array:
     return np.asarray(np.sqrt(np.maximum(values, 0.0) * CHI_SQUARE_95)[:, None] * vectors.T)
 
 
-def seen_along(vertebra_from_tool: Rigid[Vertebra, Tool], channel: Channel) -> AlongChannel:
-    """The drill in the view along the channel."""
-    across = directions_of(channel)
+def seen_along(
+    vertebra_from_tool: Rigid[Vertebra, Tool], channel: Channel, side: Side | None = None
+) -> AlongChannel:
+    """The drill in the view along the channel; `side` is the plan's, where it is known."""
+    across = directions_of(channel, side)
     right = np.cross(across.axis, across.cranial)
     view = np.stack([right, across.cranial])
     tip = vertebra_from_tool.translation_mm - channel.entry_in_vertebra_mm

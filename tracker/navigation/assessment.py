@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from math import hypot, inf, isfinite, nan
+from math import inf, isfinite, nan
 
 from tracker.navigation.certainty import Judged
 from tracker.navigation.clearance import Closest, MeasuredAgainst, Nearest
@@ -14,8 +14,8 @@ from tracker.plan import Channel
 
 # The second component of a correction is stated from this share of the first one on.
 MIN_SECOND_RATIO = 0.5
-# A slice shows an angle larger than it is: by this factor for a channel that is inclined by 45 degrees.
-MAX_IN_SLICES = 1.5
+# Farther off than this a drill lies across the channel.
+MAX_AIMED_DEG = 45.0
 
 
 class Verdict(StrEnum):
@@ -162,8 +162,8 @@ def _worse_of(figures: Mapping[FigureName, Figure]) -> Verdict | None:
         for verdict, figure in ((Verdict.CORRECT_ENTRY, entry), (Verdict.CORRECT_ANGLE, angle))
         if figure.status is Status.OVER
     }
-    # Across the channel a drill has no entry offset; its angle says what to do.
-    if Verdict.CORRECT_ANGLE in over and not isfinite(entry.value):
+    # A drill across the channel meets its entry plane far away or never: its angle says what to do.
+    if Verdict.CORRECT_ANGLE in over and angle.value > MAX_AIMED_DEG:
         return Verdict.CORRECT_ANGLE
     return max(over, key=lambda verdict: over[verdict], default=None)
 
@@ -177,13 +177,12 @@ def _corrections(
             (deviation.entry_cranial_mm, Direction.CAUDAL, Direction.CRANIAL),
         )
     if verdict is Verdict.CORRECT_ANGLE:
-        # A drill far off the channel has angles in the slices that do not show the way back to it.
-        in_slices_deg = hypot(deviation.transverse_deg, deviation.sagittal_deg)
-        if in_slices_deg > MAX_IN_SLICES * deviation.angle_deg:
+        # A drill across the channel is to be turned into it, not aimed by degrees.
+        if deviation.angle_deg > MAX_AIMED_DEG:
             return ()
         return _components(
-            (deviation.transverse_deg, Direction.LATERAL, Direction.MEDIAL),
-            (deviation.sagittal_deg, Direction.CAUDAL, Direction.CRANIAL),
+            (deviation.angle_medial_deg, Direction.LATERAL, Direction.MEDIAL),
+            (deviation.angle_cranial_deg, Direction.CAUDAL, Direction.CRANIAL),
         )
     nearest = end_wall if verdict is Verdict.CORRECT_END else wall
     if nearest is not None and verdict in (

@@ -139,7 +139,7 @@ def tool_deviation(
     if setup.withheld is not None:
         return Absent(reason=setup.withheld)
     return deviation_from_channel(
-        vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel
+        vertebra.camera_from_vertebra.inverse @ tool.camera_from_tool, setup.channel, setup.side
     )
 
 

@@ -28,6 +28,8 @@ class Deviation:
         transverse_deg: by how much the drill runs more to the middle than the channel, as an axial slice
             shows it (angles as those of a pedicle's measure); negative outwards.
         sagittal_deg: by how much it runs more to the head, as a sagittal slice shows it.
+        angle_medial_deg: the part of the angle to the middle, across the channel itself; never more than it.
+        angle_cranial_deg: the part to the head, likewise.
     """
 
     entry_offset_mm: float
@@ -39,6 +41,8 @@ class Deviation:
     entry_cranial_mm: float
     transverse_deg: float
     sagittal_deg: float
+    angle_medial_deg: float
+    angle_cranial_deg: float
 
 
 def deviation_from_channel(
@@ -60,9 +64,13 @@ def deviation_from_channel(
         crossing = tip - direction * (depth / along)
         entry_offset = float(np.linalg.norm(crossing))
         lateral, cranial = -float(crossing @ across.medial), float(crossing @ across.cranial)
+    angle_deg = angle_between_deg(direction, axis)
+    to_medial, to_cranial = float(direction @ across.medial), float(direction @ across.cranial)
+    # A drill that points straight back has an angle and no side.
+    per_part = angle_deg / max(float(np.hypot(to_medial, to_cranial)), 1e-9)
     return Deviation(
         entry_offset_mm=entry_offset,
-        angle_deg=angle_between_deg(direction, axis),
+        angle_deg=angle_deg,
         depth_mm=depth,
         remaining_mm=channel.length_mm - depth,
         tip_offset_mm=float(np.linalg.norm(tip - depth * axis)),
@@ -70,6 +78,8 @@ def deviation_from_channel(
         entry_cranial_mm=cranial,
         transverse_deg=_turned_deg(direction, axis, across.side),
         sagittal_deg=_within_half_turn(sagittal_deg_of(direction) - sagittal_deg_of(axis)),
+        angle_medial_deg=to_medial * per_part,
+        angle_cranial_deg=to_cranial * per_part,
     )
 
 

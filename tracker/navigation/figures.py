@@ -137,7 +137,8 @@ def _wall(now: Closest, warning_distance_mm: float, *, sd_mm: float) -> Figure:
     if not isinstance(now, Nearest):
         return Figure(value=nan, limit=limit, status=Status.OUTSIDE)
     value = rounded_down(now.clearance_mm)
-    status = Status.THROUGH if value < 0.0 else Status.OVER if value < limit else Status.WITHIN
+    # A value that is no number is not within.
+    status = Status.THROUGH if value < 0.0 else Status.WITHIN if value >= limit else Status.OVER
     return Figure(value=value, limit=limit, error_95=rounded_up(NORMAL_95 * sd_mm, decimals=2), status=status)
 
 

@@ -25,6 +25,7 @@ from tracker.navigation.figures import DrillLimits
 from tracker.navigation.guide import ScrewSize
 from tracker.navigation.watch import NeverSeen, SceneState
 from tracker.plan import Channel
+from tracker.plan.pedicle import Side
 from tracker.pose import Sighting, ToolModel
 from tracker.registration import Registration
 
@@ -84,6 +85,7 @@ class Setup:
         withheld: why no number is given although all of this is known; None when nothing is in the way.
         most_tip_sd_mm: a tip that is less sure than this (root of the trace of its covariance) is not placed.
         limits: of a drill, beside those of its pedicle.
+        side: the plan's side of the patient; None where nobody stated it.
     """
 
     camera: CameraModel
@@ -96,6 +98,7 @@ class Setup:
     withheld: AbsentReason | None = None
     most_tip_sd_mm: float = 3.0
     limits: DrillLimits = field(default_factory=DrillLimits)
+    side: Side | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

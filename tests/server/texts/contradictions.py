@@ -106,7 +106,8 @@ class Witness:
         if alarm.presence is Showing.NO and alarm.condition in (Condition.BREACH, Condition.PAST_DEPTH):
             assert not any(is_over(figure) for figure in known), f"{sentence} beside {known}"
         if alarm.presence is Showing.UNKNOWN and alarm.condition in PHYSIOLOGICAL:
-            assert not known
+            all_seen = len(assessments) == len(told.snapshot.tools)
+            assert not (known and all_seen), "of a drill that is seen, it is known"
 
     def _breach_is_announced(self, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
         if told.snapshot is None:

@@ -38,6 +38,7 @@ def setup_of(names: Collection[str] = ("drill",)) -> Setup:
         tools={name: drill(name) for name in names},
         channel=ROD_CHANNEL,
         registration=Registration.known_to_camera(CAMERA_FROM_VERTEBRA),
+        side="left",
     )
 
 

@@ -36,9 +36,15 @@ TIME = clock_text(NOON_S + 3.0)
             id="over, and not acknowledged",
         ),
         pytest.param(
+            breach(presence=Showing.UNKNOWN, state=AlarmState.LATCHED),
+            f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}.",
+            "",
+            id="over, and not seen any more: nothing is said of now",
+        ),
+        pytest.param(
             breach(presence=Showing.UNKNOWN),
             f"Not tracked. Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}.",
-            "Stop. Bring the marker into view.",
+            "Stop.",
             id="tracking lost in a breach",
         ),
         pytest.param(
@@ -50,7 +56,7 @@ TIME = clock_text(NOON_S + 3.0)
         pytest.param(
             alarm(Condition.CLEARANCE_LOW, measure=mm(0.6, 1.0), site=MEDIAL),
             "0.6 mm to the medial wall, limit 1.0 mm.",
-            "Aim back to the channel's axis.",
+            "Do not advance. Aim back to the channel's axis.",
             id="near a wall",
         ),
         pytest.param(

@@ -78,7 +78,7 @@ def headline_at(snapshot_of: SnapshotOf, depth_mm: float, **off: float) -> Headl
         pytest.param(
             {"depth_mm": 0.0, "medial_deg": 89.99},
             Tone.CAUTION,
-            "AIM 90.0° lateral",
+            "DRILL ACROSS CHANNEL",
             "angle 90.0°, limit 5.7°",
             id="across",
         ),

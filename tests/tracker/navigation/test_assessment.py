@@ -96,18 +96,17 @@ OVER = {Status.OVER, Status.THROUGH}
             ((60.0, Direction.LATERAL),),
             id="beside-the-patient-no-depth-is-too-deep",
         ),
-        pytest.param({"depth_mm": 0.0, "medial_deg": 89.99}, Verdict.CORRECT_ANGLE, None, id="across"),
+        pytest.param({"depth_mm": 0.0, "medial_deg": 89.99}, Verdict.CORRECT_ANGLE, (), id="across"),
     ],
 )
 def test_a_drill_has_the_verdict_of_its_figures_and_the_way_back(
-    drill: dict[str, float], verdict: Verdict, corrections: tuple[tuple[float, Direction], ...] | None
+    drill: dict[str, float], verdict: Verdict, corrections: tuple[tuple[float, Direction], ...]
 ) -> None:
     assessment = assessed_at(**drill)
     assert assessment.verdict is verdict
-    if corrections is not None:
-        assert repr(assessment.corrections) == repr(
-            tuple(Correction(amount=mm, towards=to) for mm, to in corrections)
-        )
+    assert repr(assessment.corrections) == repr(
+        tuple(Correction(amount=mm, towards=to) for mm, to in corrections)
+    )
 
 
 def test_the_wall_that_is_meant_is_named_and_so_is_what_it_was_measured_against() -> None:

@@ -152,5 +152,7 @@ def test_the_gap_is_the_distance_from_the_surface_of_the_channel(
         entry_cranial_mm=0.0,
         transverse_deg=0.0,
         sagittal_deg=0.0,
+        angle_medial_deg=0.0,
+        angle_cranial_deg=0.0,
     )
     assert wall_gap_mm(deviation, CHANNEL) == pytest.approx(gap_mm)

@@ -5,7 +5,7 @@ from math import inf, isfinite
 
 from tracker.errors import InvalidInput
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Priority
-from tracker.navigation.alarms.evidence import Evidence, Showing, evidence_of
+from tracker.navigation.alarms.evidence import UNKNOWN, Evidence, Showing, evidence_of
 from tracker.navigation.alarms.limits import MOST_PAUSE_S, AlarmLimits
 from tracker.navigation.alarms.observed import Observed
 from tracker.navigation.alarms.occurrence import AlarmState, Moment, Occurrence, acknowledged, advanced
@@ -61,8 +61,12 @@ class AlarmEngine:
     def _evidence(self, condition: Condition, observed: Observed, was: Occurrence) -> Evidence:
         """What this moment says, with hysteresis; whether it is present by its limit alone is remembered."""
         plain = evidence_of(condition, observed, self._limits, standing=False)
-        self._presence[condition] = plain.showing
-        if not was.is_standing:
+        is_watched = observed.navigating or TRAITS[condition].always
+        if TRAITS[condition].latches and plain.showing is Showing.NO and _is_unseen(was, observed):
+            # The drill that it is about is not seen: that another one is well says nothing of it.
+            plain = UNKNOWN
+        self._presence[condition] = plain.showing if is_watched else Showing.UNKNOWN
+        if not was.is_standing or plain is UNKNOWN:
             return plain
         return evidence_of(condition, observed, self._limits, standing=True)
 
@@ -73,7 +77,9 @@ class AlarmEngine:
             now = acknowledged(was, by=by)
             if self._numbers[condition] in numbers and now is not was:
                 self._occurrences[condition] = now
-                self._tell(Change.ACKNOWLEDGED, condition, now, by=by)
+                # Of what is over nothing is left; the log tells what it was.
+                told = was if now.state is AlarmState.NORMAL else now
+                self._tell(Change.ACKNOWLEDGED, condition, told, by=by)
         return self._concluded()
 
     def pause(self, seconds: float, *, by: str, at_s: float) -> AlarmPicture:
@@ -154,6 +160,9 @@ class AlarmEngine:
             ),
             key=_place,
         )
+        # What is present is told in other words than what is over: that is a change, too.
+        told = [(alarm.number, alarm.presence) for alarm in alarms]
+        is_changed = bool(self._events) or told != [(a.number, a.presence) for a in self._picture.alarms]
         paused = self._paused_until_s > self._at_s
         sounding = None if paused else next((a for a in alarms if a.state is AlarmState.ACTIVE), None)
         self._picture = AlarmPicture(
@@ -162,7 +171,7 @@ class AlarmEngine:
             sound=Sound.SILENT if sounding is None else Sound(sounding.priority.value),
             sound_number=0 if sounding is None else sounding.number,
             paused_until_s=self._paused_until_s if paused else 0.0,
-            revision=self._picture.revision + (1 if self._events else 0),
+            revision=self._picture.revision + (1 if is_changed else 0),
             events=tuple(self._events),
         )
         return self._picture
@@ -182,6 +191,10 @@ class AlarmEngine:
             acknowledged_by=occurrence.acknowledged_by,
             by=occurrence.by,
         )
+
+
+def _is_unseen(was: Occurrence, observed: Observed) -> bool:
+    return was.site is not None and was.site.tool in observed.unseen_tools
 
 
 _ORDER = {AlarmState.ACTIVE: 0, AlarmState.LATCHED: 1, AlarmState.ACKNOWLEDGED: 2}

@@ -45,6 +45,8 @@ class Evidence:
         severity: how bad it is, in the unit of the measure; larger is worse. 0 where there is no measure.
         site: where in the bone the number was measured; None where it is no matter of a place.
         by: who asks, where somebody does.
+        superseded: it does not show because a louder condition does; should that go at once, its own
+            confirmation has gone on.
     """
 
     showing: Showing
@@ -52,12 +54,15 @@ class Evidence:
     severity: float = 0.0
     site: Site | None = None
     by: str = ""
+    superseded: bool = False
 
 
 BACK_IN_SIGHT_S = 0.25
+MIN_CLEAR_RATIO = 0.02
 
 UNKNOWN = Evidence(showing=Showing.UNKNOWN)
 GONE = Evidence(showing=Showing.NO)
+SUPERSEDED = Evidence(showing=Showing.NO, superseded=True)
 Judge: TypeAlias = Callable[[Observed, AlarmLimits, bool], Evidence]
 
 
@@ -99,14 +104,16 @@ def _breach_likely(observed: Observed, limits: AlarmLimits, standing: bool) -> E
     if isinstance(ratio, NotKnown):
         return UNKNOWN
     if not isinstance(clearance_mm, NotKnown) and clearance_mm < 0.0:
-        return GONE
+        return SUPERSEDED
     limit = limits.breach_ratio
     measure = Measure(value=ratio * 100.0, limit=limit * 100.0, unit="%")
     # Also what is no number.
     if not ratio <= limit:
-        return Evidence(showing=Showing.YES, measure=measure, severity=measure.value, site=observed.wall_site)
-    stays = standing and ratio > limit - limits.breach_hysteresis_ratio
-    return Evidence(showing=_showing(stays), measure=measure, severity=measure.value, site=observed.wall_site)
+        return Evidence(showing=Showing.YES, measure=measure, severity=measure.value, site=observed.risk_site)
+    # Probabilities come in whole percents: lower than this nothing but 0 would clear it.
+    clears_at = max(limit - limits.breach_hysteresis_ratio, min(limit, MIN_CLEAR_RATIO))
+    stays = standing and ratio > clears_at
+    return Evidence(showing=_showing(stays), measure=measure, severity=measure.value, site=observed.risk_site)
 
 
 def _clearance_low(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
@@ -115,7 +122,7 @@ def _clearance_low(observed: Observed, limits: AlarmLimits, standing: bool) -> E
         return UNKNOWN
     if clearance_mm < 0.0:
         # Through the wall is another alarm, and the louder one.
-        return GONE
+        return SUPERSEDED
     limit = limits.warning_distance_mm
     measure = Measure(value=clearance_mm, limit=limit, unit="mm")
     shows = clearance_mm < limit + (limits.hysteresis_mm if standing else 0.0)

@@ -46,6 +46,8 @@ class Observed:
         clearance_mm: from the drill's cylinder to the pedicle's wall, negative through it.
         breach_ratio: probability that it is through the wall, now or within its look-ahead.
         wall_site: where that clearance was measured; None where it is not known.
+        risk_site: where the tool is that the probability is of; None where that is not known.
+        unseen_tools: that have no figures now, where there are several.
         past_depth_mm: how far the tip is past the planned end; negative before it.
         depth_site: where the tip is that is deepest; None where that is not known.
         tip_sd_mm: how unsure the tip is.
@@ -75,6 +77,8 @@ class Observed:
     clearance_mm: Reading = NOT_KNOWN
     breach_ratio: Reading = NOT_KNOWN
     wall_site: Site | None = None
+    risk_site: Site | None = None
+    unseen_tools: frozenset[str] = frozenset()
     past_depth_mm: Reading = NOT_KNOWN
     depth_site: Site | None = None
     tip_sd_mm: Reading = NOT_KNOWN

@@ -98,19 +98,22 @@ def observed_of(
 def _with_figures(observed: Observed, snapshot: NavigationSnapshot) -> Observed:
     """With the worst figures of all tools: bone to the wall, depth, risk of a breach, uncertainty."""
     assessed = {name: one for name, one in snapshot.assessments.items() if isinstance(one, Assessment)}
+    unseen = frozenset(snapshot.assessments) - frozenset(assessed)
+    observed = replace(observed, unseen_tools=unseen if len(snapshot.tools) > 1 else frozenset())
     if not assessed:
         return observed
-    of_limits = [one for one in assessed.values() if one.against is not None]
+    limited = {name: one for name, one in assessed.items() if one.against is not None}
     deepest = max(assessed, key=lambda name: _past_mm(assessed[name], snapshot))
     observed = replace(
         observed,
         past_depth_mm=_past_mm(assessed[deepest], snapshot),
         depth_site=_site(snapshot, deepest, of_wall=False),
     )
-    if not of_limits:
+    if not limited:
         return observed
+    riskiest = max(limited, key=lambda name: limited[name].figures[FigureName.RISK].value)
     nearest = min(assessed, key=lambda name: _wall_mm(assessed[name]))
-    errors = [one.figures[FigureName.ERROR] for one in of_limits]
+    errors = [one.figures[FigureName.ERROR] for one in limited.values()]
     # Of a drill across the channel it is infinite, and says nothing of how sure its pose is.
     finite = [error for error in errors if isfinite(error.value)]
     if finite:
@@ -120,7 +123,8 @@ def _with_figures(observed: Observed, snapshot: NavigationSnapshot) -> Observed:
         observed,
         clearance_mm=_wall_mm(assessed[nearest]),
         wall_site=_site(snapshot, nearest, of_wall=True),
-        breach_ratio=max(one.figures[FigureName.RISK].value for one in of_limits) / 100.0,
+        breach_ratio=limited[riskiest].figures[FigureName.RISK].value / 100.0,
+        risk_site=_site(snapshot, riskiest, of_wall=True),
     )
 
 

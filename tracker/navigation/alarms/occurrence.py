@@ -88,7 +88,8 @@ def advanced(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment) 
     if was.is_standing:
         return _standing(was, evidence, trait, moment)
     shows = evidence.showing is Showing.YES
-    waits = was.showing_since_s < inf and evidence.showing is Showing.UNKNOWN and trait.holds
+    is_open = (evidence.showing is Showing.UNKNOWN and trait.holds) or evidence.superseded
+    waits = was.showing_since_s < inf and is_open
     if not (shows or waits):
         return replace(was, showing_since_s=inf, showing_images=0)
     since_s = min(was.showing_since_s, moment.at_s)
@@ -96,7 +97,9 @@ def advanced(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment) 
     now = replace(was, showing_since_s=since_s, showing_images=images)
     is_first = was.state is AlarmState.NORMAL and was.showing_since_s == inf
     now = _with_measure(now, evidence, moment, is_first=is_first)
-    return _raised(now, moment) if _is_confirmed(now, trait, moment) else now
+    # What is superseded goes on being confirmed, and is raised when it shows itself.
+    is_confirmed = _is_confirmed(now, trait, moment) and not evidence.superseded
+    return _raised(now, moment) if is_confirmed else now
 
 
 def acknowledged(was: Occurrence, *, by: str) -> Occurrence:
@@ -109,8 +112,15 @@ def acknowledged(was: Occurrence, *, by: str) -> Occurrence:
             acknowledged_severity=was.worst_severity,
         )
     if was.state is AlarmState.LATCHED:
-        # What shows again, and is not yet raised, goes on being confirmed.
-        return replace(was, state=AlarmState.NORMAL, acknowledged_by="")
+        # What shows again, and is not yet raised, goes on being confirmed; the worst is that of the last one.
+        return replace(
+            was,
+            state=AlarmState.NORMAL,
+            acknowledged_by="",
+            worst=None,
+            worst_site=None,
+            worst_severity=-inf,
+        )
     return was
 
 
@@ -173,7 +183,10 @@ def _with_measure(
         return was
     now = replace(was, by=evidence.by or was.by)
     if evidence.measure is None:
-        return replace(now, measure=None, site=None, worst=None, worst_site=None) if is_first else now
+        if is_first:
+            return replace(now, measure=None, site=None, worst=None, worst_site=None)
+        # It shows and has no number any more: the last one is not of now.
+        return replace(now, measure=None, site=None) if evidence.showing is Showing.YES else now
     now = replace(now, measure=evidence.measure, site=evidence.site)
     if not is_first and was.worst is not None and evidence.severity <= was.worst_severity:
         return now

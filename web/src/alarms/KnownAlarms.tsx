@@ -64,7 +64,7 @@ export function KnownAlarms({ alarms }: { alarms: AlarmsMessage }): ReactNode {
 
 function Top({ alarm }: { alarm: AlarmMessage }): ReactNode {
   const words = useWords();
-  const isOver = alarm.state === "latched";
+  const isOver = alarm.state === "latched" && alarm.presence !== "yes";
   return (
     <div className="alarms-top" data-testid="alarm-top" data-condition={alarm.condition}>
       <p className="alarms-state">

@@ -41,6 +41,8 @@ export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessag
           entry_cranial_mm: 0.8,
           transverse_deg: 1.5,
           sagittal_deg: -1.5,
+          angle_medial_deg: 1.5,
+          angle_cranial_deg: -1.5,
         },
         judgement: judgement(),
         assessment: assessment(),

@@ -15,8 +15,8 @@ export function splitOf({ deviation }: Reading, part: SplitPart, words: Words): 
       ];
     case "angle":
       return [
-        signed(deviation.transverse_deg, "°", side.medial, side.lateral),
-        signed(deviation.sagittal_deg, "°", side.cranial, side.caudal),
+        signed(deviation.angle_medial_deg, "°", side.medial, side.lateral),
+        signed(deviation.angle_cranial_deg, "°", side.cranial, side.caudal),
       ];
   }
 }

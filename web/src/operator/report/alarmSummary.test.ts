@@ -25,7 +25,7 @@ test("each condition with how often it was raised, when, and who acknowledged it
       firstAt: "2",
       lastAt: "6",
       acknowledgedBy: ["M. Ito"],
-      line: line("cleared", "BREACH", "5"),
+      line: line("raised", "BREACH", "6"),
     },
     {
       condition: "DRILL_UNSEEN",
@@ -40,4 +40,19 @@ test("each condition with how often it was raised, when, and who acknowledged it
 
 test("a log that is cut off before an alarm was raised counts none of it", () => {
   expect(alarmsIn([line("cleared", "BREACH", "1"), {}])).toEqual([]);
+});
+
+test("the worst of all occurrences is kept, also of one that still stands", () => {
+  const at = (change: string, worst: number): Record<string, unknown> => ({
+    ...line(change, "BREACH", "1"),
+    worst,
+    limit: 0,
+  });
+  const [breach] = alarmsIn([
+    at("raised", -0.3),
+    at("latched", -0.3),
+    at("raised", -4.6),
+    at("raised", -0.2),
+  ]);
+  expect(breach?.line).toEqual(at("raised", -4.6));
 });

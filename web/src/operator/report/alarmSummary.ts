@@ -5,12 +5,11 @@ export interface AlarmCount {
   firstAt: string;
   lastAt: string;
   acknowledgedBy: readonly string[];
-  /** The line in which it was last said to be over, with its worst value, place and time; else the first one. */
+  /** The line with its worst value: what was raised again deeper is not understated. */
   line: Line;
 }
 
 type Line = Readonly<Record<string, unknown>>;
-const ENDS = new Set<unknown>(["latched", "cleared"]);
 
 /** By condition, the most frequent first; lines of another shape are passed over. */
 export function alarmsIn(lines: readonly Line[]): AlarmCount[] {
@@ -29,8 +28,13 @@ export function alarmsIn(lines: readonly Line[]): AlarmCount[] {
       firstAt: before?.firstAt ?? at,
       lastAt: isRaised ? at : (before?.lastAt ?? at),
       acknowledgedBy: isNew ? [...people, by] : people,
-      line: before === undefined || ENDS.has(change) ? line : before.line,
+      line: before === undefined || excessOf(line) >= excessOf(before.line) ? line : before.line,
     });
   }
   return [...counts.values()].sort((a, b) => b.raised - a.raised);
+}
+
+/** How far its worst value is past the limit; of a line without numbers 0, so that the last one counts. */
+function excessOf({ worst, limit }: Line): number {
+  return typeof worst === "number" && typeof limit === "number" ? Math.abs(worst - limit) : 0;
 }

@@ -42,7 +42,7 @@ export const reportDe: ReportWords = {
   alarm: "Alarm",
   times: "Anzahl",
   firstLast: "Erster – letzter",
-  worst: "Zuletzt",
+  worst: "Am schlimmsten",
   acknowledged: "Quittiert durch",
   facts: {
     fit: "Passung an die Tafel (RMS)",

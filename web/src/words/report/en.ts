@@ -39,7 +39,7 @@ export const reportEn = {
   alarm: "Alarm",
   times: "Times",
   firstLast: "First – last",
-  worst: "Last time",
+  worst: "Worst",
   acknowledged: "Acknowledged by",
   facts: {
     fit: "Fit to the board (RMS)",
