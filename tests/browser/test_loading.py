@@ -88,6 +88,8 @@ RECORDER = f"""(() => {{
 # A page takes up to so long to load on a busy machine; a server on an open line is gone after 0.8 s.
 LOADS_FOR_MS = 4000
 REACHED_WITHIN_MS = 10_000
+# The longest wait before a lost line is tried again.
+NEXT_LINE_AFTER_MS = 500
 
 
 class Loading:
@@ -115,14 +117,16 @@ class Loading:
     def release(self, *kinds: str) -> None:
         """Let the session, all other answers (rest), or what is live go, from now on."""
         self._open.update(kinds)
+        if kinds != ("session",):
+            self.page.evaluate("window.told = true")
         for kind in kinds:
             while self._held[kind]:
                 self._held[kind].pop().continue_()
-        if kinds != ("session",):
-            self.page.evaluate("window.told = true")
         if "live" in kinds:
             while self._lines:
                 self._lines.pop().close()
+            # From here on time stands still, so that no image gets old and no line silent.
+            self.pass_ms(NEXT_LINE_AFTER_MS)
 
     def shows(self, path: str) -> None:
         """The view stands there: React shows what came late only when a moment of its time has passed."""
@@ -207,12 +211,9 @@ def test_nothing_false_is_seen_while_a_page_loads(
     if first == "rest":
         loading.pass_ms(LOADS_FOR_MS // 2)
     else:
-        # Live images age in a time of their own.
-        page.clock.resume()
         expect(page.locator("[aria-busy=true], .alarms[data-priority=loading]")).to_have_count(0)
     assert loading.seen() == []
     loading.release("rest", "live")
-    page.clock.resume()
     is_true(page, path)
     assert loading.seen() == []
 
@@ -235,6 +236,7 @@ def test_server_that_is_not_reached_is_told_after_ten_seconds_and_not_before(
     expect(cover).to_contain_text("that Coaxial is running")
     expect(page.locator(".alarms [role=alert]")).to_be_visible()
     loading.release("live")
-    page.clock.resume()
     is_true(page, path)
-    expect(page.get_by_text("SERVER NOT REACHED").locator("visible=true")).to_have_count(0)
+    for band in (".when-stale", ".alarms", ".facts-status"):
+        told = page.locator(f"{band}:visible").filter(has_text=re.compile("not reached", re.IGNORECASE))
+        expect(told).to_have_count(0)

@@ -4,8 +4,8 @@ import { setData } from "../panes/setText";
 import { useWords } from "../words/WordsContext";
 import { isLit } from "./flash";
 import { KnownAlarms } from "./KnownAlarms";
-import { LoadingAlarms } from "./LoadingAlarms";
 import { SoundState } from "./SoundState";
+import { UnheardAlarms } from "./UnheardAlarms";
 import { UnknownAlarms } from "./UnknownAlarms";
 import { useAlarmSound } from "./useAlarmSound";
 import { alarmsVerdict } from "./verdict";
@@ -36,7 +36,7 @@ export function AlarmBand(): ReactNode {
       ref={band}
     >
       {verdict.known && <KnownAlarms alarms={verdict.alarms} />}
-      {!verdict.known && (isLoading ? <LoadingAlarms /> : <UnknownAlarms sound={sound} />)}
+      {!verdict.known && (verdict.everHeard ? <UnknownAlarms sound={sound} /> : <UnheardAlarms />)}
       <SoundState sound={sound} isPaused={isPaused} />
     </section>
   );

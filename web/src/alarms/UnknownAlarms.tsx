@@ -5,16 +5,14 @@ import type { AlarmSound } from "./useAlarmSound";
 
 /** Nothing is claimed of alarms while the server is not heard; the screen's own alarm can be paused. */
 export function UnknownAlarms({ sound }: { sound: AlarmSound }): ReactNode {
-  const { alarms: words, cause } = useWords();
-  const { nowMs, firstMessage } = useLive().view;
-  const notReached = cause["not-reached"];
+  const words = useWords().alarms;
+  const { nowMs } = useLive().view;
   const leftMs = sound.ownPauseUntilMs - nowMs;
   return (
     <>
       <p className="alarms-state" role="alert">
-        <span aria-hidden="true">▲▲</span> {firstMessage === "overdue" ? notReached.state : words.unknown}
+        <span aria-hidden="true">▲▲</span> {words.unknown}
       </p>
-      {firstMessage === "overdue" && <p className="alarms-sentence">{notReached.sentence}</p>}
       <div className="alarms-buttons">
         {sound.armed && (
           <button

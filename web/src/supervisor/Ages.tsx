@@ -7,7 +7,7 @@ import { useWords } from "../words/WordsContext";
 
 const PARTS = ["picture", "numbers", "scene", "line"] as const;
 type Part = (typeof PARTS)[number];
-type Ages = Record<Part, { live: boolean; mark: string; text: string }>;
+type Ages = Record<Part, { live: boolean | "loading"; mark: string; text: string }>;
 
 /** The true age of everything that is shown here, measured on this page. */
 export function AgesStrip(): ReactNode {
@@ -40,7 +40,7 @@ function agesOf(
   loading: string,
 ): Ages {
   if (firstMessage === "awaited") {
-    const awaited = { live: false, mark: "◌", text: loading };
+    const awaited = { live: "loading" as const, mark: "◌", text: loading };
     return { picture: awaited, numbers: awaited, scene: awaited, line: awaited };
   }
   const say = (key: string): string => words[key] ?? "";

@@ -1,6 +1,5 @@
 import type { ReactNode } from "react";
-import { AlarmsShown } from "../alarms/AlarmsShown";
-import { LoadingAlarmsShown } from "../alarms/LoadingAlarms";
+import { AlarmsShownOnceHeard } from "../alarms/UnheardAlarms";
 import { SignedIn } from "../app/SignedIn";
 import { ViewSwitch } from "../app/ViewSwitch";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
@@ -9,7 +8,7 @@ import { MarkingProvider } from "../marks/MarkingContext";
 import { MarksTools } from "../marks/MarksTools";
 import { AuditLog } from "../operator/people/AuditLog";
 import { AlertBand } from "../panes/AlertBand";
-import { LoadingPane } from "../panes/LoadingPane";
+import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
 import { VideoPane } from "../panes/VideoPane";
@@ -48,9 +47,7 @@ export function SupervisorView(): ReactNode {
         <PictureSize />
         <SignedIn />
       </header>
-      <AfterFirstMessage loading={<LoadingAlarmsShown />}>
-        <AlarmsShown />
-      </AfterFirstMessage>
+      <AlarmsShownOnceHeard />
       <AlertBand />
       <main className="supervisor-body">
         <div className="supervisor-picture">
@@ -62,7 +59,7 @@ export function SupervisorView(): ReactNode {
         </div>
         <div className="supervisor-side">
           <HoldPanel />
-          <AfterFirstMessage loading={<LoadingPane id="numbers" title={words.numbers.title} />}>
+          <AfterFirstMessage loading={<LoadingNumbers />}>
             <NumbersPane />
           </AfterFirstMessage>
         </div>

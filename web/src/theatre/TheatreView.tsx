@@ -1,12 +1,12 @@
 import type { ReactNode } from "react";
 import { AlarmBand } from "../alarms/AlarmBand";
-import { AlarmsShown } from "../alarms/AlarmsShown";
-import { LoadingAlarmsShown } from "../alarms/LoadingAlarms";
+import { AlarmsShownOnceHeard } from "../alarms/UnheardAlarms";
 import { useSession, type Role } from "../app/session";
 import { ConfirmRestart } from "../app/ConfirmRestart";
 import { AfterFirstMessage } from "../live/AfterFirstMessage";
 import { AlertBand } from "../panes/AlertBand";
 import { BullseyePane } from "../panes/BullseyePane";
+import { LoadingNumbers } from "../panes/LoadingNumbers";
 import { LoadingPane } from "../panes/LoadingPane";
 import { NumbersPane } from "../panes/NumbersPane";
 import { ScenePane } from "../panes/ScenePane";
@@ -28,18 +28,12 @@ export function TheatreView(): ReactNode {
         {words.skip}
       </a>
       <TheatreTop />
-      {answersAlarms ? (
-        <AlarmBand />
-      ) : (
-        <AfterFirstMessage loading={<LoadingAlarmsShown />}>
-          <AlarmsShown />
-        </AfterFirstMessage>
-      )}
+      {answersAlarms ? <AlarmBand /> : <AlarmsShownOnceHeard />}
       <ConfirmRestart />
       <AlertBand />
       <main className="theatre-main">
         <VideoPane />
-        <AfterFirstMessage loading={<LoadingPane id="numbers" title={words.numbers.title} />}>
+        <AfterFirstMessage loading={<LoadingNumbers />}>
           <NumbersPane />
         </AfterFirstMessage>
         <AfterFirstMessage loading={<LoadingPane id="bullseye" title={words.theatre.along} />}>

@@ -1,9 +1,8 @@
 import type { ReactNode } from "react";
 import { AfterFirstMessage } from "../../live/AfterFirstMessage";
-import { LoadingPane } from "../../panes/LoadingPane";
+import { LoadingNumbers } from "../../panes/LoadingNumbers";
 import { NumbersPane } from "../../panes/NumbersPane";
 import { VideoPane } from "../../panes/VideoPane";
-import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
 import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { ChannelSwitch } from "./ChannelSwitch";
@@ -13,7 +12,6 @@ import { Steadiness } from "./Steadiness";
 
 /** What the operator watches while the surgeon drills: picture, numbers, gates, and the channel in work. */
 export function NavigatePage(): ReactNode {
-  const words = useWords();
   const { data } = useProcedure();
   return (
     <div className="registration" data-testid="navigate" data-may={data?.may_navigate}>
@@ -26,7 +24,7 @@ export function NavigatePage(): ReactNode {
           <Steadiness />
         </div>
         <div className="work-side">
-          <AfterFirstMessage loading={<LoadingPane id="numbers" title={words.numbers.title} />}>
+          <AfterFirstMessage loading={<LoadingNumbers />}>
             <NumbersPane />
           </AfterFirstMessage>
           <ChannelSwitch />

@@ -1,0 +1,39 @@
+import type { ReactNode } from "react";
+import { useLive } from "../live/LiveContext";
+import { useWords } from "../words/WordsContext";
+import { AlarmsShown } from "./AlarmsShown";
+import { alarmsVerdict } from "./verdict";
+
+/** In the band of alarms before the first message: that the page is loading, or that the server is not reached. */
+export function UnheardAlarms(): ReactNode {
+  const { rest, cause } = useWords();
+  if (useLive().view.firstMessage === "awaited") return <p className="alarms-none">{rest.loading}</p>;
+  const { state, sentence } = cause["not-reached"];
+  return (
+    <div className="alarms-top">
+      <p className="alarms-state" role="alert">
+        <span aria-hidden="true">▲▲</span> {state}
+      </p>
+      <p className="alarms-sentence">{sentence}</p>
+    </div>
+  );
+}
+
+/** The alarms as theatre has them, once something of them can be known. */
+export function AlarmsShownOnceHeard(): ReactNode {
+  const words = useWords().alarms;
+  const { view } = useLive();
+  const { firstMessage } = view;
+  if (firstMessage === "received" || alarmsVerdict(view, false).known) return <AlarmsShown />;
+  return (
+    <section
+      className="alarms alarms-shown"
+      aria-label={words.title}
+      data-testid="alarms-shown"
+      data-priority={firstMessage === "awaited" ? "loading" : "unknown"}
+      data-lit="true"
+    >
+      <UnheardAlarms />
+    </section>
+  );
+}
