@@ -14,7 +14,7 @@ test("the risk of a breach is shown with its limit", () => {
 test("without a pedicle there is no risk to show", () => {
   const none = figure(null, { limit: null, status: "unlimited" });
   expect(riskText(assessment({}, { risk: none, end: none }), en)).toBe("");
-  expect(errorText(assessment({}, { error: none }), en)).toBe("error not known");
+  expect(errorText(assessment({}, { error: none }), en)).toBe("95 % error unknown");
 });
 
 test("the error is the whole one, with what the pedicle leaves", () => {

@@ -54,7 +54,7 @@ function agesOf(
     mark: "▲",
     text: ageMs === null ? say("gone") : `${say("gone")}, ${shownDuration(ageMs)}`,
   });
-  const stands = link === "open";
+  const stands = link === "open" && firstMessage === "received";
   return {
     picture: video.live ? young(video.ageMs) : gone(video.ageMs),
     numbers: numbers.live ? young(numbers.ageMs) : gone(numbers.ageMs),

@@ -41,7 +41,7 @@ export const de: Words = {
     none: "KEIN TRACKING",
     tracking: "TRACKING",
     error: "95-%-Fehler",
-    errorUnknown: "Fehler nicht bekannt",
+    errorUnknown: "95-%-Fehler unbekannt",
     steadied: "beruhigt, verzögert um",
     numbersOf: "Zahlen sind von Bild",
     pictureOf: "Bild ist Nummer",

@@ -43,7 +43,7 @@ export const en: Words = {
     none: "NO TRACKING",
     tracking: "TRACKING",
     error: "95 % error",
-    errorUnknown: "error not known",
+    errorUnknown: "95 % error unknown",
     steadied: "steadied, behind by",
     numbersOf: "numbers are of image",
     pictureOf: "picture of image",
