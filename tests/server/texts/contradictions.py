@@ -14,7 +14,7 @@ from server.shown import NOT_KNOWN, shown_number
 from server.stream.alarm_messages import AlarmMessage
 from server.stream.assessment_messages import AssessmentMessage, FigureMessage
 from server.stream.snapshot_messages import SnapshotMessage
-from tests.server.texts.random_drilling import Told
+from tests.server.texts.random_drilling import Moment
 from tracker.navigation import FigureName, Verdict
 from tracker.navigation.alarms import AlarmState, Condition, Showing
 
@@ -31,7 +31,7 @@ PHYSIOLOGICAL = {
 
 
 @dataclass(slots=True)
-class Witness:
+class ContradictionCheck:
     """Hears moment after moment, and fails at the first that contradicts itself or those before it.
 
     Attributes:
@@ -44,20 +44,20 @@ class Witness:
     deepest: dict[int, float] = field(default_factory=dict)
     shown_before: float = inf
 
-    def hears(self, told: Told) -> None:
-        assessments = _assessments(told.message.snapshot)
-        self._headline(told, assessments)
-        for alarm in told.message.alarms.alarms:
-            self._alarm(alarm, told, assessments)
-        self._breach_is_announced(told, assessments)
-        self._worst(told, assessments)
-        self._log(told)
-        if told.snapshot is not None and told.message.snapshot is not None:
-            _overlay(told, told.message.snapshot)
+    def check(self, moment: Moment) -> None:
+        assessments = _assessments(moment.message.snapshot)
+        self._headline(moment, assessments)
+        for alarm in moment.message.alarms.alarms:
+            self._alarm(alarm, moment, assessments)
+        self._breach_is_announced(moment, assessments)
+        self._worst(moment, assessments)
+        self._log(moment)
+        if moment.snapshot is not None and moment.message.snapshot is not None:
+            _overlay(moment, moment.message.snapshot)
 
-    def _headline(self, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
-        headline = told.message.headline
-        shown = told.message.snapshot.shown_tool if told.message.snapshot else None
+    def _headline(self, moment: Moment, assessments: Mapping[str, AssessmentMessage]) -> None:
+        headline = moment.message.headline
+        shown = moment.message.snapshot.shown_tool if moment.message.snapshot else None
         if shown is None:
             assert headline.verdict is None
             assert not assessments
@@ -72,11 +72,11 @@ class Witness:
             assert _numbers(headline.detail.en) == _numbers(headline.detail.de)
         in_danger = headline.verdict in (Verdict.THROUGH_WALL, Verdict.TOO_DEEP)
         assert bool(INSTRUCTION.search(headline.detail.en)) == in_danger
-        loud = [one for one in told.message.alarms.alarms if one.priority != "low"]
+        loud = [one for one in moment.message.alarms.alarms if one.priority != "low"]
         assert (headline.tone == "good") == (headline.verdict is Verdict.ON_PATH and not loud)
         not_present = [
             one
-            for one in told.message.alarms.alarms
+            for one in moment.message.alarms.alarms
             if one.condition in (Condition.BREACH, Condition.PAST_DEPTH) and one.presence is not Showing.YES
         ]
         assert bool(headline.event.en) == bool(not_present)
@@ -84,17 +84,19 @@ class Witness:
             assert alarm.title.en in headline.event.en
             assert alarm.title.de in headline.event.de
 
-    def _alarm(self, alarm: AlarmMessage, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
+    def _alarm(
+        self, alarm: AlarmMessage, moment: Moment, assessments: Mapping[str, AssessmentMessage]
+    ) -> None:
         sentence, remedy = alarm.sentence.en, alarm.remedy.en
         assert _numbers(sentence) == _numbers(alarm.sentence.de)
         assert bool(remedy) == bool(alarm.remedy.de)
         if alarm.presence is Showing.NO or alarm.state is AlarmState.LATCHED:
             assert alarm.presence is Showing.YES or not remedy, "what is over instructs nobody"
         if alarm.presence is Showing.YES and alarm.condition in PHYSIOLOGICAL:
-            assert " was " not in f" {sentence.lower()}", "what is there is not told in the past tense"
+            assert " was " not in f" {sentence.lower()}", "what is there is not moment in the past tense"
         elif alarm.condition in PHYSIOLOGICAL:
-            assert "was " in sentence.lower(), "what is not there is told in the past tense"
-        if told.snapshot is None or alarm.condition not in PHYSIOLOGICAL | {Condition.POSE_UNCERTAIN}:
+            assert "was " in sentence.lower(), "what is not there is moment in the past tense"
+        if moment.snapshot is None or alarm.condition not in PHYSIOLOGICAL | {Condition.POSE_UNCERTAIN}:
             return
         name, is_over = _FIGURE_OF[alarm.condition]
         figures = [getattr(each.figures, name) for each in assessments.values()]
@@ -106,27 +108,27 @@ class Witness:
         if alarm.presence is Showing.NO and alarm.condition in (Condition.BREACH, Condition.PAST_DEPTH):
             assert not any(is_over(figure) for figure in known), f"{sentence} beside {known}"
         if alarm.presence is Showing.UNKNOWN and alarm.condition in PHYSIOLOGICAL:
-            all_seen = len(assessments) == len(told.snapshot.tools)
+            all_seen = len(assessments) == len(moment.snapshot.tools)
             assert not (known and all_seen), "of a drill that is seen, it is known"
 
-    def _breach_is_announced(self, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
-        if told.snapshot is None:
+    def _breach_is_announced(self, moment: Moment, assessments: Mapping[str, AssessmentMessage]) -> None:
+        if moment.snapshot is None:
             return
         through = any(each.verdict is Verdict.THROUGH_WALL for each in assessments.values())
         standing = any(
             one.condition is Condition.BREACH and one.state is not AlarmState.LATCHED
-            for one in told.alarms.alarms
+            for one in moment.alarms.alarms
         )
         self.through_images = self.through_images + 1 if through and not standing else 0
         assert self.through_images < MAX_UNANNOUNCED
 
-    def _worst(self, told: Told, assessments: Mapping[str, AssessmentMessage]) -> None:
+    def _worst(self, moment: Moment, assessments: Mapping[str, AssessmentMessage]) -> None:
         """The worst value of a breach is the least clearance that was on the screen while it stood."""
-        if told.snapshot is None:
+        if moment.snapshot is None:
             return
         walls = [one.figures.wall.value for one in assessments.values()]
         now = min((wall for wall in walls if wall is not None), default=inf)
-        alarms = told.message.alarms.alarms
+        alarms = moment.message.alarms.alarms
         standing = {one.number: one for one in alarms if one.condition is Condition.BREACH}
         for number, alarm in standing.items():
             if alarm.state is not AlarmState.LATCHED:
@@ -136,9 +138,9 @@ class Witness:
             assert alarm.worst.value <= self.deepest[number] + 1e-9
         self.shown_before = min(self.shown_before, now) if now < 0.0 and not standing else inf
 
-    def _log(self, told: Told) -> None:
-        by_number = {one.number: one for one in told.message.alarms.alarms}
-        for line in told.lines:
+    def _log(self, moment: Moment) -> None:
+        by_number = {one.number: one for one in moment.message.alarms.alarms}
+        for line in moment.lines:
             change, condition = line["change"], line.get("condition")
             if condition is None:
                 continue
@@ -195,12 +197,12 @@ def _verdict_fits(assessment: AssessmentMessage) -> None:
         assert over[named[assessment.verdict]]
 
 
-def _overlay(told: Told, snapshot: SnapshotMessage) -> None:
+def _overlay(moment: Moment, snapshot: SnapshotMessage) -> None:
     """The burned-in words and digits are those of the wire, in both languages."""
-    assert told.snapshot is not None
+    assert moment.snapshot is not None
     for language in ("en", "de"):
-        panel = panel_of(told.snapshot, told.alarms, language)
-        headline = told.message.headline
+        panel = panel_of(moment.snapshot, moment.alarms, language)
+        headline = moment.message.headline
         for field_name in ("title", "detail", "event"):
             assert getattr(panel.headline, field_name)[language] == getattr(
                 getattr(headline, field_name), language

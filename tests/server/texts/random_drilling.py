@@ -61,7 +61,7 @@ class KeptLog(NoLog):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Told:
+class Moment:
     """All that is said at one moment.
 
     Attributes:
@@ -99,7 +99,7 @@ class RandomDrilling:
         self.where = {name: np.array(PLACES[0]) for name in names}
         self.sequence = 0
 
-    def moments(self, images: int) -> Iterator[Told]:
+    def moments(self, images: int) -> Iterator[Moment]:
         """So many images, with silences and people between them."""
         number = 0
         while number < images:
@@ -109,7 +109,7 @@ class RandomDrilling:
                 number += 1
                 self.at_s += 1.0 / self.rate_hz
                 self._move(targets)
-                yield self._told(self._concluded(number, hidden=hidden))
+                yield self._moment(self._concluded(number, hidden=hidden))
                 yield from self._person()
             if self.random.random() < 0.1:
                 yield from self._silence()
@@ -128,7 +128,7 @@ class RandomDrilling:
             sightings[name] = UNSEEN if is_hidden else seen_at(self.where[name], tool)
         return concluded(self.setup, self.guide, sightings, number=number, captured_at_s=self.at_s - 0.02)
 
-    def _person(self) -> Iterator[Told]:
+    def _person(self) -> Iterator[Moment]:
         """Now and then somebody acknowledges, pauses, or changes what the registration depends on."""
         chance = self.random.random()
         if chance < 0.02:
@@ -143,21 +143,21 @@ class RandomDrilling:
             self.desk.know(ProcedureFacts(registration_current=self.random.random() < 0.7))
         else:
             return
-        yield self._told(None)
+        yield self._moment(None)
 
-    def _silence(self) -> Iterator[Told]:
+    def _silence(self) -> Iterator[Moment]:
         for _ in range(self.random.randint(2, 30)):
             self.at_s += 0.05
-            yield self._told(None)
+            yield self._moment(None)
 
-    def _told(self, snapshot: NavigationSnapshot | None) -> Told:
+    def _moment(self, snapshot: NavigationSnapshot | None) -> Moment:
         before = len(self.log.lines)
         alarms = self.desk.look(snapshot, RUNS, WORKS)
         self.sequence += 1
         instant = Instant(
             sequence=self.sequence, source=RUNS, process=WORKS, snapshot=snapshot, alarms=alarms
         )
-        return Told(
+        return Moment(
             at_s=self.at_s,
             snapshot=snapshot,
             alarms=alarms,
@@ -166,18 +166,18 @@ class RandomDrilling:
         )
 
 
-def state_of(told: Told) -> tuple[object, ...]:
+def state_of(moment: Moment) -> tuple[object, ...]:
     """What kind of a moment this is: verdict or none, and each alarm with its state and presence."""
     return (
-        told.message.headline.verdict,
-        told.message.headline.tone,
-        frozenset((alarm.condition, alarm.state, alarm.presence) for alarm in told.alarms.alarms),
+        moment.message.headline.verdict,
+        moment.message.headline.tone,
+        frozenset((alarm.condition, alarm.state, alarm.presence) for alarm in moment.alarms.alarms),
     )
 
 
 def main() -> None:
     """Visit many moments, and print how many states they were in."""
-    from tests.server.texts.contradictions import Witness  # noqa: PLC0415  it needs the moments of this file
+    from tests.server.texts.contradictions import ContradictionCheck  # noqa: PLC0415  it needs the moments of this file
 
     parser = ArgumentParser()
     parser.add_argument("--seeds", type=int, default=20)
@@ -186,10 +186,10 @@ def main() -> None:
     states: set[tuple[object, ...]] = set()
     moments = 0
     for seed in range(asked.seeds):
-        witness = Witness()
-        for told in RandomDrilling(seed).moments(asked.images):
-            witness.hears(told)
-            states.add(state_of(told))
+        check = ContradictionCheck()
+        for moment in RandomDrilling(seed).moments(asked.images):
+            check.check(moment)
+            states.add(state_of(moment))
             moments += 1
     print(f"seeds 0 to {asked.seeds - 1}: {moments} moments in {len(states)} states, no contradiction")  # noqa: T201
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from server.texts import alarm_text
-from tests.server.texts.contradictions import Witness
+from tests.server.texts.contradictions import ContradictionCheck
 from tests.server.texts.random_drilling import RandomDrilling, state_of
 from tracker.navigation import Verdict, assessment
 from tracker.navigation.alarms import AlarmState, Condition, Showing
@@ -20,14 +20,14 @@ def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
     breaches: Counter[tuple[AlarmState, Showing]] = Counter()
     states = set()
     for seed in SEEDS:
-        witness = Witness()
-        for told in RandomDrilling(seed).moments(IMAGES):
-            witness.hears(told)
-            states.add(state_of(told))
-            verdicts[told.message.headline.verdict] += 1
+        check = ContradictionCheck()
+        for moment in RandomDrilling(seed).moments(IMAGES):
+            check.check(moment)
+            states.add(state_of(moment))
+            verdicts[moment.message.headline.verdict] += 1
             breaches.update(
                 (alarm.state, alarm.presence)
-                for alarm in told.alarms.alarms
+                for alarm in moment.alarms.alarms
                 if alarm.condition is Condition.BREACH
             )
     # It is worth nothing where nothing happened.
@@ -51,7 +51,7 @@ def test_a_verdict_that_is_wrong_on_purpose_is_found(wrong: Verdict, monkeypatch
         lambda figures: wrong if right(figures) is Verdict.NEAR_WALL else right(figures),
     )
     with pytest.raises(AssertionError):
-        _hear_all()
+        _check_all()
 
 
 def test_an_alarm_that_tells_the_present_number_of_what_is_over_is_found(
@@ -63,11 +63,11 @@ def test_an_alarm_that_tells_the_present_number_of_what_is_over_is_found(
         lambda alarm, **when: alarm_text(replace(alarm, presence=Showing.YES), **when),
     )
     with pytest.raises(AssertionError):
-        _hear_all()
+        _check_all()
 
 
-def _hear_all() -> None:
+def _check_all() -> None:
     for seed in SEEDS:
-        witness = Witness()
-        for told in RandomDrilling(seed).moments(IMAGES):
-            witness.hears(told)
+        check = ContradictionCheck()
+        for moment in RandomDrilling(seed).moments(IMAGES):
+            check.check(moment)

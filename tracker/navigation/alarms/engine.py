@@ -77,9 +77,9 @@ class AlarmEngine:
             now = acknowledged(was, by=by)
             if self._numbers[condition] in numbers and now is not was:
                 self._occurrences[condition] = now
-                # Of what is over nothing is left; the log tells what it was.
-                told = was if now.state is AlarmState.NORMAL else now
-                self._tell(Change.ACKNOWLEDGED, condition, told, by=by)
+                # An alarm that is over is dropped by this; the log records what it was.
+                logged = was if now.state is AlarmState.NORMAL else now
+                self._tell(Change.ACKNOWLEDGED, condition, logged, by=by)
         return self._concluded()
 
     def pause(self, seconds: float, *, by: str, at_s: float) -> AlarmPicture:
@@ -160,9 +160,9 @@ class AlarmEngine:
             ),
             key=_place,
         )
-        # What is present is told in other words than what is over: that is a change, too.
-        told = [(alarm.number, alarm.presence) for alarm in alarms]
-        is_changed = bool(self._events) or told != [(a.number, a.presence) for a in self._picture.alarms]
+        # An alarm that is present has another text than one that is over: that is a change, too.
+        shown = [(alarm.number, alarm.presence) for alarm in alarms]
+        is_changed = bool(self._events) or shown != [(a.number, a.presence) for a in self._picture.alarms]
         paused = self._paused_until_s > self._at_s
         sounding = None if paused else next((a for a in alarms if a.state is AlarmState.ACTIVE), None)
         self._picture = AlarmPicture(
