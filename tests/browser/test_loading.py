@@ -4,6 +4,7 @@ Answers and live messages are held back until the test lets them go, and the pag
 when the test says so.
 """
 
+import contextlib
 import re
 from collections.abc import Callable, Iterator
 
@@ -90,6 +91,8 @@ LOADS_FOR_MS = 4000
 REACHED_WITHIN_MS = 10_000
 # The longest wait before a lost line is tried again.
 NEXT_LINE_AFTER_MS = 500
+# Shorter than the silence after which a server is gone.
+MOMENTS, MOMENT_MS = 10, 300
 
 
 class Loading:
@@ -137,6 +140,15 @@ class Loading:
                 return
         pytest.fail(f"no view of {path}")
 
+    def comes_true(self, path: str) -> None:
+        """What the server tells stands there at last: numbers that were old return only after a moment."""
+        for _ in range(MOMENTS):
+            with contextlib.suppress(AssertionError):
+                is_true(self.page, path, PATIENCE_MS / MOMENTS)
+                return
+            self.pass_ms(MOMENT_MS)
+        is_true(self.page, path, PATIENCE_MS)
+
     def pass_ms(self, ms: int) -> None:
         """Let so much of the page's time pass, with every timer in it."""
         self.page.clock.run_for(ms)
@@ -147,7 +159,8 @@ class Loading:
 
     def _answer(self, route: Route) -> None:
         name = route.request.url.rsplit("/api/", maxsplit=1)[-1]
-        kind = {"session": "session", "dashboard": "live", "live": "live"}.get(name, "rest")
+        # The limits of this server come with the session, or the first image counts as old on a busy machine.
+        kind = {"session": "session", "dashboard": "session", "live": "live"}.get(name, "rest")
         if kind in self._open:
             route.continue_()
         else:
@@ -179,20 +192,29 @@ def begun(watch: Watch, server: Supervised, person: str, path: str, *, refuses: 
     return loading
 
 
-def is_true(page: Page, path: str) -> None:
+def is_answered(page: Page, path: str) -> None:
+    """What was asked for stands there, though nothing live has come."""
+    if path.startswith("operator"):
+        expect(page.get_by_test_id("step-register")).to_contain_text("done")
+    elif path == "supervisor":
+        expect(page.get_by_test_id("steps")).to_contain_text("Register")
+    expect(page.locator("main .mantine-Loader-root")).to_have_count(0)
+
+
+def is_true(page: Page, path: str, within_ms: float) -> None:
     """What the server tells stands there."""
     if path.startswith("operator"):
-        expect(page.get_by_test_id("link-state")).to_contain_text("connected")
-        expect(page.get_by_test_id("open-case")).to_contain_text(NAME)
-        expect(page.get_by_test_id("step-register")).to_contain_text("done")
-        expect(page.get_by_test_id("alarms")).not_to_have_attribute("data-priority", "loading")
-    elif path == "theatre":
-        expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true")
-        expect(page.get_by_test_id("case-name")).to_contain_text(NAME)
+        expect(page.get_by_test_id("link-state")).to_contain_text("connected", timeout=within_ms)
+        expect(page.get_by_test_id("open-case")).to_contain_text(NAME, timeout=within_ms)
+        expect(page.get_by_test_id("step-register")).to_contain_text("done", timeout=within_ms)
     else:
-        expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true")
-        expect(page.get_by_test_id("steps").locator("li").first).to_be_visible()
-    expect(page.locator("main .loading:visible")).to_have_count(0)
+        expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true", timeout=within_ms)
+        told = page.get_by_test_id("case-name" if path == "theatre" else "steps")
+        expect(told).to_contain_text(NAME if path == "theatre" else "Register", timeout=within_ms)
+    bands = page.locator(
+        "main .loading:visible, .alarms:is([data-priority=loading], [data-priority=unknown])"
+    )
+    expect(bands).to_have_count(0, timeout=within_ms)
 
 
 @pytest.mark.parametrize("first", ["rest", "live"])
@@ -209,12 +231,13 @@ def test_nothing_false_is_seen_while_a_page_loads(
     assert loading.seen() == []
     loading.release(first)
     if first == "rest":
+        is_answered(page, path)
         loading.pass_ms(LOADS_FOR_MS // 2)
     else:
         expect(page.locator("[aria-busy=true], .alarms[data-priority=loading]")).to_have_count(0)
     assert loading.seen() == []
     loading.release("rest", "live")
-    is_true(page, path)
+    loading.comes_true(path)
     assert loading.seen() == []
 
 
@@ -236,7 +259,7 @@ def test_server_that_is_not_reached_is_told_after_ten_seconds_and_not_before(
     expect(cover).to_contain_text("that Coaxial is running")
     expect(page.locator(".alarms [role=alert]")).to_be_visible()
     loading.release("live")
-    is_true(page, path)
+    loading.comes_true(path)
     for band in (".when-stale", ".alarms", ".facts-status"):
         told = page.locator(f"{band}:visible").filter(has_text=re.compile("not reached", re.IGNORECASE))
         expect(told).to_have_count(0)
