@@ -1,9 +1,8 @@
 """The figures of a drill as they are shown, and the headline, as they go over the wire."""
 
-import math
 from typing import Literal
 
-from server.stream.message import Message
+from server.stream.message import Message, finite
 from server.stream.place_messages import AbsentMessage, absent_message
 from server.texts import Headline, Text, Tone
 from tracker.navigation import (
@@ -121,17 +120,12 @@ def text_message(text: Text) -> TextMessage:
 
 def _figure(figure: Figure) -> FigureMessage:
     return FigureMessage(
-        value=_finite(figure.value),
-        limit=_finite(figure.limit),
-        error_95=_finite(figure.error_95),
+        value=finite(figure.value),
+        limit=finite(figure.limit),
+        error_95=finite(figure.error_95),
         status=figure.status,
     )
 
 
 def _correction(correction: Correction) -> CorrectionMessage:
-    return CorrectionMessage(amount=_finite(correction.amount), towards=correction.towards)
-
-
-def _finite(value: float) -> float | None:
-    """JSON has no infinity and no NaN."""
-    return value if math.isfinite(value) else None
+    return CorrectionMessage(amount=finite(correction.amount), towards=correction.towards)

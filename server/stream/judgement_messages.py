@@ -1,11 +1,10 @@
 """What is concluded of a drill, as it goes over the wire: its deviation, and its judgement."""
 
-import math
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from server.stream.message import Message
+from server.stream.message import Message, finite
 from server.stream.place_messages import AbsentMessage, absent_message
 from tracker.navigation import Absent, Deviation
 from tracker.navigation.certainty import Certain, Chance, Judged, Spread
@@ -128,13 +127,13 @@ def deviation_message(deviation: Deviation | Absent) -> DeviationMessage | Absen
     if isinstance(deviation, Absent):
         return absent_message(deviation)
     return DeviationMessage(
-        entry_offset_mm=_finite(deviation.entry_offset_mm),
+        entry_offset_mm=finite(deviation.entry_offset_mm),
         angle_deg=deviation.angle_deg,
         depth_mm=deviation.depth_mm,
         remaining_mm=deviation.remaining_mm,
         tip_offset_mm=deviation.tip_offset_mm,
-        entry_lateral_mm=_finite(deviation.entry_lateral_mm),
-        entry_cranial_mm=_finite(deviation.entry_cranial_mm),
+        entry_lateral_mm=finite(deviation.entry_lateral_mm),
+        entry_cranial_mm=finite(deviation.entry_cranial_mm),
         transverse_deg=deviation.transverse_deg,
         sagittal_deg=deviation.sagittal_deg,
         angle_medial_deg=deviation.angle_medial_deg,
@@ -193,20 +192,15 @@ def _spread(spread: Spread) -> SpreadMessage:
         tip_sd_mm=spread.tip_sd_mm,
         sd_angle_deg=spread.sd_angle_deg,
         sd_depth_mm=spread.sd_depth_mm,
-        sd_at_entry_mm=_finite(spread.sd_at_entry_mm),
+        sd_at_entry_mm=finite(spread.sd_at_entry_mm),
     )
 
 
 def _certain(certain: Certain) -> CertainMessage:
     return CertainMessage(
         enough=certain.enough,
-        entry_95_mm=_finite(certain.entry_95_mm),
-        isthmus_95_mm=_finite(certain.isthmus_95_mm),
+        entry_95_mm=finite(certain.entry_95_mm),
+        isthmus_95_mm=finite(certain.isthmus_95_mm),
         room_mm=certain.room_mm,
         room_deg=certain.room_deg,
     )
-
-
-def _finite(value: float) -> float | None:
-    """JSON knows no number without end."""
-    return value if math.isfinite(value) else None
