@@ -4,7 +4,6 @@ import asyncio
 import contextlib
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
-from functools import partial
 
 from fastapi import Depends, FastAPI
 
@@ -44,7 +43,6 @@ from server.jobs import Jobs
 from server.live import LiveHub
 from server.loop.publisher import Picture
 from server.loop.rehearsed import Rehearsed
-from server.overlay import draw_overlay
 from server.overlay.words import RESEARCH_SOFTWARE
 from server.procedure import Steps
 from server.procedure.shown_bone import ShownBone
@@ -58,7 +56,6 @@ from server.stream.mjpeg import Video
 from server.stream.view_socket import View
 from server.stream.viewers import ViewerKind, Viewers
 from server.supervision import Holds, HoldsFile, Lobby, SignatureDesk
-from server.texts import Language
 from tracker.navigation import Setup
 from tracker.plan import Surface
 
@@ -99,7 +96,7 @@ def create_app(parts: AppParts) -> FastAPI:
     """The application, ready to be served."""
     hub, config, limits = parts.hub, parts.config, parts.config.limits
     viewers = Viewers(most=config.video.most_viewers)
-    pictures = Pictures(quality=config.video.jpeg_quality)
+    pictures = Pictures(quality=config.video.jpeg_quality, language=config.video.language)
     metrics = Metrics(hub=hub, viewers=viewers, pictures=pictures)
     video = Video(hub=hub, viewers=viewers, pictures=pictures, stale_after_ms=limits.video_stale_after_ms)
     view = View(hub=hub, viewers=viewers, pictures=pictures, texts=Texts())
@@ -157,11 +154,15 @@ def create_app(parts: AppParts) -> FastAPI:
     return app
 
 
-def picture_of(app: FastAPI, *, language: Language) -> Picture:
+def picture_of(app: FastAPI) -> Picture:
     """How each image is drawn and encoded: once for all who watch through this application."""
-    pictures = app.state.pictures
-    draw = partial(draw_overlay, language=language)
-    return Picture(draw=draw, encode=pictures.encode, wanted=pictures.wants_full)
+    pictures: Pictures = app.state.pictures
+    return Picture(
+        draw=pictures.draw,
+        encode=pictures.encode,
+        is_watched=pictures.is_watched,
+        is_watched_in_full=pictures.is_watched_in_full,
+    )
 
 
 def _add_guards(app: FastAPI, parts: AppParts) -> None:

@@ -101,8 +101,8 @@ class Instant:
             capture or tracking is known to be dead (an old snapshot is not kept as if it were live).
         jpeg: the same image with the overlay burned in; empty when there is no snapshot, and when nobody has
             watched in full size lately.
-        drawn: the picture in that JPEG, (h, w, 3) uint8 BGR, for other sizes and late comers. Never written
-            into.
+        drawn: the picture in that JPEG, (h, w, 3) uint8 BGR, for other sizes; None when there is no snapshot,
+            and when nobody has watched in any size lately. Never written into.
         image: the same image as the camera gave it, (h, w, 3) uint8 BGR, for set-up; None when there is no
             snapshot. Never written into.
         server_ms: time of the server's own stages ("overlay", "encode") for this image.
@@ -130,8 +130,9 @@ class Instant:
 
     @property
     def has_picture(self) -> bool:
-        """Whether there is a picture to be shown, encoded yet or not."""
-        return bool(self.jpeg) or self.drawn is not None
+        """Whether there is a picture to be shown, drawn and encoded yet or not."""
+        drawable = self.image is not None and self.snapshot is not None
+        return bool(self.jpeg) or self.drawn is not None or drawable
 
 
 class LiveHub:

@@ -101,7 +101,7 @@ def _serve(
                 rehearsed=_rehearsed(config, preparation, tracked),
             )
         )
-        tracked.publish(picture_of(app, language=config.video.language), look=alarms.look)
+        tracked.publish(picture_of(app), look=alarms.look)
         serve_until(app, listener, stopping, on_ready=lambda: _greet(listener, door.words), tls=door.tls)
 
 

@@ -1,9 +1,10 @@
 """From the tracking process to everybody: the newest report becomes the newest instant.
 
-One thread draws the overlay and encodes it once for all viewers. Newest wins: what came while it was busy is
-dropped, and counted. Whatever happens, an instant goes out at least once a second, and never with a picture
-that is known to be dead. Alarms are looked for with every image, before it is drawn, and twenty times a
-second where none comes: they go out with the image that raised them, and silence raises its own.
+One thread draws the overlay and encodes it once for all viewers, while there are any. Newest wins: what came
+while it was busy is dropped, and counted. Whatever happens, an instant goes out at least once a second, and
+never with a picture that is known to be dead. Alarms are looked for with every image, before it is drawn, and
+twenty times a second where none comes: they go out with the image that raised them, and silence raises its
+own.
 """
 
 import threading
@@ -40,12 +41,14 @@ class Picture:
     Attributes:
         draw: a new image with the overlay of a snapshot and of its alarms.
         encode: JPEG of an image.
-        wanted: whether anybody watches that JPEG; without one, it is not made.
+        is_watched: whether anybody watches in any size; if not, nothing is drawn.
+        is_watched_in_full: whether anybody watches that JPEG; if not, it is not made.
     """
 
     draw: Callable[[Image, NavigationSnapshot, AlarmPicture], Image]
     encode: Callable[[Image], bytes]
-    wanted: Callable[[], bool] = lambda: True
+    is_watched: Callable[[], bool] = lambda: True
+    is_watched_in_full: Callable[[], bool] = lambda: True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -189,11 +192,14 @@ class Publisher:
 
     def _drawn(self, snapshot: NavigationSnapshot, image: Image) -> Shown:
         """The picture of a snapshot; nothing at all when it cannot be drawn, and why in the status."""
+        if not self._picture.is_watched():
+            # Whoever comes now gets this image drawn for them alone; the next one is drawn here.
+            return Shown(snapshot=snapshot, image=image)
         started_s = time.monotonic()
         try:
             drawn = self._picture.draw(image, snapshot, self._alarms)
             drawn_s = time.monotonic()
-            jpeg = self._picture.encode(drawn) if self._picture.wanted() else b""
+            jpeg = self._picture.encode(drawn) if self._picture.is_watched_in_full() else b""
         except Exception as error:  # noqa: BLE001  told once below, and shown on the page
             self._tell_failed(error, code="OVERLAY_FAILED", what="the overlay cannot be drawn")
             return Shown()

@@ -1,4 +1,4 @@
-"""The picture of an instant in each size: encoded once for all who watch, and only when somebody does."""
+"""The picture of an instant in each size: made once for all who watch, and only when somebody does."""
 
 import asyncio
 import time
@@ -11,11 +11,14 @@ import numpy.typing as npt
 import structlog
 
 from server.live import Instant
-from server.overlay import encode_jpeg
+from server.overlay import draw_overlay, encode_jpeg
 from server.stream.fitting.sizes import Size
+from server.texts import Language
+from tracker.navigation import NavigationSnapshot
+from tracker.navigation.alarms import AlarmPicture
 
-# For so long after the last question somebody counts as watching in full size.
-ASKED_WITHIN_S = 1.0
+# For so long after the last request somebody counts as watching.
+REQUESTED_WITHIN_S = 1.0
 # Fine strokes of the burned-in figures suffer first in a small picture, and its bytes are few.
 BETTER_WHEN_SMALL = 10
 BEST_QUALITY = 95
@@ -26,10 +29,14 @@ _log = structlog.get_logger(__name__)
 class Pictures:
     """Made in a thread of its own, beside the event loop and away from the tracker. For one event loop."""
 
-    def __init__(self, *, quality: int, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, *, quality: int, language: Language = "en", clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self._quality = quality
+        self._language: Language = language
         self._clock = clock
-        self._asked_full_at_s = -float("inf")
+        self._requested_at_s = -float("inf")
+        self._full_requested_at_s = -float("inf")
         self._made: dict[Size, tuple[int, asyncio.Future[bytes]]] = {}
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="pictures")
         self.encoded = dict.fromkeys(Size, 0)
@@ -39,17 +46,28 @@ class Pictures:
         """The full picture. Any thread."""
         return encode_jpeg(drawn, self._quality)
 
-    def wants_full(self) -> bool:
-        """Whether somebody watches in full size; then its picture had better be there already. Any thread."""
-        return self._clock() - self._asked_full_at_s <= ASKED_WITHIN_S
+    def draw(
+        self, image: npt.NDArray[np.uint8], snapshot: NavigationSnapshot, alarms: AlarmPicture
+    ) -> npt.NDArray[np.uint8]:
+        """A new image with the overlay burned in. Any thread."""
+        return draw_overlay(image, snapshot, alarms, language=self._language)
+
+    def is_watched(self) -> bool:
+        """Whether somebody watches in any size; then the overlay is drawn with each image. Any thread."""
+        return self._clock() - self._requested_at_s <= REQUESTED_WITHIN_S
+
+    def is_watched_in_full(self) -> bool:
+        """Whether somebody watches in full size; then its JPEG is made with each image. Any thread."""
+        return self._clock() - self._full_requested_at_s <= REQUESTED_WITHIN_S
 
     async def of(self, instant: Instant, size: Size) -> bytes:
         """The JPEG of this instant in this size; empty where it has no picture."""
+        self._requested_at_s = self._clock()
         if size is Size.FULL:
-            self._asked_full_at_s = self._clock()
+            self._full_requested_at_s = self._requested_at_s
             if instant.jpeg:
                 return instant.jpeg
-        if instant.drawn is None and not instant.jpeg:
+        if not instant.has_picture:
             return b""
         sequence, making = self._made.get(size, (-1, None))
         if making is None or sequence != instant.sequence:
@@ -65,9 +83,9 @@ class Pictures:
 
     def _make(self, instant: Instant, size: Size) -> bytes:
         try:
-            content = self._encoded(_drawn(instant), size)
+            content = self._encoded(self._drawn(instant), size)
         except Exception:  # noqa: BLE001  logged here, and the page says that there is no picture
-            _log.exception("a picture could not be encoded", size=size)
+            _log.exception("a picture could not be drawn or encoded", size=size)
             return b""
         self.encoded[size] += 1
         return content
@@ -81,9 +99,14 @@ class Pictures:
         quality = max(self._quality, min(self._quality + BETTER_WHEN_SMALL, BEST_QUALITY))
         return encode_jpeg(np.asarray(small, np.uint8), quality)
 
+    def _drawn(self, instant: Instant) -> npt.NDArray[np.uint8]:
+        if instant.drawn is not None:
+            return instant.drawn
+        if not instant.jpeg and instant.image is not None and instant.snapshot is not None:
+            return self.draw(instant.image, instant.snapshot, instant.alarms)
+        return _decoded(instant.jpeg)
 
-def _drawn(instant: Instant) -> npt.NDArray[np.uint8]:
-    if instant.drawn is not None:
-        return instant.drawn
-    decoded = cv2.imdecode(np.frombuffer(instant.jpeg, np.uint8), cv2.IMREAD_COLOR)
+
+def _decoded(jpeg: bytes) -> npt.NDArray[np.uint8]:
+    decoded = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
     return np.asarray(decoded, np.uint8)

@@ -65,6 +65,26 @@ def test_picture_and_snapshot_of_an_instant_belong_together() -> None:
     assert instant.source == made_source(6)
 
 
+def test_nothing_is_drawn_for_nobody() -> None:
+    drawn: list[Image] = []
+
+    def draw(image: Image, _snapshot: NavigationSnapshot, _alarms: AlarmPicture) -> Image:
+        drawn.append(image)
+        return image
+
+    watched = False
+    stage = Stage(Picture(draw=draw, encode=lambda _: b"jpeg", is_watched=lambda: watched))
+    stage.report_image(0)
+    stage.publisher.publish_newest()
+    unwatched = stage.hub.instants[-1]
+    assert (drawn, unwatched.jpeg, unwatched.drawn, unwatched.server_ms) == ([], b"", None, {})
+    assert unwatched.has_picture, "whoever comes now still gets this image"
+    watched = True
+    stage.report_image(1)
+    stage.publisher.publish_newest()
+    assert (len(drawn), stage.hub.instants[-1].jpeg) == (1, b"jpeg")
+
+
 def test_the_newest_wins_and_what_was_dropped_is_counted() -> None:
     stage = Stage()
     for number in range(4):

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from server.live import Instant
-from server.stream.fitting.pictures import ASKED_WITHIN_S, Pictures
+from server.overlay import draw_overlay, encode_jpeg
+from server.stream.fitting.pictures import REQUESTED_WITHIN_S, Pictures
 from server.stream.fitting.sizes import Size
 from server.stream.fitting.texts import Texts
 from server.stream.messages import live_message
@@ -69,16 +70,29 @@ def test_an_older_instant_does_not_throw_out_the_newest(drawn: Instant) -> None:
     assert pictures.encoded[Size.HALF] == 2
 
 
-def test_full_pictures_are_wanted_only_while_somebody_asks(drawn: Instant) -> None:
+def test_pictures_are_drawn_and_encoded_only_while_somebody_watches(drawn: Instant) -> None:
     now_s = 100.0
     pictures = Pictures(quality=80, clock=lambda: now_s)
-    assert not pictures.wants_full()
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (False, False)
     asyncio.run(all_of(pictures, drawn, Size.HALF))
-    assert not pictures.wants_full()
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (True, False)
     asyncio.run(all_of(pictures, drawn, Size.FULL))
-    assert pictures.wants_full()
-    now_s += ASKED_WITHIN_S + 0.01
-    assert not pictures.wants_full()
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (True, True)
+    now_s += REQUESTED_WITHIN_S + 0.01
+    assert (pictures.is_watched(), pictures.is_watched_in_full()) == (False, False)
+
+
+def test_the_first_viewer_gets_the_overlay_of_an_image_that_was_not_drawn(live_instant: LiveInstant) -> None:
+    instant = live_instant(5)
+    assert instant.snapshot is not None
+    width, height = instant.snapshot.size_wh_px
+    image = np.full((height, width, 3), 77, np.uint8)
+    instant = dataclasses.replace(instant, jpeg=b"", drawn=None, image=image)
+    full = asyncio.run(all_of(Pictures(quality=80), instant, Size.FULL))[0]
+    expected = draw_overlay(image, instant.snapshot, instant.alarms)
+    assert not np.array_equal(expected, image), "an overlay that draws nothing shows nothing here"
+    assert full == encode_jpeg(expected, 80)
+    assert np.array_equal(image, np.full_like(image, 77)), "the camera's image is never drawn into"
 
 
 def test_an_instant_without_picture_has_none_in_any_size(instant_of: LiveInstant) -> None:
