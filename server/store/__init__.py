@@ -12,6 +12,7 @@ with Home(home_folder()) as home, CaseStore(home) as store:
 from server.store.archive import Archive
 from server.store.case_store import CaseStore
 from server.store.changes import Change
+from server.store.documents import NewDocument
 from server.store.errors import NotStored, OutOfDateError, StoreConflict, StoreError, told
 from server.store.files import NewFile
 from server.store.home import Home, home_folder
@@ -44,6 +45,7 @@ __all__ = [
     "Heading",
     "Home",
     "Imported",
+    "NewDocument",
     "NewFile",
     "NotStored",
     "OutOfDate",

@@ -137,8 +137,9 @@ class CaseStore:
         stands_on: Sequence[str] = (),
         files: Sequence[str] = (),
         expected_version: int | None = None,
+        with_it: Callable[[Document], Sequence[NewDocument]] = lambda _: (),
     ) -> Document:
-        """Store the next version of a document.
+        """Store the next version of a document, and whatever belongs to it, in one transaction.
 
         Args:
             case_id: the case.
@@ -149,6 +150,8 @@ class CaseStore:
             stands_on: ids of the documents that it was made from.
             files: ids of the files that belong to it.
             expected_version: the version that the change was made on, 0 for none; checked if given.
+            with_it: returns further documents, given the stored one. No reader sees it without them, and a
+                crash leaves all of them or none.
 
         Raises:
             InvalidInput: NAME_INVALID, CONTENT_NOT_JSON, CONTENT_TOO_LARGE, STANDS_ON_IDENTITY.
@@ -166,9 +169,11 @@ class CaseStore:
         with self._ledger.writing() as session:
             row, now = cases.case_row(session, case_id), self._ledger.now
             row.changed_at = now
-            added = documents.add_document(session, case_id, new, now=now)
-        self._told(Change.added(added))
-        return added
+            document = documents.add_document(session, case_id, new, now=now)
+            others = [documents.add_document(session, case_id, one, now=now) for one in with_it(document)]
+        for one in (document, *others):
+            self._told(Change.added(one))
+        return document
 
     def document(self, case_id: str, document_id: str) -> Document:
         """One document."""

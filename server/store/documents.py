@@ -40,8 +40,8 @@ class NewDocument:
         *,
         made_by: str,
         stands_on: Sequence[str],
-        files: Sequence[str],
-        expected_version: int | None,
+        files: Sequence[str] = (),
+        expected_version: int | None = None,
     ) -> "NewDocument":
         """Refuse what cannot be stored, before the database is asked.
 

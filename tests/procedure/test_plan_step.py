@@ -80,8 +80,12 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     beside = np.linalg.norm(away - (away @ channel.axis_in_vertebra) * channel.axis_in_vertebra)
     assert beside < 0.6
     assert 2 * channel.radius_mm == pytest.approx(truth.width_mm, abs=VOXEL_MM / 2)
+    told_before = len(server.adopted)
     server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L4"})
     assert server.ask("GET", "/api/plan", 200)["active_channel"]["side"] == "left"
+    told = [case.channel for case in server.adopted[told_before:]]
+    assert told, "the tracking process is told of every change"
+    assert None not in told, "navigation has its channel at every moment of the change"
 
     # A corrected number is used, the measured one stays, and the channel is another: it must be chosen anew.
     corrected = {**BY, "corrected": {"width_mm": 7.0, "transverse_deg": 12.0}}

@@ -10,7 +10,7 @@ from server.errors import SetupOrderError
 from server.procedure.ct import CtInUse, OpenedCt
 from server.procedure.opened import opened_case
 from server.procedure.plan.active import ACTIVE_CHANNEL, ActiveChannel, kept_channel
-from server.store import CaseStore, Current, Document, DocumentKind, OutOfDateError, Standing
+from server.store import CaseStore, Current, Document, DocumentKind, NewDocument, OutOfDateError, Standing
 from tracker.errors import NavigationError, PlanError
 from tracker.plan import Channel, PlanDocument, plan_from_mapping, plan_to_mapping
 from tracker.plan.document import plain
@@ -136,6 +136,7 @@ class PlanShelf:
         """
         case_id = ct.document.case_id
         before = self._active(case_id)
+        stays = before if before is not None and _has(plan, before) else None
         document = self._store.put(
             case_id,
             DocumentKind.PLAN,
@@ -144,9 +145,9 @@ class PlanShelf:
             made_by=made_by,
             stands_on=[ct.document.id],
             expected_version=expected_version,
+            # In one transaction: a plan that is seen without its channel stops navigation for a moment.
+            with_it=lambda stored: [] if stays is None else [_new_active(stored, stays, made_by=made_by)],
         )
-        if before is not None and _has(plan, before):
-            self._put_active(document, before, made_by=made_by)
         return KeptPlan(plan=plan, document=document, standing=Current(), active=self._active(case_id))
 
     def activate(self, vertebra: str, side: Side, *, made_by: str) -> KeptPlan:
@@ -159,8 +160,13 @@ class PlanShelf:
         """
         kept = self.latest_that_holds()
         channel = channel_of(vertebra_named(kept.plan, vertebra), side).channel
-        self._put_active(
-            kept.document, ActiveChannel(vertebra=vertebra, side=side, channel=channel), made_by=made_by
+        self._store.put(
+            kept.document.case_id,
+            DocumentKind.PLAN,
+            ACTIVE_CHANNEL,
+            _active_content(ActiveChannel(vertebra=vertebra, side=side, channel=channel)),
+            made_by=made_by,
+            stands_on=[kept.document.id],
         )
         return self.latest()
 
@@ -176,16 +182,6 @@ class PlanShelf:
             self._store.withdraw(document, by=made_by, reason="no channel is to be drilled now")
         return self.latest()
 
-    def _put_active(self, plan: Document, active: ActiveChannel, *, made_by: str) -> None:
-        self._store.put(
-            plan.case_id,
-            DocumentKind.PLAN,
-            ACTIVE_CHANNEL,
-            {"vertebra": active.vertebra, "side": active.side, "channel": plain(active.channel)},
-            made_by=made_by,
-            stands_on=[plan.id],
-        )
-
     def _active(self, case_id: str) -> ActiveChannel | None:
         document = self._store.latest(case_id, DocumentKind.PLAN, ACTIVE_CHANNEL)
         if document is None or not isinstance(self._store.standing(document), Current):
@@ -195,6 +191,17 @@ class PlanShelf:
         except NavigationError as error:
             log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
             return None
+
+
+def _new_active(plan: Document, active: ActiveChannel, *, made_by: str) -> NewDocument:
+    """The choice of a channel, made again on this plan."""
+    return NewDocument.checked(
+        DocumentKind.PLAN, ACTIVE_CHANNEL, _active_content(active), made_by=made_by, stands_on=[plan.id]
+    )
+
+
+def _active_content(active: ActiveChannel) -> dict[str, object]:
+    return {"vertebra": active.vertebra, "side": active.side, "channel": plain(active.channel)}
 
 
 def _has(plan: PlanDocument, active: ActiveChannel) -> bool:

@@ -11,6 +11,7 @@ from server.store import (
     Current,
     Document,
     DocumentKind,
+    NewDocument,
     NotStored,
     OutOfDate,
     OutOfDateError,
@@ -203,3 +204,31 @@ def test_writers_in_many_threads_get_a_version_each(store: CaseStore, case_id: s
     assert {(one.content["who"], one.content["n"]) for one in versions} == {
         (who, n) for who in range(8) for n in range(5)
     }
+
+
+def test_what_is_stored_with_a_document_is_seen_with_it_or_not_at_all(store: CaseStore, case_id: str) -> None:
+    seen: list[list[bool]] = []
+
+    def look() -> None:
+        seen.append([store.latest(case_id, PLAN, name) is not None for name in ("main", "choice")])
+
+    def choice_on(plan: Document) -> list[NewDocument]:
+        # Another connection, while the transaction is open: neither is there.
+        look()
+        return [NewDocument.checked(PLAN, "choice", {"n": 1}, made_by="ito", stands_on=[plan.id])]
+
+    store.call_after_writing(look)
+    plan = store.put(case_id, PLAN, "main", {}, made_by="ito", with_it=choice_on)
+    assert seen == [[False, False], [True, True]]
+    choice = store.latest(case_id, PLAN, "choice")
+    assert choice is not None
+    assert choice.stands_on == (plan.id,)
+
+
+def test_what_cannot_be_stored_with_a_document_keeps_it_out_too(store: CaseStore, case_id: str) -> None:
+    def stranger(_plan: Document) -> list[NewDocument]:
+        return [NewDocument.checked(PLAN, "choice", {}, made_by="ito", stands_on=["not a document"])]
+
+    with pytest.raises(NotStored):
+        store.put(case_id, PLAN, "main", {}, made_by="ito", with_it=stranger)
+    assert store.latest(case_id, PLAN, "main") is None
