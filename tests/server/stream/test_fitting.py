@@ -89,6 +89,7 @@ def test_the_first_viewer_gets_the_overlay_of_an_image_that_was_not_drawn(live_i
     image = np.full((height, width, 3), 77, np.uint8)
     instant = dataclasses.replace(instant, jpeg=b"", drawn=None, image=image)
     full = asyncio.run(all_of(Pictures(quality=80), instant, Size.FULL))[0]
+    assert instant.snapshot is not None
     expected = draw_overlay(image, instant.snapshot, instant.alarms)
     assert not np.array_equal(expected, image), "an overlay that draws nothing shows nothing here"
     assert full == encode_jpeg(expected, 80)
