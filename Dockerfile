@@ -43,7 +43,7 @@ ENV PATH=/opt/coaxial/bin:$PATH \
 USER 10001
 WORKDIR /etc/coaxial
 # Compiled now, so that the first image is not late. On another kind of processor it is compiled at the start.
-RUN python -m tracker.warm_up
+RUN python -m server.loop.compiling
 VOLUME /var/lib/coaxial
 EXPOSE 8000
 HEALTHCHECK --interval=10s --timeout=3s --start-period=30s --retries=3 \

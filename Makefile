@@ -5,8 +5,6 @@
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .SUFFIXES:
-# The steps share one environment, and two installers in it at once would trip over each other.
-.NOTPARALLEL:
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 SHELL := /bin/sh
 
@@ -48,13 +46,13 @@ help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
 
 .PHONY: run
-run: ready ## start Coaxial with the rehearsal theatre, and print the address to open (ARGS="..." go to coaxial run)
+run: ready-to-run ## start Coaxial with the rehearsal theatre, and print the address to open (ARGS="..." go to coaxial run)
 	@COAXIAL_HOME="$${COAXIAL_HOME:-$(CURDIR)/.coaxial}" exec $(PYTHON_IN_VENV) -m server run $(ARGS)
 
 .PHONY: test
 test: $(STAMPS)/project ## everything: format, lint, types, contracts, Python, web and browser tests
 	@# Compiling takes a minute of one core: so long the rest is installed, and checked as far as nothing need run.
-	@$(MAKE) $(STAMPS)/warm & warm=$$!; $(MAKE) $(STAMPS)/page $(STAMPS)/dev && $(MAKE) check && $(MAKE) test-web; \
+	@$(MAKE) $(STAMPS)/warm & warm=$$!; $(MAKE) --jobs=2 $(STAMPS)/page $(STAMPS)/dev && $(MAKE) check && $(MAKE) test-web; \
 	checked=$$?; wait $$warm && exit $$checked
 	@$(MAKE) test-python
 
@@ -109,8 +107,19 @@ clean: ## take away everything that was made, but no case
 
 # ---------------------------------------------------------------- what they stand on
 
+# Side by side: packages and then the tracker's loops, the page's packages and then the page.
 .PHONY: ready
-ready: $(STAMPS)/project $(STAMPS)/page $(STAMPS)/warm
+ready:
+	@$(MAKE) --jobs=3 $(STAMPS)/project $(STAMPS)/page $(STAMPS)/warm
+
+# The server shows its page, and how far the compiling is, while that goes on in the background.
+.PHONY: ready-to-run compiling
+ready-to-run:
+	@$(MAKE) --jobs=3 $(STAMPS)/project $(STAMPS)/page compiling
+
+compiling: $(STAMPS)/project
+	@$(MAKE) --question $(STAMPS)/warm 2>/dev/null || \
+		env -u MAKEFLAGS -u MAKELEVEL nice $(MAKE) $(STAMPS)/warm >/dev/null 2>&1 &
 
 $(STAMPS)/place: $(if $(SOUND),,anew)
 	@python=$$(PYTHON="$(PYTHON)" sh .make/find-python) && rm -rf .venv && mkdir -p .venv/log && \
@@ -121,10 +130,10 @@ $(STAMPS)/place: $(if $(SOUND),,anew)
 .PHONY: anew
 anew:
 
-$(STAMPS)/packages: requirements.lock requirements-build.lock $(STAMPS)/place
-	@$(STEP) packages "Installing Python packages (about a minute, once)" \
+$(STAMPS)/packages: requirements.lock requirements-build.lock requirements-installer.lock $(STAMPS)/place
+	@$(STEP) packages "Installing Python packages" \
 		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
-		$(PIP) install --require-hashes --no-deps -r requirements.lock -r requirements-build.lock
+		sh .make/install requirements.lock requirements-build.lock
 	@touch $@
 
 $(STAMPS)/project: pyproject.toml $(STAMPS)/packages
@@ -132,14 +141,15 @@ $(STAMPS)/project: pyproject.toml $(STAMPS)/packages
 		$(PIP) install --no-index --no-deps --no-build-isolation --editable .
 	@touch $@
 
-$(STAMPS)/dev: requirements-dev.lock $(STAMPS)/packages
-	@$(STEP) dev "Installing what the tests need (about a minute, once)" \
+# After the project, because two installers in one environment at once would trip over each other.
+$(STAMPS)/dev: requirements-dev.lock $(STAMPS)/project
+	@$(STEP) dev "Installing what the tests need" \
 		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
-		$(PIP) install --require-hashes --no-deps -r requirements-dev.lock
+		sh .make/install requirements-dev.lock
 	@touch $@
 
 $(STAMPS)/page-packages: web/package-lock.json requirements-node.lock $(STAMPS)/place
-	@$(STEP) page-packages "Installing the page's packages (about a minute, once)" \
+	@$(STEP) page-packages "Installing the page's packages" \
 		"Look whether this machine reaches its package registry, then try again." \
 		$(NPM) ci --include=dev
 	@touch $@
@@ -152,5 +162,5 @@ $(STAMPS)/page: $(PAGE_SOURCES) $(STAMPS)/page-packages
 $(STAMPS)/warm: $(TRACKER_SOURCES) $(STAMPS)/project
 	@find tracker -name "*.nb[ic]" -delete
 	@$(STEP) warm "Compiling the tracker for this machine (once)" "Look at the log." \
-		$(PYTHON_IN_VENV) -m tracker.warm_up
+		$(PYTHON_IN_VENV) -m server.loop.compiling
 	@touch $@

@@ -7,16 +7,18 @@ are taken at once; what is not a number stays one.
 """
 
 from collections.abc import Callable
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numba
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
+LOOPS: list[Any] = []
+"""Numba's dispatcher of each compiled function that has been imported."""
+
 
 def compiled(function: Function) -> Function:
     """The same function as machine code. `tracker.warm_up` calls each one, so that none is compiled later."""
-    return cast(
-        "Function",
-        numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})(function),
-    )
+    loop = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})(function)
+    LOOPS.append(loop)
+    return cast("Function", loop)

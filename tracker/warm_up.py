@@ -1,5 +1,7 @@
 """Compile all hot loops ahead, so that nothing compiles in theatre: `python -m tracker.warm_up`."""
 
+from enum import StrEnum
+
 import numpy as np
 import numpy.typing as npt
 
@@ -19,8 +21,16 @@ from tracker.plan.pedicle.kernels import walls_around
 COVERED_FROM_RATIO = 0.3
 
 
-def warm_up() -> None:
-    """Track a marker in a practice picture, after the tracker itself has practised: every loop runs."""
+class Part(StrEnum):
+    """What can be compiled by itself; together the parts compile everything."""
+
+    SEARCH = "search"  # finds a marker and follows it
+    FIT = "fit"  # what `SEARCH` does at last: the photometric fit of a pose
+    REST = "rest"  # verification in uneven light, distances to bone, sections of a CT
+
+
+def warm_up(*parts: Part) -> None:
+    """Run every loop of these parts once; of all parts where none is named."""
     camera = CameraModel(
         matrix=np.array([[400.0, 0.0, 159.5], [0.0, 400.0, 119.5], [0.0, 0.0, 1.0]]),
         distortion=np.zeros(5),
@@ -31,14 +41,24 @@ def warm_up() -> None:
     marker[32:48, 16:48] = 255
     model = MarkerModel.from_image(marker, side_mm=25.0, name="warm-up")
     picture = practice_picture(model.square, size_wh_px=camera.size_wh_px)
+    shaded = _half_in_shadow(picture)
+    for part in parts or Part:
+        match part:
+            case Part.SEARCH:
+                _search(model, picture, camera)
+            case Part.FIT:
+                _fit(model, picture, shaded, camera)
+            case Part.REST:
+                _explain(model, picture, shaded)
+                _judge()
+                _outline()
+
+
+def _search(model: MarkerModel, picture: PracticePicture, camera: CameraModel) -> None:
+    """Track a marker in a practice picture, after the tracker itself has practised."""
     tracker = Tracker(camera=camera, models=[model])
     for at_s in (0.0, 0.03, 0.06):
         tracker.step(picture.image, captured_at_s=at_s)
-    shaded = _half_in_shadow(picture)
-    _explain(model, picture, shaded)
-    _fit(model, picture, shaded, camera)
-    _judge()
-    _outline()
 
 
 def _outline() -> None:

@@ -21,6 +21,7 @@ import structlog
 
 from server.live import ProcessState, ProcessStatus, Trouble
 from server.loop.board import Board
+from server.loop.compiling import Progress, progress
 from server.loop.forks import ending_words, forking_context
 from server.loop.ring import ImageRing
 from server.loop.staging import SceneOrder
@@ -43,6 +44,7 @@ class Watch:
         restarts: how often it is started again within `window_s`.
         window_s: see `restarts`.
         look_every_s: how often silence is looked for; a death is noticed at once.
+        compiles_within_s: after this without another compiled loop, the compiling is no longer waited for.
     """
 
     silent_after_s: float = 2.5
@@ -50,6 +52,7 @@ class Watch:
     restarts: int = 5
     window_s: float = 60.0
     look_every_s: float = 0.25
+    compiles_within_s: float = 120.0
 
 
 class Supervisor:
@@ -63,7 +66,9 @@ class Supervisor:
         watch: Watch | None = None,
         target: Target = run_worker,
         clock: Callable[[], float] = time.monotonic,
+        compiled: Callable[[], Progress] = progress,
     ) -> None:
+        self._compiled = compiled
         self._order = order
         self._board = board
         self._watch = watch or Watch()
@@ -123,6 +128,7 @@ class Supervisor:
     def _run(self) -> None:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         self._board.post(ProcessStatus(state=ProcessState.STARTING), None)
+        self._wait_until_compiled()
         while not self._stop.is_set():
             trouble = self._run_once()
             if self._stop.is_set():
@@ -132,6 +138,19 @@ class Supervisor:
             self._wait_until_allowed(trouble)
             self._restarts += 1
             self._restarted_at_s.append(self._clock())
+
+    def _wait_until_compiled(self) -> None:
+        """Tell how far the process that forks is with compiling the tracker, until it is done or stuck."""
+        most, since_s = -1, self._clock()
+        while not (now := self._compiled()).is_complete:
+            if now.done > most:
+                most, since_s = now.done, self._clock()
+            if self._clock() - since_s > self._watch.compiles_within_s:
+                break
+            self._post(ProcessState.STARTING, _compiling(now))
+            if wait([self._asleep], timeout=self._watch.look_every_s):
+                break
+        self._post(ProcessState.STARTING, None)
 
     def _run_once(self) -> Trouble:
         """Start a process, watch it to its end, and say how it ended."""
@@ -224,6 +243,15 @@ class Supervisor:
 
     def _post(self, state: ProcessState, trouble: Trouble | None, ring: ImageRing | None = None) -> None:
         self._board.post(ProcessStatus(state=state, restarts=self._restarts, trouble=trouble), ring)
+
+
+def _compiling(now: Progress) -> Trouble:
+    return Trouble(
+        code="TRACKER_COMPILING",
+        message=f"the tracker is compiled for this machine, once: {now.done} of {now.total} loops are done",
+        remedy="Wait for about a minute; it starts by itself.",
+        context={"done": now.done, "total": now.total},
+    )
 
 
 def _trouble(what: str) -> Trouble:

@@ -9,7 +9,13 @@ from typing import Any
 import pytest
 
 ROOT = Path(__file__).parents[2]
-LOCKS = ("requirements.lock", "requirements-build.lock", "requirements-node.lock", "requirements-dev.lock")
+LOCKS = (
+    "requirements.lock",
+    "requirements-build.lock",
+    "requirements-installer.lock",
+    "requirements-node.lock",
+    "requirements-dev.lock",
+)
 PIN = re.compile(r"^([a-z0-9][a-z0-9.-]*)==(\S+)")
 PLACE = re.compile(r"://|\bfile:|^-|--(index|find|extra|trusted)|@ |(^|\s)[./~]", re.MULTILINE)
 
@@ -55,8 +61,9 @@ def asked_for() -> dict[str, list[str]]:
     return {
         "requirements.lock": runtime,
         "requirements-build.lock": names(groups["build"]),
+        "requirements-installer.lock": names(groups["installer"]),
         "requirements-node.lock": names(groups["node"]),
-        "requirements-dev.lock": runtime + names(groups["build"]) + names(groups["dev"]),
+        "requirements-dev.lock": runtime + names(groups["build"] + groups["installer"] + groups["dev"]),
     }
 
 
@@ -85,7 +92,9 @@ def test_a_lock_holds_what_the_project_asks_for(lock: str) -> None:
     assert set(asked_for()[lock]) <= versions(lock).keys()
 
 
-@pytest.mark.parametrize("lock", ["requirements.lock", "requirements-build.lock"])
+@pytest.mark.parametrize(
+    "lock", ["requirements.lock", "requirements-build.lock", "requirements-installer.lock"]
+)
 def test_what_runs_is_what_was_tested(lock: str) -> None:
     tested = versions("requirements-dev.lock")
     assert {name: tested.get(name) for name in versions(lock)} == versions(lock)

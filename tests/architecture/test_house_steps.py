@@ -15,7 +15,7 @@ def bare_path(tmp_path: Path) -> Path:
     """A folder for the path in which there is a shell's bread and butter, and no Python, Node or browser."""
     folder = tmp_path / "bin"
     folder.mkdir()
-    for name in ("sh", "cat", "tail", "mkdir", "id", "env", "dirname", "rm", "ln", "chmod"):
+    for name in ("sh", "cat", "tail", "mkdir", "date", "id", "env", "dirname", "rm", "ln", "chmod"):
         found = next(p for p in (Path("/bin") / name, Path("/usr/bin") / name) if p.exists())
         (folder / name).symlink_to(found)
     return folder
@@ -176,9 +176,9 @@ def stands_ready(folder: Path, fails: str) -> None:
     shutil.copy(ROOT / "Makefile", folder)
     for made in ("tracker", "web/src", ".make", ".venv/bin", ".venv/stamps"):
         (folder / made).mkdir(parents=True)
-    for file in ("requirements.lock", "requirements-build.lock", "requirements-dev.lock", "pyproject.toml"):
-        (folder / file).touch()
-    for file in ("requirements-node.lock", "web/package-lock.json"):
+    for lock in ("", "-build", "-installer", "-dev", "-node"):
+        (folder / f"requirements{lock}.lock").touch()
+    for file in ("pyproject.toml", "web/package-lock.json"):
         (folder / file).touch()
     called = f'echo "${{0##*/}} $*" >>{folder}/called; case "${{0##*/}} $*" in *"{fails}"*) exit 1;; esac'
     for program in ("python", "lint-imports"):
@@ -192,7 +192,7 @@ def stands_ready(folder: Path, fails: str) -> None:
 
 @pytest.mark.parametrize(
     "fails",
-    ["tracker.warm_up", "ruff check", "lint-imports", "mypy", "--silent test", "run-tests", "nothing"],
+    ["server.loop.compiling", "ruff check", "lint-imports", "mypy", "--silent test", "run-tests", "nothing"],
 )
 def test_the_gate_fails_with_any_of_its_parts_and_tests_only_what_was_compiled_and_checked(
     tmp_path: Path, fails: str
@@ -201,7 +201,9 @@ def test_the_gate_fails_with_any_of_its_parts_and_tests_only_what_was_compiled_a
     said = subprocess.run(["make", "test"], cwd=tmp_path, check=False, capture_output=True, text=True)
     called = (tmp_path / "called").read_text()
     assert (said.returncode == 0) is (fails == "nothing"), said.stderr
-    assert "tracker.warm_up" in called
+    assert "server.loop.compiling" in called
     assert ("run-tests" in called) is (fails in {"run-tests", "nothing"})
     if "run-tests" in called:
-        assert called.index("run-tests") > max(called.index("tracker.warm_up"), called.index("--silent test"))
+        assert called.index("run-tests") > max(
+            called.index("server.loop.compiling"), called.index("--silent test")
+        )

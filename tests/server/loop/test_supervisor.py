@@ -10,24 +10,34 @@ from server.config import Config
 from server.live import Instant, ProcessState
 from server.logs import LogSettings
 from server.loop.board import Board
+from server.loop.compiling import Progress
 from server.loop.publisher import Picture, Publisher
 from server.loop.supervisor import Supervisor, Target, Watch
 from server.loop.worker import WorkerOrder
 from server.setup import CaseSetup, nominal_camera
 from tests.server.loop.made import Seen, echoing_worker, failing_worker, silent_worker, steady_worker
 
+COMPILED = Progress(done=3, total=3)
+
 
 class Stage:
     """Supervisor and publisher around a process that the test chooses."""
 
-    def __init__(self, target: Target, watch: Watch) -> None:
+    def __init__(
+        self, target: Target, watch: Watch, compiled: Callable[[], Progress] = lambda: COMPILED
+    ) -> None:
         self.hub = Seen()
         # Stands still unless a test moves it: how long a process takes to start is not asked.
         self.now_s = 0.0
         board = Board("made")
         order = WorkerOrder(config=Config(), log=LogSettings(as_json=True))
         self.supervisor = Supervisor(
-            order=order, board=board, watch=watch, target=target, clock=lambda: self.now_s
+            order=order,
+            board=board,
+            watch=watch,
+            target=target,
+            clock=lambda: self.now_s,
+            compiled=compiled,
         )
         picture = Picture(draw=lambda image, _, _alarms: image, encode=lambda _: b"jpeg")
         self.publisher = Publisher(board=board, hub=self.hub, picture=picture)
@@ -54,6 +64,11 @@ def staged() -> Iterator[Callable[[Target, Watch], Stage]]:
 
 def shows_image(instant: Instant) -> bool:
     return instant.snapshot is not None
+
+
+def is_compiling(instant: Instant) -> bool:
+    trouble = instant.process.trouble
+    return trouble is not None and trouble.code == "TRACKER_COMPILING"
 
 
 def is_dead(instant: Instant) -> bool:
@@ -151,3 +166,31 @@ def test_what_the_open_case_knows_reaches_the_process_and_the_one_after_it(
     dead = stage.hub.until(is_dead, after=seen)
     after = stage.hub.until(shows_image, after=stage.hub.instants.index(dead))
     assert width(after) == 320
+
+
+def test_while_the_tracker_is_compiled_its_progress_is_shown_and_then_it_starts() -> None:
+    seen = [Progress(done=1, total=3), Progress(done=2, total=3)]
+    stage = Stage(steady_worker, Watch(look_every_s=0.01), lambda: seen.pop(0) if seen else COMPILED)
+    try:
+        stage.hub.until(shows_image)
+        told = [one for one in stage.hub.instants if is_compiling(one)]
+        assert told, "somebody who opens the page meanwhile is told"
+        assert all(one.process.state is ProcessState.STARTING and one.snapshot is None for one in told)
+        assert not is_compiling(stage.hub.instants[-1])
+    finally:
+        stage.end()
+
+
+def test_compiling_that_is_stuck_is_not_waited_for() -> None:
+    stage: list[Stage] = []
+
+    def stuck() -> Progress:
+        if stage:
+            stage[0].now_s += 1.0
+        return Progress(done=1, total=3)
+
+    stage.append(Stage(steady_worker, Watch(look_every_s=0.01, compiles_within_s=5.0), stuck))
+    try:
+        stage[0].hub.until(shows_image)
+    finally:
+        stage[0].end()
