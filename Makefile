@@ -112,14 +112,14 @@ clean: ## take away everything that was made, but no case
 ready:
 	@$(MAKE) --jobs=3 $(STAMPS)/project $(STAMPS)/page $(STAMPS)/warm
 
-# The server shows its page, and how far the compiling is, while that goes on in the background.
-.PHONY: ready-to-run compiling
-ready-to-run:
-	@$(MAKE) --jobs=3 $(STAMPS)/project $(STAMPS)/page compiling
-
-compiling: $(STAMPS)/project
-	@$(MAKE) --question $(STAMPS)/warm 2>/dev/null || \
-		env -u MAKEFLAGS -u MAKELEVEL nice $(MAKE) $(STAMPS)/warm >/dev/null 2>&1 &
+# The server shows its page, and how far the compiling is, while that goes on in the background. Not by make's own
+# jobs: it would wait for what goes on.
+.PHONY: ready-to-run
+ready-to-run: $(STAMPS)/place
+	@$(MAKE) $(STAMPS)/page & page=$$!; \
+	$(MAKE) $(STAMPS)/project; installed=$$?; \
+	[ $$installed -ne 0 ] || $(MAKE) --question $(STAMPS)/warm || nice $(MAKE) $(STAMPS)/warm >/dev/null 2>&1 & \
+	wait $$page && exit $$installed
 
 $(STAMPS)/place: $(if $(SOUND),,anew)
 	@python=$$(PYTHON="$(PYTHON)" sh .make/find-python) && rm -rf .venv && mkdir -p .venv/log && \
