@@ -143,6 +143,8 @@ class Supervisor:
         """Tell how far the process that forks is with compiling the tracker, until it is done or stuck."""
         most, since_s = -1, self._clock()
         while not (now := self._compiled()).is_complete:
+            if most == -1:
+                log.info("the tracker is being compiled for this machine (once); the page shows the progress")
             if now.done > most:
                 most, since_s = now.done, self._clock()
             if self._clock() - since_s > self._watch.compiles_within_s:
@@ -248,8 +250,8 @@ class Supervisor:
 def _compiling(now: Progress) -> Trouble:
     return Trouble(
         code="TRACKER_COMPILING",
-        message=f"the tracker is compiled for this machine, once: {now.done} of {now.total} loops are done",
-        remedy="Wait for about a minute; it starts by itself.",
+        message=f"the tracker is being compiled for this machine (once): {now.done} of {now.total} functions",
+        remedy="Wait a minute or two; it starts by itself.",
         context={"done": now.done, "total": now.total},
     )
 
