@@ -177,7 +177,7 @@ DRILLS = st.fixed_dictionaries(
 )
 
 
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=60)
 @given(drill=DRILLS, scale=st.floats(0.2, 12.0), room_mm=st.floats(0.0, 3.0))
 def test_the_verdict_is_the_worst_that_the_figures_say_and_on_path_only_within_all(
     drill: dict[str, float], scale: float, room_mm: float
