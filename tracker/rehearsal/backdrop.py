@@ -1,4 +1,4 @@
-"""The still scenery as the camera sees it, and how something that moves is laid over it."""
+"""The still scenery as the camera sees it."""
 
 from dataclasses import replace
 
@@ -6,15 +6,21 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from tracker.rehearsal.exposure import Exposure
 from tracker.rehearsal.lens import Box, RayGrid
 from tracker.rehearsal.placement import Placement
+from tracker.rehearsal.point_spread import DEFOCUS_PX
+from tracker.rehearsal.reference import reference_board_mm
 from tracker.rehearsal.scenery import still_scenery
-from tracker.rehearsal.sensor import DEFOCUS_PX, Sensor
+from tracker.rehearsal.sensor import Sensor
 from tracker.rehearsal.settings import BoardKind, Scene, Skill, TheatreSettings
 from tracker.rehearsal.theatre import Theatre
 
 Image8 = npt.NDArray[np.uint8]
 Image32 = npt.NDArray[np.float32]
+
+# Around the reference's board: what its marker's edges are measured in.
+REFERENCE_MARGIN_PX = 8
 
 
 class Backdrop:
@@ -36,42 +42,26 @@ class Backdrop:
         if sigma > 0.05:
             picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
         self._picture: Image8 = np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
-        self._sigmas = self._sensor.sigmas(self._picture)
+        # The light changes every few images.
+        self._lit: tuple[float, Image8] = (1.0, self._picture)
+        self._still_noise = self._sensor.still_noise(self._picture)
+        self._reference_box = _reference_box(theatre, placement, rays)
 
-    def picture(self) -> Image8:
-        """The picture (h, w, 3), BGR, to draw into."""
-        return self._picture.copy()
+    def expose(self, at_s: float) -> Exposure:
+        """The image of this time, for now without what moves."""
+        exposure = Exposure(self._sensor, self._lit_at(at_s), self._still_noise, at_s)
+        if self._reference_box is not None:
+            # A marker is measured: its noise must not be one that was there before.
+            exposure.refresh(self._reference_box)
+        return exposure
 
-    def lay_over(self, image: Image8, box: Box, layer: Image8, kernel: Image32 | None) -> None:
-        """Lay something that moves over a part of the picture, in place.
-
-        Args:
-            image: the picture.
-            box: the part.
-            layer: (h, w, 4) of that part, premultiplied, sharp.
-            kernel: what defocus and motion make of a point in it; None leaves it sharp.
-        """
-        if kernel is not None:
-            soft = cv2.filter2D(layer, -1, kernel, borderType=cv2.BORDER_REPLICATE)
-            layer = np.asarray(soft, dtype=np.uint8)
-        x, y, width, height = box
-        part = image[y : y + height, x : x + width]
-        layer = layer[: part.shape[0], : part.shape[1]]
-        gain = self._sensor.gain[y : y + height, x : x + width]
-        coverage = cv2.merge([255 - layer[..., 3]] * 3)
-        behind = cv2.multiply(part, coverage, scale=1.0 / 255.0)
-        colour = cv2.multiply(cv2.cvtColor(layer, cv2.COLOR_BGRA2BGR), cv2.merge([gain] * 3), dtype=cv2.CV_8U)
-        cv2.add(behind, colour, dst=part)
-
-    def read_out(self, image: Image8, box: Box | None, at_s: float) -> Image8:
-        """The picture as the sensor gives it at this time, when nothing but this part of it has changed."""
-        sigmas = self._sigmas
-        if box is not None:
-            x, y, width, height = box
-            sigmas = sigmas.copy()
-            part = np.s_[y : y + height, x : x + width]
-            sigmas[part] = self._sensor.sigmas(image[part])
-        return self._sensor.read_out(image, sigmas, at_s)
+    def _lit_at(self, at_s: float) -> Image8:
+        """The picture in the light of this time; nobody may draw into it."""
+        flicker = self._sensor.flicker_at(at_s)
+        if flicker != self._lit[0]:
+            lit = cv2.convertScaleAbs(self._picture, alpha=flicker)
+            self._lit = (flicker, np.asarray(lit, dtype=np.uint8))
+        return self._lit[1]
 
 
 class Backdrops:
@@ -98,3 +88,11 @@ class Backdrops:
 def _stage(settings: TheatreSettings) -> TheatreSettings:
     """The settings without what is played."""
     return replace(settings, scene=Scene.OPERATION, board=BoardKind.DOTS, skill=Skill.WANDERING, events=())
+
+
+def _reference_box(theatre: Theatre, placement: Placement, rays: RayGrid) -> Box | None:
+    if theatre.reference is None:
+        return None
+    pose = placement.camera_from_vertebra @ theatre.reference_from_vertebra.inverse
+    px = theatre.camera.px_from_camera(pose.move_points(reference_board_mm()))
+    return rays.box_around(px, REFERENCE_MARGIN_PX)

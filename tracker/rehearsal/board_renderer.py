@@ -7,13 +7,14 @@ import numpy.typing as npt
 from tracker.geometry import Array, Camera, Pattern, Rigid
 from tracker.rehearsal.backdrop import Backdrops
 from tracker.rehearsal.boards import BOARD_FROM_KIND, BoardHand, printed
-from tracker.rehearsal.sensor import spread_kernel
+from tracker.rehearsal.point_spread import DEFOCUS_PX, point_spread
+from tracker.rehearsal.printed import covered_px
 from tracker.rehearsal.theatre import Theatre
 
 Image8 = npt.NDArray[np.uint8]
 
 SPEED_OVER_S = 0.004
-EDGE_GREY = 150
+MARGIN_PX = 2
 # White paper in the theatre's lamp: the more it turns away the darker it is.
 BRIGHTEST, DARKEST = 0.93, 0.6
 # Of y and z: a plane is drawn with y up and its face turned to the viewer.
@@ -29,6 +30,7 @@ class BoardRenderer:
         self._blur = theatre.settings.blur
         self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre)
         self.prepare()
+        self._rays = self.backdrops.at(theatre.placement_at(0.0)).rays
         self._printed = printed(BOARD_FROM_KIND[theatre.settings.board])
         self._plane = self._printed.plane
         self._hand = BoardHand(self._printed, theatre.camera, theatre.settings.seed)
@@ -45,23 +47,20 @@ class BoardRenderer:
     def image_at(self, at_s: float) -> Image8:
         """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
         pose = self.camera_from_board_at(at_s)
-        backdrop = self.backdrops.at(self._theatre.placement_at(at_s))
-        image = backdrop.picture()
-        corners_px = self._camera.px_from_camera(pose.move_points(self._printed.corners_mm))
-        kernel = spread_kernel(self._blur, self._speed_px_s(at_s))
-        reach_px = 4 if kernel is None else 4 + kernel.shape[0] // 2
-        rays = backdrop.rays
-        box, inner = rays.box_around(corners_px, reach_px), rays.box_around(corners_px, 2)
-        if box is not None and inner is not None:
-            layer = np.zeros((box[3], box[2], 4), dtype=np.uint8)
-            outline = np.rint((corners_px - [box[0], box[1]]) * 16).astype(np.int32)
-            cv2.fillConvexPoly(layer, outline, (EDGE_GREY, EDGE_GREY, EDGE_GREY, 255), cv2.LINE_AA, 4)
-            face: Rigid[Camera, Pattern] = Rigid(
-                rotation=pose.rotation @ FACE_FROM_PATTERN, translation_mm=pose.translation_mm
-            )
-            self._plane.draw(layer, box, inner, rays, face, self._brightness(pose))
-            backdrop.lay_over(image, box, layer, kernel)
-        return backdrop.read_out(image, box, at_s)
+        exposure = self.backdrops.at(self._theatre.placement_at(at_s)).expose(at_s)
+        face: Rigid[Camera, Pattern] = Rigid(
+            rotation=pose.rotation @ FACE_FROM_PATTERN, translation_mm=pose.translation_mm
+        )
+        sampled = self._plane.sampled(self._camera, face, blur_px2=(DEFOCUS_PX * self._blur) ** 2)
+        spread = point_spread(self._blur, self._speed_px_s(at_s), sampled.drawn_px2)
+        outline = self._plane.outline_px(self._camera, face)
+        box = self._rays.box_around(outline, MARGIN_PX if spread is None else MARGIN_PX + spread.reach_px)
+        if box is not None:
+            coverage = covered_px(outline, box)
+            grey = self._plane.draw(sampled, box, self._rays, face)
+            ink = cv2.multiply(grey, coverage, scale=self._brightness(pose) / 255.0)
+            exposure.lay_over(box, np.asarray(cv2.merge([ink, coverage]), dtype=np.uint8), spread)
+        return exposure.image
 
     def _brightness(self, pose: Rigid[Camera, Pattern]) -> float:
         return DARKEST + (BRIGHTEST - DARKEST) * float(np.clip(pose.rotation[2, 2], 0.0, 1.0))

@@ -4,7 +4,10 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from tracker.geometry import Array
+
 Image8 = npt.NDArray[np.uint8]
+Image32 = npt.NDArray[np.float32]
 
 # Radius over the distance from the tip: burr, shaft, sleeve, nose, handpiece, tail, cable.
 PROFILE_MM = np.array(
@@ -57,15 +60,20 @@ def drill_portrait() -> Image8:
     Columns run along the axis from `PORTRAIT_START_MM`, rows across it from -`PORTRAIT_HALF_MM`, both
     `PORTRAIT_PER_MM` to a millimetre.
     """
-    t = PORTRAIT_START_MM + (
-        np.arange(int((PORTRAIT_END_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM)) + 0.5
-    ) / (PORTRAIT_PER_MM)
-    d = -PORTRAIT_HALF_MM + (np.arange(int(2 * PORTRAIT_HALF_MM * PORTRAIT_PER_MM)) + 0.5) / PORTRAIT_PER_MM
+    t, d = _stations()
     radius = np.interp(t, PROFILE_MM, RADIUS_MM, left=0.0)[None, :]
     across = np.clip(d[:, None] / np.maximum(radius, 1e-6), -1.0, 1.0)
     coverage = np.clip((radius - np.abs(d[:, None])) * PORTRAIT_PER_MM + 0.5, 0.0, 1.0) * (radius > 0)
     colour = _colour(t[None, :] + 0 * across, across)
     return _premultiplied(colour, coverage)
+
+
+def drill_bulge_mm(shown_from_mm: float) -> Image32:
+    """How far the surface lies before the axis, over the portrait; endless from this far behind the tip."""
+    t, d = _stations()
+    radius = np.interp(t, PROFILE_MM, RADIUS_MM, left=0.0)[None, :]
+    bulge = np.sqrt(np.maximum(radius**2 - d[:, None] ** 2, 0.0))
+    return np.where(t[None, :] > shown_from_mm, 1e6, bulge).astype(np.float32)
 
 
 def board_face(emblem: Image8, half_mm: float = BOARD_HALF_MM) -> Image8:
@@ -76,6 +84,14 @@ def board_face(emblem: Image8, half_mm: float = BOARD_HALF_MM) -> Image8:
     printed = BOARD_BLACK + (BOARD_WHITE - BOARD_BLACK) * emblem.astype(np.float32) / 255.0
     face[start : start + emblem.shape[0], start : start + emblem.shape[1]] = printed
     return np.asarray(np.rint(face * 255.0), dtype=np.uint8)
+
+
+def _stations() -> tuple[Array, Array]:
+    """Of the portrait, the distances from the tip of its columns, and of its rows from the axis."""
+    columns, rows = (PORTRAIT_END_MM - PORTRAIT_START_MM, 2.0 * PORTRAIT_HALF_MM)
+    along = (np.arange(int(columns * PORTRAIT_PER_MM)) + 0.5) / PORTRAIT_PER_MM + PORTRAIT_START_MM
+    across = (np.arange(int(rows * PORTRAIT_PER_MM)) + 0.5) / PORTRAIT_PER_MM - PORTRAIT_HALF_MM
+    return np.asarray(along, dtype=np.float64), np.asarray(across, dtype=np.float64)
 
 
 def _colour(t: npt.NDArray[np.float64], s: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

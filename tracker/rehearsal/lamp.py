@@ -48,13 +48,18 @@ def rod_shadow(
     s_of = (slant * along - TO_LAMP) / lean
     functions = np.stack([normal, t_of, s_of], axis=1)
     values = points @ functions.astype(np.float32) - (tip @ functions).astype(np.float32)
-    distance, t, s = np.abs(values[:, 0]), values[:, 1], values[:, 2]
+    first, last = float(profile_mm[0]), float(profile_mm[-1])
+    out = np.zeros(len(points), dtype=np.float32)
+    thickest_mm = float(profile_radius_mm.max())
+    near = np.flatnonzero(
+        np.abs(values[:, 0]) < thickest_mm + PENUMBRA_MM + PENUMBRA_PER_MM * np.maximum(values[:, 2], 0.0)
+    )
+    distance, t, s = np.abs(values[near, 0]), values[near, 1], values[near, 2]
     soft = PENUMBRA_MM + PENUMBRA_PER_MM * np.maximum(s, 0.0)
     radius = np.interp(t, profile_mm, profile_radius_mm).astype(np.float32)
     covered = np.clip((radius + soft - distance) / (2.0 * soft), 0.0, 1.0)
     # A rod thinner than its penumbra never hides the whole lamp.
     strength = np.minimum(1.0, radius / soft * 1.6) * np.exp(-np.maximum(s, 0.0) / SHADOW_FADES_MM)
-    ends = np.clip((t - profile_mm[0] + soft) / soft, 0, 1) * np.clip(
-        (profile_mm[-1] - t + soft) / soft, 0, 1
-    )
-    return np.asarray(SHADOW_DEPTH * covered * strength * ends * (s > 0.0), dtype=np.float32)
+    ends = np.clip((t - first + soft) / soft, 0, 1) * np.clip((last - t + soft) / soft, 0, 1)
+    out[near] = SHADOW_DEPTH * covered * strength * ends * (s > 0.0)
+    return out

@@ -1,6 +1,6 @@
 """Where camera, room and patient are to each other, and what a move makes of it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -20,15 +20,15 @@ class Placement:
     Attributes:
         camera_from_room: the camera.
         room_from_vertebra: the patient.
+        camera_from_vertebra: the patient as the camera sees them: the true registration to the camera.
     """
 
     camera_from_room: Rigid[Camera, Room]
     room_from_vertebra: Rigid[Room, Vertebra]
+    camera_from_vertebra: Rigid[Camera, Vertebra] = field(init=False)
 
-    @property
-    def camera_from_vertebra(self) -> Rigid[Camera, Vertebra]:
-        """The patient as the camera sees them: the true registration to the camera."""
-        return self.camera_from_room @ self.room_from_vertebra
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "camera_from_vertebra", self.camera_from_room @ self.room_from_vertebra)
 
     @property
     def key(self) -> bytes:
@@ -65,6 +65,8 @@ class Moves:
             if event.kind is EventKind.PATIENT_MOVES and event.is_on(at_s):
                 moved: Rigid[Room, Room] = _about(event, shift, turn)
                 room = moved @ room
+        if camera is self._at_rest.camera_from_room and room is self._at_rest.room_from_vertebra:
+            return self._at_rest
         return Placement(camera_from_room=camera, room_from_vertebra=room)
 
     def jump_mm_at(self, at_s: float) -> Array:

@@ -1,19 +1,42 @@
 """Something printed on a flat board, drawn exactly through lens and perspective."""
 
+from dataclasses import dataclass
 from typing import TypeVar
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry import Camera, Rigid
-from tracker.rehearsal.lens import Box, RayGrid, spread
+from tracker.camera import CameraModel
+from tracker.geometry import Array, Camera, Rigid
+from tracker.rehearsal.lens import Box, RayGrid, looked_up, spread
 
 Image8 = npt.NDArray[np.uint8]
 Frame = TypeVar("Frame")
 
-# To a pixel's side: what is printed has sharp edges.
-SAMPLES = 4
+# To a pixel's side. Where few samples are taken, what is printed is softened before.
+FEWEST_SAMPLES, MOST_SAMPLES = 1, 4
+# A Gaussian of half a sample's distance lets an edge wander by 0.002 px with its place among the samples.
+SOFT_PER_SAMPLE = 0.5
+SOFTER = 2.0**0.25
+OUTLINE_POINTS = 8
+# OpenCV's polygons with smooth borders are so much wider on each side than their outlines.
+FILLED_BEYOND_PX = 0.67
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sampled:
+    """What is printed, ready to be drawn at one distance and tilt.
+
+    Attributes:
+        face: (h, w) uint8, softened for its samples.
+        samples: to a pixel's side.
+        drawn_px2: variance of the blur that it is drawn with, beyond that of a pixel's square.
+    """
+
+    face: Image8
+    samples: int
+    drawn_px2: float
 
 
 class PrintedPlane:
@@ -27,43 +50,82 @@ class PrintedPlane:
 
     def __init__(self, face: Image8, *, per_mm: float, middle_px: tuple[float, float]) -> None:
         self._face = face
-        self._whole = np.full_like(face, 255)
-        self._per_mm = np.float32(per_mm)
-        self._middle_px = np.array(middle_px, dtype=np.float32)
+        self._per_mm = per_mm
+        self._middle_px = np.array(middle_px)
+        self._softened: dict[int, Image8] = {}
+
+    def sampled(
+        self,
+        camera: CameraModel,
+        camera_from_plane: Rigid[Camera, Frame],
+        *,
+        blur_px2: float = 0.0,
+        fewest: int = FEWEST_SAMPLES,
+    ) -> Sampled:
+        """With as few samples as a blur of this variance allows: they need softening, and it hides that."""
+        height, width = self._face.shape
+        middle = (np.array([width, height]) / 2.0 - self._middle_px) * [1.0, -1.0]
+        three = np.zeros((3, 3))
+        three[:, :2] = (middle + np.array([[0, 0], [1, 0], [0, 1]])) / self._per_mm
+        px = camera.px_from_camera(camera_from_plane.move_points(three))
+        largest, smallest = np.linalg.svd(px[1:] - px[0], compute_uv=False)
+        samples = fewest
+        while samples < MOST_SAMPLES:
+            level = int(np.ceil(np.log(SOFT_PER_SAMPLE / samples / smallest) / np.log(SOFTER)))
+            # A sample between pixels of the face softens it, too: by 1/6 in the mean.
+            face_px2 = SOFTER ** (2 * level) + 1.0 / 6.0
+            drawn_px2 = float(largest * smallest * face_px2 - 1.0 / (12.0 * samples**2))
+            if drawn_px2 <= blur_px2:
+                return Sampled(face=self._softened_at(level), samples=samples, drawn_px2=drawn_px2)
+            samples *= 2
+        return Sampled(face=self._face, samples=MOST_SAMPLES, drawn_px2=0.0)
+
+    def outline_px(self, camera: CameraModel, camera_from_plane: Rigid[Camera, Frame]) -> Array:
+        """Its outline (n, 2) in the image, with sides as the lens bends them."""
+        height, width = self._face.shape
+        corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
+        ratio = (np.arange(OUTLINE_POINTS) / OUTLINE_POINTS)[:, None]
+        sides = [a + ratio * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
+        xy = (np.concatenate(sides) - self._middle_px) * [1.0, -1.0] / self._per_mm
+        return camera.px_from_camera(camera_from_plane.move_points(np.column_stack([xy, np.zeros(len(xy))])))
 
     def draw(
-        self,
-        layer: Image8,
-        box: Box,
-        inner: Box,
-        rays: RayGrid,
-        camera_from_plane: Rigid[Camera, Frame],
-        brightness: float,
-    ) -> None:
-        """Draw it over a layer, in place.
+        self, sampled: Sampled, box: Box, rays: RayGrid, camera_from_plane: Rigid[Camera, Frame]
+    ) -> Image8:
+        """Its grey values (h, w) over a rectangle of the image; beyond its border it goes on.
 
-        Args:
-            layer: (h, w, 4), premultiplied, of the rectangle `box` of the image.
-            box: of the layer.
-            inner: where the plane is to be drawn, inside of `box`.
-            rays: of the camera.
-            camera_from_plane: where the plane is; its face must be turned to the camera.
-            brightness: of white.
+        The face must be turned to the camera.
         """
         pose = camera_from_plane
         plane = np.column_stack([pose.rotation[:, :2], pose.translation_mm])
-        on_plane = rays.block(*inner) @ np.linalg.inv(plane).T.astype(np.float32)
-        mm = on_plane[..., :2] / on_plane[..., 2:]
-        half = np.float32(0.5)
-        column = spread(mm[..., :1] * self._per_mm + (self._middle_px[0] - half), SAMPLES)
-        row = spread((self._middle_px[1] - half) - mm[..., 1:] * self._per_mm, SAMPLES)
-        grey = cv2.remap(self._face, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
-        inside = cv2.remap(self._whole, column, row, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
-        size = inner[2:]
-        shade = cv2.resize(grey, size, interpolation=cv2.INTER_AREA).astype(np.float32) * brightness
-        coverage = cv2.resize(inside, size, interpolation=cv2.INTER_AREA)
-        x, y = inner[0] - box[0], inner[1] - box[1]
-        part = layer[y : y + size[1], x : x + size[0]]
-        under = cv2.multiply(part, cv2.merge([255 - coverage] * 4), scale=1.0 / 255.0)
-        ink = np.clip(np.rint(shade), 0, 255).astype(np.uint8)
-        cv2.add(under, cv2.merge([ink, ink, ink, coverage]), dst=part)
+        # From a ray to the plane, and on to the face.
+        face_from_plane = np.array(
+            [
+                [self._per_mm, 0.0, self._middle_px[0] - 0.5],
+                [0.0, -self._per_mm, self._middle_px[1] - 0.5],
+                [0.0, 0.0, 1.0],
+            ]
+        )
+        on_face = cv2.transform(rays.block(*box), face_from_plane @ np.linalg.inv(plane))
+        nodes = np.asarray(on_face[..., :2] / on_face[..., 2:], dtype=np.float32)
+        # Its border is one grey all around.
+        grey = looked_up(sampled.face, spread(nodes, sampled.samples), float(sampled.face[0, 0]))
+        if sampled.samples == 1:
+            return grey
+        return np.asarray(cv2.resize(grey, box[2:], interpolation=cv2.INTER_AREA), dtype=np.uint8)
+
+    def _softened_at(self, level: int) -> Image8:
+        if level not in self._softened:
+            soft = cv2.GaussianBlur(self._face, (0, 0), SOFTER**level, borderType=cv2.BORDER_REPLICATE)
+            self._softened[level] = np.asarray(soft, dtype=np.uint8)
+        return self._softened[level]
+
+
+def covered_px(outline_px: Array, box: Box) -> Image8:
+    """How much of each pixel (h, w) of a rectangle of the image lies inside an outline (n, 2), clockwise."""
+    along = np.roll(outline_px, -1, axis=0) - np.roll(outline_px, 1, axis=0)
+    inwards = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.linalg.norm(along, axis=1, keepdims=True)
+    coverage = np.zeros((box[3], box[2]), dtype=np.uint8)
+    fixed = np.rint((outline_px + FILLED_BEYOND_PX * inwards - box[:2]) * 16).astype(np.int32)
+    cv2.fillPoly(coverage, [fixed.reshape(-1, 1, 2)], 255, cv2.LINE_AA, 4)
+    return coverage

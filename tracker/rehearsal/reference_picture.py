@@ -10,9 +10,9 @@ from tracker.camera import CameraModel
 from tracker.geometry import Array, Camera, Reference, Rigid, Vertebra
 from tracker.rehearsal.drill import BOARD_EDGE_GREY, BOARD_PER_MM, BOARD_THICK_MM, board_face
 from tracker.rehearsal.lamp import lit
-from tracker.rehearsal.lens import RayGrid
+from tracker.rehearsal.lens import Box, RayGrid
 from tracker.rehearsal.placement import Placement, Room
-from tracker.rehearsal.printed import PrintedPlane
+from tracker.rehearsal.printed import MOST_SAMPLES, PrintedPlane, Sampled, covered_px
 from tracker.rehearsal.reference import (
     CLAMP_IN_VERTEBRA_MM,
     REFERENCE_HALF_MM,
@@ -78,25 +78,69 @@ def lay_reference(
         return
     front = camera.px_from_camera(pose.move_points(reference_board_mm()))
     back = camera.px_from_camera(pose.move_points(reference_board_mm(-BOARD_THICK_MM)))
-    box, inner = rays.box_around(np.concatenate([front, back]), 4), rays.box_around(front, 2)
-    if box is None or inner is None:
+    box = rays.box_around(np.concatenate([front, back]), 4)
+    if box is None:
         return
-    layer = np.zeros((box[3], box[2], 4), dtype=np.uint8)
-    grey = round(255 * BOARD_EDGE_GREY)
-    hull = cv2.convexHull(_fixed(np.concatenate([front, back]) - box[:2]))
-    cv2.fillConvexPoly(layer, hull, (grey, grey, grey, 255), cv2.LINE_AA, 4)
     face = board_face(_at_board_scale(emblem), REFERENCE_HALF_MM)
     plane = PrintedPlane(face, per_mm=BOARD_PER_MM, middle_px=(REFERENCE_HALF_MM * BOARD_PER_MM,) * 2)
     facing = placement.camera_from_room.rotation.T @ pose.rotation[:, 2]
-    plane.draw(layer, box, inner, rays, pose, PAPER * float(lit(facing[None])[0]))
+    outline = plane.outline_px(camera, pose)
+    layer = board_layer(
+        plane,
+        plane.sampled(camera, pose, fewest=MOST_SAMPLES),
+        box=box,
+        rays=rays,
+        pose=pose,
+        front_px=outline,
+        back_px=back,
+        brightness=PAPER * float(lit(facing[None])[0]),
+    )
     x, y, width, height = box
     part = np.s_[y : y + height, x : x + width]
     rows, columns = picture[part].shape[:2]
     light = layer[:rows, :columns].astype(np.float32) / 255.0
-    picture[part] *= 1.0 - light[..., 3:]
-    picture[part] += light[..., :3]
-    nearer = np.where(light[..., 3] > 0.5, np.float32(pose.translation_mm[2]), np.float32(np.inf))
+    picture[part] *= 1.0 - light[..., 1:]
+    picture[part] += light[..., :1]
+    nearer = np.where(light[..., 1] > 0.5, np.float32(pose.translation_mm[2]), np.float32(np.inf))
     np.minimum(depth_mm[part], nearer, out=depth_mm[part])
+
+
+def board_layer(
+    plane: PrintedPlane,
+    sampled: Sampled,
+    *,
+    box: Box,
+    rays: RayGrid,
+    pose: Rigid[Camera, Square],
+    front_px: Array,
+    back_px: Array,
+    brightness: float,
+) -> Image8:
+    """Grey and coverage (h, w, 2), premultiplied, of a board with its thickness, its face to the camera.
+
+    Args:
+        plane: what is printed on it.
+        sampled: the same, ready to be drawn at `pose`.
+        box: of the image, what the layer shows.
+        rays: of the camera.
+        pose: where the face is.
+        front_px: (n, 2) outline of the face.
+        back_px: (n, 2) corners of the board's back.
+        brightness: of white.
+    """
+    layer = np.zeros((box[3], box[2], 2), dtype=np.uint8)
+    hull = cv2.convexHull(_fixed(np.concatenate([front_px, back_px]) - box[:2]))
+    cv2.fillConvexPoly(layer, hull, (round(255 * BOARD_EDGE_GREY), 255), cv2.LINE_AA, 4)
+    inner = rays.box_around(front_px, 1)
+    if inner is None:
+        return layer
+    coverage = covered_px(front_px, inner)
+    ink = cv2.multiply(plane.draw(sampled, inner, rays, pose), coverage, scale=brightness / 255.0)
+    x, y, width, height = inner[0] - box[0], inner[1] - box[1], inner[2], inner[3]
+    part = layer[y : y + height, x : x + width]
+    under = cv2.multiply(part, cv2.merge([255 - coverage] * 2), scale=1.0 / 255.0)
+    cv2.add(under, cv2.merge([ink, coverage]), dst=part)
+    return layer
 
 
 def cloth_px(camera: CameraModel, camera_from_square: Rigid[Camera, Square], half_mm: float) -> Array:

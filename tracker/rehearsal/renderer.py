@@ -1,13 +1,14 @@
 """Images of the theatre: the still scenery, and the moving drill drawn into it."""
 
+from typing import TypeVar
+
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.geometry import Array, Camera, Rigid, Tool
-from tracker.rehearsal.backdrop import Backdrop, Backdrops
+from tracker.geometry import Array, Camera, Marker, Rigid, Tool, skew
+from tracker.rehearsal.backdrop import Backdrops
 from tracker.rehearsal.drill import (
-    BOARD_EDGE_GREY,
     BOARD_HALF_MM,
     BOARD_PER_MM,
     BOARD_THICK_MM,
@@ -18,23 +19,34 @@ from tracker.rehearsal.drill import (
     PROFILE_MM,
     RADIUS_MM,
     board_face,
+    drill_bulge_mm,
     drill_portrait,
 )
 from tracker.rehearsal.events import EventKind
+from tracker.rehearsal.exposure import Exposure
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
-from tracker.rehearsal.lens import NODE_PX, Box, spread
-from tracker.rehearsal.printed import PrintedPlane
+from tracker.rehearsal.lens import NODE_PX, Box, RayGrid, box_around_all, looked_up, nodes_of
+from tracker.rehearsal.lens import spread as spread_nodes
+from tracker.rehearsal.placement import Room
+from tracker.rehearsal.point_spread import DEFOCUS_PX, PointSpread, point_spread
+from tracker.rehearsal.printed import PrintedPlane, Sampled
 from tracker.rehearsal.reference import REFERENCE_HALF_MM
-from tracker.rehearsal.reference_picture import cloth_px, draw_cloth
-from tracker.rehearsal.sensor import spread_kernel
-from tracker.rehearsal.theatre import Theatre, Truth
+from tracker.rehearsal.reference_picture import board_layer, cloth_px, draw_cloth
+from tracker.rehearsal.theatre import Theatre
 
 Image8 = npt.NDArray[np.uint8]
 Image32 = npt.NDArray[np.float32]
+Square = TypeVar("Square")
 
-SPEED_OVER_S = 0.004
+MARGIN_PX = 2
+STATION_MM = 8.0
+# The marker is measured: two samples to a pixel's side leave little of its blur to softening before.
+MARKER_SAMPLES = 2
+SPEED_OVER_S = 0.002
 # Only this much of the drill ever comes near the bone.
 NEAR_BONE_MM = 78.0
+PORTRAIT_ROWS = 2.0 * PORTRAIT_HALF_MM * PORTRAIT_PER_MM
+NEAR_BONE_PX = (NEAR_BONE_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM
 SHADOW_GROUND_MM, SHADOW_REACH_MM = 14.0, 260.0
 # The board is wider than the body and throws most of its shadow.
 SHADOW_PROFILE_MM = np.array([*PROFILE_MM[:17], 102, 102.5, 137.5, 138, 168])
@@ -53,6 +65,7 @@ class Renderer:
         self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre)
         self._rays = self.backdrops.at(theatre.placement_at(0.0)).rays
         self._portrait = drill_portrait()
+        self._bulge_mm = drill_bulge_mm(NEAR_BONE_MM)
         self._marker_board = PrintedPlane(
             board_face(theatre.marker.image),
             per_mm=BOARD_PER_MM,
@@ -66,119 +79,144 @@ class Renderer:
 
     def image_at(self, at_s: float) -> Image8:
         """The image (h, w, 3), BGR, whose exposure has its middle at this time."""
-        truth = self._theatre.truth_at(at_s)
-        backdrop = self.backdrops.at(self._theatre.placement_at(at_s))
-        image = backdrop.picture()
-        self._cast_shadow(image, truth, backdrop.points_mm)
-        kernel = spread_kernel(self._theatre.settings.blur, self._speed_px_s(truth))
-        reach_px = 4 if kernel is None else 4 + kernel.shape[0] // 2
-        box = self._rays.box_around(self._outline_px(truth), reach_px)
-        if box is not None:
-            layer = self._body(box, truth, backdrop.depth_mm)
-            self._add_board(layer, box, truth)
-            if self._theatre.is_on(EventKind.DRILL_HIDDEN, at_s):
-                cloth = cloth_px(self._theatre.camera, truth.camera_from_marker, BOARD_HALF_MM)
-                draw_cloth(layer, cloth - box[:2])
-            backdrop.lay_over(image, box, layer, kernel)
-        covered = self._cover_reference(image, truth, backdrop)
-        return backdrop.read_out(image, _both(box, covered), at_s)
+        theatre = self._theatre
+        placement, marker = theatre.placement_at(at_s), theatre.camera_from_marker_at(at_s)
+        tool, room = marker @ theatre.tool.marker_from_tool, placement.camera_from_room
+        backdrop = self.backdrops.at(placement)
+        exposure = backdrop.expose(at_s)
+        self._cast_shadow(exposure, room.inverse @ tool, room, backdrop.points_mm)
+        blur = theatre.settings.blur
+        sampled = self._marker_board.sampled(
+            theatre.camera,
+            marker,
+            blur_px2=(DEFOCUS_PX * blur) ** 2,
+            fewest=MARKER_SAMPLES,
+        )
+        # The body's outline is drawn about as soft as the marker.
+        spread = point_spread(blur, self._speed_px_s(at_s, marker), sampled.drawn_px2)
+        self._lay_body(exposure, tool, backdrop.depth_mm, spread)
+        self._lay_board(exposure, marker, room, sampled, spread)
+        if theatre.is_on(EventKind.DRILL_HIDDEN, at_s):
+            self._lay_cloth(exposure, marker, BOARD_HALF_MM, spread)
+        if theatre.reference is not None and theatre.is_on(EventKind.REFERENCE_HIDDEN, at_s):
+            reference = placement.camera_from_vertebra @ theatre.reference_from_vertebra.inverse
+            self._lay_cloth(exposure, reference, REFERENCE_HALF_MM, point_spread(blur, np.zeros(2)))
+        return exposure.image
 
-    def _cover_reference(self, image: Image8, truth: Truth, backdrop: Backdrop) -> Box | None:
-        """Lays a cloth over the reference while it is hidden; answers with what of the image has changed."""
-        pose = truth.camera_from_reference
-        if pose is None or not self._theatre.is_on(EventKind.REFERENCE_HIDDEN, truth.at_s):
-            return None
-        cloth = cloth_px(self._theatre.camera, pose, REFERENCE_HALF_MM)
-        box = self._rays.box_around(cloth, 8)
+    def _lay_cloth(
+        self,
+        exposure: Exposure,
+        camera_from_square: Rigid[Camera, Square],
+        half_mm: float,
+        spread: PointSpread | None,
+    ) -> None:
+        """Lays a cloth over a marker."""
+        cloth = cloth_px(self._theatre.camera, camera_from_square, half_mm)
+        box = self._rays.box_around(cloth, _reach_px(spread))
         if box is not None:
             layer = np.zeros((box[3], box[2], 4), dtype=np.uint8)
             draw_cloth(layer, cloth - box[:2])
-            backdrop.lay_over(image, box, layer, spread_kernel(self._theatre.settings.blur, np.zeros(2)))
-        return box
+            exposure.lay_over(box, layer, spread)
 
-    def _outline_px(self, truth: Truth) -> Array:
-        """Points (n, 2) around everything of the drill that can be in the image."""
-        to_camera = truth.camera_from_tool
-        stations = np.array([PORTRAIT_START_MM, 40.0, 96.0, 180.0, PORTRAIT_END_MM])
-        half = np.array([4.0, 5.0, 10.0, 10.0, 4.0])
-        axis = np.stack([np.zeros(5), np.zeros(5), -stations], axis=1)
-        reach = np.stack([half, np.zeros(5), np.zeros(5)], axis=1)
-        board = _board_corners(0.0)
-        points = np.concatenate(
-            [axis + reach, axis - reach, self._theatre.tool.marker_from_tool.inverse.move_points(board)]
-        )
-        in_camera = to_camera.move_points(points)
-        return self._theatre.camera.px_from_camera(in_camera[in_camera[:, 2] > 50.0])
+    def _outline_px(self, camera_from_tool: Rigid[Camera, Tool]) -> Array:
+        """Both sides (2, n, 2) of all of the drill's body that can be in the image."""
+        stations = np.arange(PORTRAIT_START_MM, PORTRAIT_END_MM, STATION_MM)
+        half = np.interp(stations, [PORTRAIT_START_MM, 40.0, 96.0, 180.0, 200.0], [4.0, 5.0, 10.0, 10.0, 4.0])
+        sides = np.zeros((2, len(stations), 3))
+        sides[..., 0] = half * np.array([[1.0], [-1.0]])
+        sides[..., 2] = -stations
+        in_camera = camera_from_tool.move_points(sides.reshape(-1, 3)).reshape(sides.shape)
+        ahead = (in_camera[..., 2] > 50.0).all(axis=0)
+        px = self._theatre.camera.px_from_camera(in_camera[:, ahead].reshape(-1, 3))
+        return px.reshape(2, -1, 2)
 
-    def _speed_px_s(self, truth: Truth) -> Array:
+    def _speed_px_s(self, at_s: float, camera_from_marker: Rigid[Camera, Marker]) -> Array:
         """How fast the marker moves through the image."""
-        ends = []
-        for step in (-SPEED_OVER_S / 2.0, SPEED_OVER_S / 2.0):
-            pose = (
-                self._theatre.camera_from_tool_at(truth.at_s + step)
-                @ self._theatre.tool.marker_from_tool.inverse
-            )
-            ends.append(self._theatre.camera.px_from_camera(pose.translation_mm)[0])
-        return np.asarray((ends[1] - ends[0]) / SPEED_OVER_S, dtype=np.float64)
+        later = self._theatre.camera_from_marker_at(at_s, late_s=SPEED_OVER_S)
+        ends = np.stack([camera_from_marker.translation_mm, later.translation_mm])
+        px = self._theatre.camera.px_from_camera(ends)
+        return np.asarray((px[1] - px[0]) / SPEED_OVER_S, dtype=np.float64)
 
-    def _body(self, box: Box, truth: Truth, still_mm: Image32) -> Image8:
-        """The drill's body (h, w, 4), premultiplied, without what is hidden in or behind the bone."""
-        rays = self._rays.block(*box)
-        where = spread(_along_across_depth(rays, truth.camera_from_tool), 1)
-        along, across, depth = (np.ascontiguousarray(where[..., i]) for i in range(3))
-        column = (along - np.float32(PORTRAIT_START_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
-        row = (across + np.float32(PORTRAIT_HALF_MM)) * np.float32(PORTRAIT_PER_MM) - np.float32(0.5)
-        layer = np.asarray(cv2.remap(self._portrait, column, row, cv2.INTER_LINEAR), dtype=np.uint8)
-        x, y, _, _ = box
-        still = still_mm[y : y + layer.shape[0], x : x + layer.shape[1]]
-        self._hide_behind_bone(layer, still, along, across, depth)
-        return layer
-
-    def _hide_behind_bone(
-        self, layer: Image8, still_mm: Image32, along: Image32, across: Image32, depth: Image32
+    def _lay_body(
+        self,
+        exposure: Exposure,
+        camera_from_tool: Rigid[Camera, Tool],
+        still_mm: Image32,
+        spread: PointSpread | None,
     ) -> None:
-        near = np.flatnonzero((along < NEAR_BONE_MM).any(axis=1) & (layer[..., 3].any(axis=1)))
-        if len(near) == 0:
+        """Lays the drill's body over the image, strip by strip, without what is in or behind the bone."""
+        reach_px = 0 if spread is None else spread.reach_px
+        strips = self._rays.strips_around(self._outline_px(camera_from_tool), _reach_px(spread))
+        if not strips:
             return
-        rows = slice(int(near[0]), int(near[-1]) + 1)
-        still = still_mm[rows]
-        at = np.s_[rows.start : rows.start + still.shape[0], : still.shape[1]]
-        radius = np.interp(along[at], PROFILE_MM, RADIUS_MM).astype(np.float32)
-        front = depth[at] - np.sqrt(np.maximum(radius**2 - across[at] ** 2, 0.0))
-        seen = np.clip((still - front) * 1.5 + 0.5, 0.0, 1.0)
-        seen[along[at] > NEAR_BONE_MM] = 1.0
-        layer[at] = cv2.multiply(layer[at], cv2.merge([seen] * 4), dtype=cv2.CV_8U)
+        whole = self._rays.grown(box_around_all(strips), reach_px)
+        on_portrait, depth = _on_portrait(self._rays, whole, camera_from_tool)
+        for strip in strips:
+            drawn = self._rays.grown(strip, reach_px)
+            x, y, width, height = drawn
+            nodes = nodes_of((x - whole[0], y - whole[1], width, height), margin=0)
+            at = spread_nodes(on_portrait[nodes], 1)
+            layer = looked_up(self._portrait, at)
+            near = _near_bone(on_portrait[nodes])
+            if near is not None:
+                still = still_mm[y : y + height, x : x + width][near]
+                self._hide_behind(layer[near], still, at[near], spread_nodes(depth[nodes], 1)[near])
+            exposure.lay_over(strip, layer, spread, drawn=drawn)
 
-    def _add_board(self, layer: Image8, box: Box, truth: Truth) -> None:
-        """Draws the board with the marker over the body: exact through lens and perspective."""
-        pose = truth.camera_from_marker
+    def _hide_behind(self, layer: Image8, still_mm: Image32, at: Image32, axis_mm: Image32) -> None:
+        """Take from a layer (h, w, 4) what still things hide, where the axis has this depth."""
+        rows, columns = still_mm.shape
+        part = layer[:rows, :columns]
+        bulge = looked_up(self._bulge_mm, at[:rows, :columns])
+        before_mm = cv2.add(cv2.subtract(still_mm, axis_mm[:rows, :columns]), bulge)
+        # From a third of a millimetre behind to a third before.
+        seen = np.clip(before_mm * np.float32(1.5 * 255.0) + np.float32(127.5), 0.0, 255.0).astype(np.uint8)
+        cv2.multiply(part, cv2.merge([seen] * 4), dst=part, scale=1.0 / 255.0)
+
+    def _lay_board(
+        self,
+        exposure: Exposure,
+        pose: Rigid[Camera, Marker],
+        camera_from_room: Rigid[Camera, Room],
+        sampled: Sampled,
+        spread: PointSpread | None,
+    ) -> None:
+        """Lays the board with the marker over the body: exact through lens and perspective."""
+        camera = self._theatre.camera
         if float(pose.rotation[:, 2] @ pose.translation_mm) >= 0.0:
             return
-        front = self._theatre.camera.px_from_camera(pose.move_points(_board_corners(0.0)))
-        inner = self._rays.box_around(front, 2)
-        if inner is None:
+        back_px = camera.px_from_camera(pose.move_points(_board_corners(-BOARD_THICK_MM)))
+        front_px = self._marker_board.outline_px(camera, pose)
+        box = self._rays.box_around(np.concatenate([front_px, back_px]), _reach_px(spread))
+        if box is None:
             return
-        self._add_board_edge(layer, box, truth, front)
-        brightness = float(lit((truth.camera_from_room.rotation.T @ pose.rotation[:, 2])[None])[0])
-        self._marker_board.draw(layer, box, inner, self._rays, pose, brightness)
+        facing = camera_from_room.rotation.T @ pose.rotation[:, 2]
+        layer = board_layer(
+            self._marker_board,
+            sampled,
+            box=box,
+            rays=self._rays,
+            pose=pose,
+            front_px=front_px,
+            back_px=back_px,
+            brightness=float(lit(facing[None])[0]),
+        )
+        exposure.lay_over(box, layer, spread)
 
-    def _add_board_edge(self, layer: Image8, box: Box, truth: Truth, front_px: Array) -> None:
-        """The board's thickness: the outline of its front and back together, in one grey."""
-        back = truth.camera_from_marker.move_points(_board_corners(-BOARD_THICK_MM))
-        both = np.concatenate([front_px, self._theatre.camera.px_from_camera(back)]) - [box[0], box[1]]
-        hull = cv2.convexHull(np.rint(both * 16).astype(np.int32).reshape(-1, 1, 2))
-        grey = round(255 * BOARD_EDGE_GREY)
-        cv2.fillConvexPoly(layer, hull, (grey, grey, grey, 255), cv2.LINE_AA, 4)
-
-    def _cast_shadow(self, image: Image8, truth: Truth, points_mm: Image32) -> None:
+    def _cast_shadow(
+        self,
+        exposure: Exposure,
+        room_from_tool: Rigid[Room, Tool],
+        camera_from_room: Rigid[Camera, Room],
+        points_mm: Image32,
+    ) -> None:
         """The drill's soft shadow on the still scenery, whose places are `points_mm`."""
-        room_from_tool = truth.camera_from_room.inverse @ truth.camera_from_tool
         tip, back = room_from_tool.translation_mm, -room_from_tool.rotation[:, 2]
         stations = tip + np.linspace(0.0, 168.0, 12)[:, None] * back
         above = (stations[:, 1] - SHADOW_GROUND_MM) / TO_LAMP[1]
         stations = stations[above < SHADOW_REACH_MM]
         above = np.maximum(above[above < SHADOW_REACH_MM], 0.0)
-        ground = truth.camera_from_room.move_points(stations - above[:, None] * TO_LAMP)
+        ground = camera_from_room.move_points(stations - above[:, None] * TO_LAMP)
         ground = ground[ground[:, 2] > 50.0]
         box = self._rays.box_around(self._theatre.camera.px_from_camera(ground), 48) if len(ground) else None
         if box is None:
@@ -187,34 +225,47 @@ class Renderer:
         blocks = np.s_[y // NODE_PX : (y + height) // NODE_PX, x // NODE_PX : (x + width) // NODE_PX]
         points = points_mm[blocks]
         taken = rod_shadow(points.reshape(-1, 3), tip, back, SHADOW_PROFILE_MM, SHADOW_RADIUS_MM)
-        left = np.rint((1.0 - taken.reshape(points.shape[:2])) * 255.0).astype(np.uint8)
+        left = cv2.convertScaleAbs(taken.reshape(points.shape[:2]), alpha=-255.0, beta=255.0)
         wide = cv2.resize(left, (width, height), interpolation=cv2.INTER_LINEAR)
-        part = image[y : y + height, x : x + width]
-        wide = wide[: part.shape[0], : part.shape[1]]
-        cv2.multiply(part, cv2.merge([wide] * 3), dst=part, scale=1.0 / 255.0)
+        exposure.dim(box, np.asarray(wide, dtype=np.uint8))
 
 
-def _both(one: Box | None, other: Box | None) -> Box | None:
-    """A rectangle around both."""
-    if one is None or other is None:
-        return one or other
-    x, y = min(one[0], other[0]), min(one[1], other[1])
-    right, bottom = max(one[0] + one[2], other[0] + other[2]), max(one[1] + one[3], other[1] + other[3])
-    return x, y, right - x, bottom - y
+def _reach_px(spread: PointSpread | None) -> int:
+    """How far around something there is anything of it."""
+    return MARGIN_PX if spread is None else MARGIN_PX + spread.reach_px
 
 
 def _board_corners(z_mm: float) -> Array:
     return np.array([[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]) * BOARD_HALF_MM + [0.0, 0.0, z_mm]
 
 
-def _along_across_depth(rays: Image32, camera_from_tool: Rigid[Camera, Tool]) -> Image32:
-    """For each ray, where it passes the drill's axis: mm from the tip backwards, mm beside it, depth mm."""
+def _near_bone(on_portrait: Image32) -> tuple[slice, slice] | None:
+    """Rows and columns of the pixels whose nodes may show what is near the bone; None if there are none."""
+    column, row = on_portrait[..., 0], on_portrait[..., 1]
+    near = (column < NEAR_BONE_PX) & (row > -NODE_PX) & (row < PORTRAIT_ROWS + NODE_PX)
+    rows, columns = np.flatnonzero(near.any(axis=1)), np.flatnonzero(near.any(axis=0))
+    if len(rows) == 0:
+        return None
+    # A node further on each side, without the one around the pixels.
+    return _pixels(rows), _pixels(columns)
+
+
+def _pixels(nodes: npt.NDArray[np.int64]) -> slice:
+    return slice(max(int(nodes[0]) - 2, 0) * NODE_PX, (int(nodes[-1]) + 1) * NODE_PX)
+
+
+def _on_portrait(rays: RayGrid, box: Box, camera_from_tool: Rigid[Camera, Tool]) -> tuple[Image32, Image32]:
+    """Where the nodes of a rectangle pass the drill's axis.
+
+    Returns:
+        Column and row (rows, columns, 2) of the portrait, and the depth (rows, columns) of the axis in mm.
+    """
     tip, back = camera_from_tool.translation_mm, -camera_from_tool.rotation[:, 2]
-    functions = np.stack([back, tip, np.cross(back, tip)], axis=1)
-    values = rays.astype(np.float64) @ functions
-    square = np.einsum("...i,...i->...", rays, rays).astype(np.float64)
-    lean = np.maximum(square - values[..., 0] ** 2, 1e-9)
-    depth = (values[..., 1] - values[..., 0] * float(back @ tip)) / lean
-    along = depth * values[..., 0] - float(back @ tip)
-    across = values[..., 2] / np.sqrt(lean)
-    return np.dstack([along, across, depth]).astype(np.float32)
+    slant = float(back @ tip)
+    functions = np.stack([back, tip, skew(back) @ tip])
+    toward, reach, beside = cv2.split(cv2.transform(rays.block(*box), functions))
+    lean = np.maximum(rays.squares[nodes_of(box)] - toward * toward, np.float32(1e-6))
+    depth = (reach - toward * slant) / lean
+    column = (depth * toward - (slant + PORTRAIT_START_MM)) * PORTRAIT_PER_MM - 0.5
+    row = (beside / np.sqrt(lean) + PORTRAIT_HALF_MM) * PORTRAIT_PER_MM - 0.5
+    return np.asarray(cv2.merge([column, row]), dtype=np.float32), np.asarray(depth, dtype=np.float32)

@@ -137,6 +137,8 @@ class Theatre:
         self.camera_from_vertebra = _camera_from_vertebra(self.channels[0], random)
         self.reference: MarkerModel | None = reference_marker() if settings.reference else None
         self.reference_from_vertebra = reference_from_vertebra(self.camera_from_vertebra, settings.seed)
+        self._tool_from_marker = self.tool.marker_from_tool.inverse
+        self._vertebra_from_reference = self.reference_from_vertebra.inverse
         self.landmarks: tuple[Landmark, ...] = registration_landmarks()
         self.check_landmark: Landmark = check_landmark()
         self._moves = Moves(settings, self.camera_from_vertebra)
@@ -146,9 +148,7 @@ class Theatre:
 
     def truth_at(self, at_s: float) -> Truth:
         """What is true at this time (any number of seconds); costs well under a millisecond."""
-        camera_from_tool = self.camera_from_tool_at(at_s)
-        camera_from_marker = camera_from_tool @ self.tool.marker_from_tool.inverse
-        # The tool is made from the marker once more, so that the two agree to the last bit.
+        camera_from_marker = self.camera_from_marker_at(at_s)
         camera_from_tool = camera_from_marker @ self.tool.marker_from_tool
         corners = camera_from_marker.move_points(SQUARE_IN_MM)
         placement = self.placement_at(at_s)
@@ -199,18 +199,23 @@ class Theatre:
         kept = None if after is None else after.backdrops
         return BoardRenderer(self, kept) if self.settings.scene is Scene.BOARD else Renderer(self, kept)
 
-    def camera_from_tool_at(self, at_s: float) -> Rigid[Camera, Tool]:
-        """The drill's tip and drilling direction at this time; the hand follows the patient."""
-        hand = self._hand.at(at_s)
+    def camera_from_marker_at(self, at_s: float, *, late_s: float = 0.0) -> Rigid[Camera, Marker]:
+        """Where the drill's marker is at this time; the hand follows the patient.
+
+        With `late_s` the hand has gone on for so long, and nothing has happened in it: an event comes from
+        one image to the next, it is no motion.
+        """
+        hand = self._hand.at(at_s + late_s)
         tip_mm = np.append(hand.across_mm, hand.depth_mm) + self._moves.jump_mm_at(at_s)
         held: Rigid[Tool, Tool] = Rigid.from_vector(np.radians(hand.turn_deg), tip_mm)
         placement = self.placement_at(at_s)
-        return placement.camera_from_vertebra @ (self._vertebra_from_rest @ held)
+        camera_from_tool = placement.camera_from_vertebra @ (self._vertebra_from_rest @ held)
+        return camera_from_tool @ self._tool_from_marker
 
     def _camera_from_reference(self, placement: Placement) -> Rigid[Camera, Reference] | None:
         if self.reference is None:
             return None
-        return placement.camera_from_vertebra @ self.reference_from_vertebra.inverse
+        return placement.camera_from_vertebra @ self._vertebra_from_reference
 
     def _in_view(self, camera_from_square: Rigid[Camera, Square], outline_mm: Array) -> bool:
         outline = camera_from_square.move_points(outline_mm)

@@ -151,7 +151,9 @@ def test_blur_softens_the_marker() -> None:
         low = theatre.truth_at(9.0).corners_px.min(axis=0).astype(int)
         grey = cv2.cvtColor(renderer.image_at(9.0), cv2.COLOR_BGR2GRAY)
         part = grey[low[1] - 10 : low[1] + 90, low[0] - 10 : low[0] + 90]
-        sharpness.append(float(np.abs(cv2.Sobel(part, cv2.CV_64F, 1, 0)).max()))
+        # The steepest of the marker's edges, not its one luckiest pixel.
+        slopes = np.sort(np.abs(cv2.Sobel(part, cv2.CV_64F, 1, 0)).ravel())
+        sharpness.append(float(slopes[-300:].mean()))
     assert sharpness[0] > 1.2 * sharpness[1] > 1.2 * 1.5 * sharpness[2]
 
 

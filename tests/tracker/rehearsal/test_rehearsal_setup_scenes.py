@@ -18,7 +18,9 @@ SIZE = (960, 540)
 
 
 def board_theatre(kind: BoardKind) -> tuple[Theatre, BoardRenderer]:
-    theatre = Theatre(TheatreSettings(seed=4, size_wh_px=SIZE, scene=Scene.BOARD, board=kind))
+    # In a smaller image OpenCV finds all of ChArUco's markers by luck alone, however it is rendered.
+    size = (1280, 720) if kind is BoardKind.CHARUCO else SIZE
+    theatre = Theatre(TheatreSettings(seed=4, size_wh_px=size, scene=Scene.BOARD, board=kind))
     renderer = theatre.renderer()
     assert isinstance(renderer, BoardRenderer)
     return theatre, renderer
