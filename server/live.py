@@ -43,6 +43,27 @@ class Trouble:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CameraMode:
+    """How a camera gives its images.
+
+    Attributes:
+        fourcc: pixel format, as V4L2 and OpenCV name it: "MJPG", "YUYV"; empty where it is not known.
+        size_wh_px: width and height.
+        rate_hz: images a second; 0 where it is not known.
+    """
+
+    fourcc: str
+    size_wh_px: tuple[int, int]
+    rate_hz: float
+
+    def __str__(self) -> str:
+        """For a person: "1920x1080 MJPG at 30 Hz"."""
+        width, height = self.size_wh_px
+        rate = f" at {self.rate_hz:.4g} Hz" if self.rate_hz > 0.0 else ""
+        return f"{width}x{height}{' ' if self.fourcc else ''}{self.fourcc}{rate}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SourceStatus:
     """The source of images.
 

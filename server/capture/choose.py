@@ -7,11 +7,12 @@ from pathlib import Path
 from server.capture.address import SourceAddress, SourceKind, source_from_text
 from server.capture.folder import FolderSource
 from server.capture.local_camera import LocalCameraSource
+from server.capture.modes import WantedMode
 from server.capture.rehearsal import Begun, RehearsalSource, Renderer, Silence
 from server.capture.shot import Shot, Source
 from server.capture.stream import StreamSource
 from server.capture.video_file import VideoFileSource
-from server.config import Config
+from server.config import CameraConfig, Config
 from server.errors import CaptureError
 
 
@@ -61,6 +62,12 @@ def source_from_config(
     if address.kind is SourceKind.STREAM:
         return StreamSource(address, stop=stop, first_number=first_number)
     return PathSource(address, config=config, stop=stop, first_number=first_number)
+
+
+def wanted_mode(camera: CameraConfig) -> WantedMode:
+    """What the settings ask of a local camera: a size where both its numbers are given."""
+    size = None if camera.width is None or camera.height is None else (camera.width, camera.height)
+    return WantedMode(size_wh_px=size, rate_hz=camera.rate_hz)
 
 
 class PathSource:

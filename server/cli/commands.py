@@ -12,6 +12,7 @@ from server.cli.accuracy_commands import accuracy, ruler
 from server.cli.audit_commands import audit_app
 from server.cli.board_commands import board_app
 from server.cli.calibration.commands import add_calibration
+from server.cli.camera_commands import cameras
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
 from server.cli.register_commands import register_app
@@ -32,6 +33,7 @@ app = typer.Typer(
 )
 app.add_typer(marker_app, name="marker")
 app.add_typer(board_app, name="board")
+app.command()(cameras)
 add_calibration(app)
 app.command()(accuracy)
 app.command()(ruler)

@@ -1,14 +1,19 @@
 """The camera: its model (pinhole and lens), and the boards that it is calibrated with."""
 
 from tracker.camera.boards import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
+from tracker.camera.controls import GEOMETRIC, CameraControl, ControlChange, control_changes
 from tracker.camera.model import CameraModel
 
 __all__ = [
+    "GEOMETRIC",
     "Board",
+    "CameraControl",
     "CameraModel",
     "CharucoBoard",
     "CharucoLayout",
     "CheckerBoard",
+    "ControlChange",
     "DotBoard",
     "DotLayout",
+    "control_changes",
 ]

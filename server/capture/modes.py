@@ -1,0 +1,93 @@
+"""Which format, size and rate a camera is asked for, of those that it offers."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from server.live import CameraMode
+
+# What the tracker uses: more images cost time and tell it little, fewer make markers jump between images.
+WANTED_RATE_HZ = 30.0
+MIN_RATE_HZ = 25.0
+MAX_SIZE_WH_PX = (1920, 1080)
+# Without loss, so at the same size and rate better than MJPG, whose blocks lie over the marker's edges.
+UNCOMPRESSED = ("YUYV", "UYVY", "NV12", "NV21", "YU12", "YV12", "BGR3", "RGB3", "GREY")
+# Of those that OpenCV's V4L2 backend turns into BGR.
+DECODED = (*UNCOMPRESSED, "MJPG", "JPEG")
+# 29.97 and 30, 59.94 and 60 are the same rate.
+SAME_RATE_RATIO = 0.01
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WantedMode:
+    """What the settings ask of a camera.
+
+    Attributes:
+        size_wh_px: width and height; None leaves it to what is offered.
+        rate_hz: images a second; None leaves it to what is offered.
+    """
+
+    size_wh_px: tuple[int, int] | None = None
+    rate_hz: float | None = None
+
+
+def choose_mode(
+    offered: Sequence[CameraMode], wanted: WantedMode, *, calibrated_size_wh_px: tuple[int, int] | None = None
+) -> CameraMode | None:
+    """The mode to ask for; None where the camera offers none that can be decoded.
+
+    What is wanted is taken where it is offered, else what is nearest to it. Where nothing is wanted: the
+    calibration's size, else the largest one up to full HD that gives at least 25 images a second.
+
+    Args:
+        offered: by the camera.
+        wanted: by the settings.
+        calibrated_size_wh_px: of the calibration in use; None where there is none.
+    """
+    usable = [mode for mode in offered if mode.fourcc in DECODED]
+    if not usable:
+        return None
+    size_wh_px = wanted.size_wh_px or _size_offered(usable, calibrated_size_wh_px)
+    if size_wh_px is None:
+        size_wh_px = _best_size(usable, wanted.rate_hz)
+    nearest = min((mode.size_wh_px for mode in usable), key=lambda size: _difference(size, size_wh_px))
+    of_size = [mode for mode in usable if mode.size_wh_px == nearest]
+    return min(
+        of_size, key=lambda mode: (_rate_rank(mode.rate_hz, wanted.rate_hz), DECODED.index(mode.fourcc))
+    )
+
+
+def is_same_rate(rate_hz: float, other_hz: float) -> bool:
+    """Whether two rates are one, but for how they are written down."""
+    return abs(rate_hz - other_hz) <= SAME_RATE_RATIO * max(rate_hz, other_hz)
+
+
+def _size_offered(usable: Sequence[CameraMode], size: tuple[int, int] | None) -> tuple[int, int] | None:
+    return size if any(mode.size_wh_px == size for mode in usable) else None
+
+
+def _best_size(usable: Sequence[CameraMode], rate_hz: float | None) -> tuple[int, int]:
+    """The largest size up to full HD that is fast enough; where none is, the largest of the fastest."""
+    max_width, max_height = MAX_SIZE_WH_PX
+    small = [
+        mode for mode in usable if mode.size_wh_px[0] <= max_width and mode.size_wh_px[1] <= max_height
+    ] or usable
+    min_rate_hz = MIN_RATE_HZ if rate_hz is None else rate_hz * (1.0 - SAME_RATE_RATIO)
+    fast = [mode for mode in small if mode.rate_hz >= min_rate_hz]
+    if not fast:
+        max_rate_hz = max(mode.rate_hz for mode in small)
+        fast = [mode for mode in small if mode.rate_hz == max_rate_hz]
+    return max((mode.size_wh_px for mode in fast), key=lambda size: size[0] * size[1])
+
+
+def _difference(size: tuple[int, int], wanted: tuple[int, int]) -> tuple[int, int]:
+    """How far a size is from the wanted one; of two that are as far, the smaller one comes first."""
+    return (abs(size[0] - wanted[0]) + abs(size[1] - wanted[1]), size[0] * size[1])
+
+
+def _rate_rank(rate_hz: float, wanted_hz: float | None) -> tuple[int, float]:
+    """What is wanted, else what is nearest to it; where nothing is, 30 Hz, then more, then less."""
+    if is_same_rate(rate_hz, wanted_hz or WANTED_RATE_HZ):
+        return (0, 0.0)
+    if wanted_hz is not None:
+        return (1, abs(rate_hz - wanted_hz))
+    return (1, rate_hz) if rate_hz > WANTED_RATE_HZ else (2, -rate_hz)

@@ -1,0 +1,155 @@
+"""`coaxial cameras`: the cameras at this machine, with what they offer."""
+
+import contextlib
+import json
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+
+import typer
+
+from server.camera_file import load_camera_file
+from server.capture.choose import wanted_mode
+from server.capture.modes import WantedMode, choose_mode
+from server.capture.v4l2 import (
+    ControlReading,
+    DeviceDescription,
+    VideoDevices,
+    devices_here,
+)
+from server.config_file import load_config
+from server.live import CameraMode
+from tracker.camera import CameraControl
+
+NO_CAMERA = 1
+NONE_FOUND = (
+    "no camera is found at this machine",
+    "Plug one in and see that it is listed in /dev as video0 or so (ls /dev/video*); in a container, hand it "
+    "in with --device /dev/video0. Network cameras are not listed: give their address with --source.",
+)
+NONE_KNOWN = (
+    "cameras are listed on Linux alone",
+    "Try them by their numbers: coaxial run --source 0, then 1.",
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundCamera:
+    """One camera, or a device that could not be asked.
+
+    Attributes:
+        path: its device file.
+        description: None when it could not be asked.
+        modes: that it offers.
+        chosen: the mode that Coaxial takes; None where it offers none that it can decode.
+        controls: that it has, with their values now.
+        problem: why it could not be asked; empty where it could.
+    """
+
+    path: str
+    description: DeviceDescription | None = None
+    modes: tuple[CameraMode, ...] = ()
+    chosen: CameraMode | None = None
+    controls: Mapping[CameraControl, ControlReading]
+    problem: str = ""
+
+
+def list_cameras(config_file: Path | None, *, as_json: bool) -> int:
+    """Print the cameras, and return the exit status: 0, or 1 if there is none.
+
+    Raises:
+        NavigationError: the settings or their camera file cannot be used.
+    """
+    config = load_config(config_file)
+    calibration = config.camera.calibration
+    size_wh_px = None if calibration is None else load_camera_file(calibration).size_wh_px
+    found = find_cameras(devices_here(), wanted_mode(config.camera), calibrated_size_wh_px=size_wh_px)
+    if as_json:
+        typer.echo(json.dumps({"cameras": [camera_values(camera) for camera in found]}, indent=2))
+    else:
+        typer.echo("\n".join(line for camera in found for line in _lines(camera)), nl=bool(found))
+    if found:
+        return 0
+    message, remedy = NONE_FOUND if sys.platform == "linux" else NONE_KNOWN
+    typer.echo(f"Error: {message}.\n{remedy}", err=True)
+    return NO_CAMERA
+
+
+def find_cameras(
+    devices: VideoDevices, wanted: WantedMode, *, calibrated_size_wh_px: tuple[int, int] | None
+) -> list[FoundCamera]:
+    """All devices that give images, and those that could not be asked."""
+    found: list[FoundCamera] = []
+    for path in devices.paths():
+        try:
+            device = devices.open(path)
+            with contextlib.closing(device):
+                description = device.description()
+                if not description.captures:
+                    continue
+                modes = device.modes()
+                readings = {control: device.control(control) for control in CameraControl}
+        except OSError as error:
+            problem = (error.strerror or str(error)).lower()
+            found.append(FoundCamera(path=path, controls={}, problem=problem))
+            continue
+        found.append(
+            FoundCamera(
+                path=path,
+                description=description,
+                modes=modes,
+                chosen=choose_mode(modes, wanted, calibrated_size_wh_px=calibrated_size_wh_px),
+                controls={control: one for control, one in readings.items() if one is not None},
+            )
+        )
+    return found
+
+
+def camera_values(camera: FoundCamera) -> dict[str, object]:
+    """A camera as JSON has it."""
+    description = camera.description
+    if description is None:
+        return {"path": camera.path, "problem": camera.problem}
+    return {
+        "path": camera.path,
+        "name": description.name,
+        "driver": description.driver,
+        "bus": description.bus,
+        "modes": [_mode_values(mode) for mode in camera.modes],
+        "chosen": None if camera.chosen is None else _mode_values(camera.chosen),
+        "controls": {
+            control.value: {"value": one.value, "min": one.min_value, "max": one.max_value}
+            for control, one in camera.controls.items()
+        },
+    }
+
+
+def _mode_values(mode: CameraMode) -> dict[str, object]:
+    width, height = mode.size_wh_px
+    return {"fourcc": mode.fourcc, "width_px": width, "height_px": height, "rate_hz": mode.rate_hz}
+
+
+def _lines(camera: FoundCamera) -> list[str]:
+    description = camera.description
+    if description is None:
+        return [
+            f"{camera.path}  cannot be asked: {camera.problem}",
+            "    Check the right to read it (group 'video'), and its cable.",
+        ]
+    lines = [f"{camera.path}  {description.name}  ({description.bus}, {description.driver})"]
+    for (fourcc, (width, height)), modes in groupby(
+        camera.modes, key=lambda mode: (mode.fourcc, mode.size_wh_px)
+    ):
+        rates = ", ".join(f"{mode.rate_hz:.4g}" for mode in modes if mode.rate_hz > 0.0)
+        lines.append(f"    {fourcc:<5} {width:>5} x {height:<5} {rates + ' Hz' if rates else 'any rate'}")
+    controls = [f"{control.value} {reading.value}" for control, reading in camera.controls.items()]
+    if controls:
+        lines.append(f"    controls: {', '.join(controls)}")
+    lines.append(
+        "    Coaxial takes none of them: it reads none of these formats"
+        if camera.chosen is None
+        else f"    Coaxial takes {camera.chosen}"
+    )
+    return lines

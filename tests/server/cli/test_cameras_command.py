@@ -1,0 +1,95 @@
+"""`coaxial cameras`, on a machine whose cameras the test makes up."""
+
+import errno
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from server.cli import app
+from tests.server.capture.fake_camera import HD, FakeCamera, FakeDevices, modes
+
+
+def listed(monkeypatch: pytest.MonkeyPatch, folder: Path, *cameras: FakeCamera, words: str = "") -> Result:
+    monkeypatch.setattr("server.cli.cameras.devices_here", lambda: FakeDevices(*cameras))
+    monkeypatch.chdir(folder)
+    return CliRunner().invoke(app, ["cameras", *words.split()])
+
+
+def test_each_camera_is_told_with_its_modes_and_the_one_that_is_taken(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    result = listed(
+        monkeypatch,
+        tmp_path,
+        FakeCamera(),
+        FakeCamera(path="/dev/video1", captures=False),
+        FakeCamera(path="/dev/video2", name="Depth", offered=tuple(modes("Z16", HD, 30)), controls={}),
+        FakeCamera(path="/dev/video3", fault=OSError(errno.EACCES, "Permission denied")),
+    )
+    assert result.exit_code == 0
+    assert result.stdout.splitlines() == [
+        "/dev/video0  Webcam  (usb-1, uvcvideo)",
+        "    YUYV    640 x 480   30, 15 Hz",
+        "    YUYV   1280 x 720   10, 5 Hz",
+        "    YUYV   1920 x 1080  5 Hz",
+        "    MJPG    640 x 480   60, 30 Hz",
+        "    MJPG   1280 x 720   60, 30 Hz",
+        "    MJPG   1920 x 1080  30, 15 Hz",
+        "    MJPG   2560 x 1440  30 Hz",
+        "    H264   1920 x 1080  60 Hz",
+        "    controls: focus 30, autofocus 1, auto_exposure 3, exposure 250, gain 20, auto_white_balance 1, "
+        "white_balance 4000",
+        "    Coaxial takes 1920x1080 MJPG at 30 Hz",
+        "/dev/video2  Depth  (usb-1, uvcvideo)",
+        "    Z16    1280 x 720   30 Hz",
+        "    Coaxial takes none of them: it reads none of these formats",
+        "/dev/video3  cannot be asked: permission denied",
+        "    Check the right to read it (group 'video'), and its cable.",
+    ]
+
+
+def test_the_settings_and_the_calibration_decide_which_mode_is_taken(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "camera.yaml").write_text(
+        "matrix: [[900, 0, 640], [0, 900, 360], [0, 0, 1]]\n"
+        "distortion: [0, 0, 0, 0]\nsize_wh_px: [1280, 720]\n"
+    )
+    (tmp_path / "config.yaml").write_text("camera: {calibration: camera.yaml}\n")
+    calibrated = listed(monkeypatch, tmp_path, FakeCamera(), words="--json")
+    assert json.loads(calibrated.stdout)["cameras"][0]["chosen"] == {
+        "fourcc": "MJPG",
+        "width_px": 1280,
+        "height_px": 720,
+        "rate_hz": 30.0,
+    }
+    (tmp_path / "config.yaml").write_text("camera: {width: 640, height: 480, rate_hz: 60}\n")
+    asked = json.loads(listed(monkeypatch, tmp_path, FakeCamera(), words="--json").stdout)["cameras"][0]
+    assert (asked["chosen"]["width_px"], asked["chosen"]["rate_hz"]) == (640, 60.0)
+    assert asked["controls"]["focus"] == {"value": 30, "min": 0, "max": 10_000}
+    assert len(asked["modes"]) == 13
+
+
+def test_a_machine_without_cameras_says_so_with_a_remedy(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("sys.platform", "linux")
+    result = listed(monkeypatch, tmp_path)
+    assert result.exit_code == 1
+    assert result.stdout == ""
+    assert result.stderr.startswith("Error: no camera is found at this machine.\nPlug one in")
+    as_json = listed(monkeypatch, tmp_path, words="--json")
+    assert as_json.exit_code == 1
+    assert json.loads(as_json.stdout) == {"cameras": []}
+
+
+def test_elsewhere_than_on_linux_the_remedy_is_another(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("sys.platform", "darwin")
+    result = listed(monkeypatch, tmp_path)
+    assert result.exit_code == 1
+    assert "listed on Linux alone" in result.stderr
+    assert "--source 0" in result.stderr
