@@ -73,6 +73,7 @@ class CameraConfig(Section):
     rate: Literal["own", "fast"] = "own"
     """own: a file at its own rate; fast: as fast as the tracker takes its images, none skipped."""
     width: Annotated[int, Field(ge=16, le=7680)] | None = None
+    """With height, asked of a local camera; left out, it is chosen by what the camera offers."""
     height: Annotated[int, Field(ge=16, le=4320)] | None = None
     rate_hz: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
     """Asked of a local camera; the rate of a folder, and of a file that has none (30 if left out)."""

@@ -7,12 +7,14 @@ memory.
 
 import asyncio
 import threading
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
 import numpy.typing as npt
 
+from tracker.camera import CameraControl
 from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import QUIET, AlarmPicture
@@ -63,6 +65,30 @@ class CameraMode:
         return f"{width}x{height}{' ' if self.fourcc else ''}{self.fourcc}{rate}"
 
 
+class ImageClock(StrEnum):
+    """Whose clock says when an image was taken."""
+
+    DRIVER = "driver"  # the camera's driver stamped it
+    ARRIVAL = "arrival"  # it was read when the image arrived: later, by exposure, transfer and buffers
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraStatus:
+    """What is known of a camera beside its images.
+
+    Attributes:
+        clock: whose clock stamped the last image.
+        asked: the mode it was asked for; None where it is not known what it offers.
+        granted: the mode that it granted; None where it is not known.
+        controls: their values when they were last read, in the driver's own units; empty where none is known.
+    """
+
+    clock: ImageClock
+    asked: CameraMode | None = None
+    granted: CameraMode | None = None
+    controls: Mapping[CameraControl, int] = field(default_factory=dict)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceStatus:
     """The source of images.
@@ -74,6 +100,7 @@ class SourceStatus:
         images: how many images it has given since the server started.
         skipped_images: how many of them were never looked at, because a newer one was there.
         rate_hz: images a second, over the last second or so.
+        camera: what is known of the camera; None where images come from files or are rendered.
     """
 
     name: str
@@ -82,6 +109,7 @@ class SourceStatus:
     images: int = 0
     skipped_images: int = 0
     rate_hz: float = 0.0
+    camera: CameraStatus | None = None
 
 
 class ProcessState(StrEnum):

@@ -1,6 +1,5 @@
 """What stands before the first image: camera, markers, tools, plan and registration, from the settings."""
 
-import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -12,8 +11,10 @@ import numpy as np
 
 from server.camera_file import load_camera_file
 from server.capture.address import SourceKind, source_from_text
-from server.config import Config, RehearsalConfig
+from server.capture.local_camera import CalibratedCamera
+from server.config import Config
 from server.marker_file import load_marker_image
+from server.theatre import theatre_of
 from server.tool_file import tool_from_config
 from tracker.camera import CameraModel
 from tracker.errors import CalibrationError
@@ -144,6 +145,11 @@ class Preparation:
     def surface(self) -> "Surface | None":
         """The vertebra for the 3-D scene, if there is one."""
         return None if self.theatre is None else self.theatre.surface
+
+    @property
+    def calibrated_camera(self) -> CalibratedCamera | None:
+        """What a camera is set to so that the calibration in use holds of it; None where there is none."""
+        return None if self.camera is None else CalibratedCamera(size_wh_px=self.camera.size_wh_px)
 
     @property
     def setup(self) -> Setup | None:
@@ -299,50 +305,4 @@ def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:
         matrix=np.array([[focal, 0.0, (width - 1) / 2], [0.0, focal, (height - 1) / 2], [0.0, 0.0, 1.0]]),
         distortion=np.zeros(5),
         size_wh_px=(width, height),
-    )
-
-
-def theatre_of(rehearsal: RehearsalConfig) -> "Theatre":
-    """The theatre that these settings ask for.
-
-    Raises:
-        InvalidInput: REHEARSAL_SETTING_INVALID.
-    """
-    # Here, because it takes time to load and only the rehearsal needs it.
-    from tracker.rehearsal import (  # noqa: PLC0415
-        BoardKind,
-        Event,
-        EventKind,
-        Scene,
-        Skill,
-        Theatre,
-        TheatreSettings,
-    )
-
-    events = tuple(
-        Event(
-            kind=EventKind(event.kind),
-            at_s=event.at_s,
-            lasts_s=math.inf if event.lasts_s is None else event.lasts_s,
-            every_s=math.inf if event.every_s is None else event.every_s,
-            size_mm=event.size_mm,
-            size_deg=event.size_deg,
-        )
-        for event in rehearsal.events
-    )
-    return Theatre(
-        TheatreSettings(
-            seed=rehearsal.seed,
-            size_wh_px=(rehearsal.width, rehearsal.height),
-            noise=rehearsal.noise,
-            blur=rehearsal.blur,
-            clutter=rehearsal.clutter,
-            light=rehearsal.light,
-            scene=Scene(rehearsal.scene),
-            board=BoardKind(rehearsal.board),
-            skill=Skill(rehearsal.skill),
-            rest_s=rehearsal.rest_s,
-            reference=rehearsal.reference,
-            events=events,
-        )
     )

@@ -96,6 +96,7 @@ class Capture:
                 images=self._images,
                 skipped_images=max(0, self._images - self._taken - pending),
                 rate_hz=_rate_hz(recent) if state is SourceState.RUNNING else 0.0,
+                camera=self._source.camera,
             )
 
     def _stalled(self) -> Trouble:

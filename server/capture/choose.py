@@ -6,7 +6,7 @@ from pathlib import Path
 
 from server.capture.address import SourceAddress, SourceKind, source_from_text
 from server.capture.folder import FolderSource
-from server.capture.local_camera import LocalCameraSource
+from server.capture.local_camera import CalibratedCamera, LocalCameraSource
 from server.capture.modes import WantedMode
 from server.capture.rehearsal import Begun, RehearsalSource, Renderer, Silence
 from server.capture.shot import Shot, Source
@@ -14,6 +14,7 @@ from server.capture.stream import StreamSource
 from server.capture.video_file import VideoFileSource
 from server.config import CameraConfig, Config
 from server.errors import CaptureError
+from server.live import CameraStatus
 
 
 def source_from_config(
@@ -24,6 +25,7 @@ def source_from_config(
     first_number: int = 0,
     begun: Begun | None = None,
     silences: Sequence[Silence] = (),
+    calibration: CalibratedCamera | None = None,
 ) -> Source:
     """The source that `camera.source` names, not yet opened.
 
@@ -34,6 +36,7 @@ def source_from_config(
         first_number: the number of its first image.
         begun: what of the rehearsal is played, and since when.
         silences: when the rehearsal's camera gives no image.
+        calibration: that is in use, for a local camera; None while there is none.
 
     Raises:
         CaptureError: REHEARSAL_WITHOUT_THEATRE.
@@ -57,8 +60,9 @@ def source_from_config(
             silences=silences,
         )
     if address.kind is SourceKind.LOCAL_CAMERA:
-        size = None if camera.width is None or camera.height is None else (camera.width, camera.height)
-        return LocalCameraSource(address, size_wh_px=size, rate_hz=camera.rate_hz, first_number=first_number)
+        return LocalCameraSource(
+            address, wanted=wanted_mode(camera), calibration=calibration, first_number=first_number
+        )
     if address.kind is SourceKind.STREAM:
         return StreamSource(address, stop=stop, first_number=first_number)
     return PathSource(address, config=config, stop=stop, first_number=first_number)
@@ -79,6 +83,7 @@ class PathSource:
         self.name = address.name
         self.waits_for_taker = config.camera.rate == "fast"
         self.stalls = False
+        self.camera: CameraStatus | None = None
         self._path = Path(address.text)
         self._camera = config.camera
         self._stop = stop

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import sys
 from collections.abc import Iterator
 
 import cv2
@@ -55,8 +56,10 @@ def _stream_options() -> Iterator[None]:
 
 
 def open_device(device: str) -> cv2.VideoCapture:
-    """A local camera by number or path, holding back as few images as the driver allows; ask `isOpened`."""
+    """A local camera by number or path, holding back as few images as its rate allows; ask `isOpened`."""
     silence_codecs()
-    camera = cv2.VideoCapture(int(device) if device.isdecimal() else device, cv2.CAP_ANY)
-    camera.set(cv2.CAP_PROP_BUFFERSIZE, 1)
+    backend = cv2.CAP_V4L2 if sys.platform == "linux" else cv2.CAP_ANY
+    camera = cv2.VideoCapture(int(device) if device.isdecimal() else device, backend)
+    # With a single buffer the driver has none to fill while its image is decoded: every second one is lost.
+    camera.set(cv2.CAP_PROP_BUFFERSIZE, 2)
     return camera

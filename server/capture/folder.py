@@ -14,6 +14,7 @@ from server.capture.codecs import silence_codecs
 from server.capture.pace import Pace
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.live import CameraStatus
 from server.picture_file import decoded
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm")
@@ -37,6 +38,7 @@ class FolderSource:
         self.name = str(folder)
         self.waits_for_taker = fast
         self.stalls = False
+        self.camera: CameraStatus | None = None
         self._folder = folder
         self._loop = loop
         self._period_s = 1.0 / (rate_hz or DEFAULT_RATE_HZ)

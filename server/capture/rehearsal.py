@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.live import CameraStatus
 
 STOPS, STALLS = "camera_stops", "camera_stalls"
 LOOK_AGAIN_S = 0.05
@@ -75,6 +76,7 @@ class RehearsalSource:
         self.name = "rehearsal"
         self.waits_for_taker = fast
         self.defect: CaptureError | None = None
+        self.camera: CameraStatus | None = None
         self._lock = threading.Lock()
         self._renderer = renderer
         self._silences = tuple(silences)

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from server.errors import CaptureError
+from server.live import CameraStatus
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +40,7 @@ class Source(Protocol):
         stalls: whether silence means that something is wrong (a camera), not that the next image is not due.
         defect: what is wrong with the source although it gives images (a cut file, one bad image in a
             folder); None while nothing is.
+        camera: what is known of the camera; None where images come from files or are rendered.
     """
 
     name: str
@@ -51,6 +53,10 @@ class Source(Protocol):
     @property
     def defect(self) -> CaptureError | None:
         """What is wrong with it although it gives images."""
+
+    @property
+    def camera(self) -> CameraStatus | None:
+        """What is known of the camera."""
 
     def open(self) -> None:
         """Make ready to read. May block for some seconds.

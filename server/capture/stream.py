@@ -14,6 +14,7 @@ from server.capture.codecs import OPEN_TIMEOUT_MS, READ_TIMEOUT_MS, open_stream
 from server.capture.pace import Pace
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.live import CameraStatus, ImageClock
 
 DEFAULT_PORTS = {"rtsp": 554, "rtsps": 322, "rtmp": 1935, "http": 80, "https": 443}
 # Short, so that a host that comes back is noticed within a second: the decoder's own attempt takes 3 s.
@@ -28,6 +29,7 @@ class StreamSource:
         self.waits_for_taker = False
         self.stalls = True
         self.defect: CaptureError | None = None
+        self.camera: CameraStatus | None = CameraStatus(clock=ImageClock.ARRIVAL)
         self._address = address.text
         self._number = first_number
         self._pace = Pace(stop=stop)
@@ -50,6 +52,7 @@ class StreamSource:
             )
         images = float(stream.get(cv2.CAP_PROP_FRAME_COUNT))
         self._is_file = math.isfinite(images) and images > 0
+        self.camera = None if self._is_file else CameraStatus(clock=ImageClock.ARRIVAL)
         self._pace.restart()
         self._stream = stream
         self._given = 0

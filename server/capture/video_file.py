@@ -11,6 +11,7 @@ from server.capture.codecs import open_file
 from server.capture.pace import Pace
 from server.capture.shot import Shot
 from server.errors import CaptureError
+from server.live import CameraStatus
 
 FALLBACK_RATE_HZ = 30.0
 # The number of images that a container claims may be an estimate; from here on the file was cut.
@@ -35,6 +36,7 @@ class VideoFileSource:
         self.waits_for_taker = fast
         self.stalls = False
         self.defect: CaptureError | None = None
+        self.camera: CameraStatus | None = None
         self._path = path
         self._loop = loop
         self._rate_hz = rate_hz

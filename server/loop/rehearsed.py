@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from server.capture.rehearsal import Begun
 from server.config import RehearsalConfig
 from server.loop.staging import SceneOrder
-from server.setup import theatre_of
+from server.theatre import theatre_of
 
 if TYPE_CHECKING:
     from tracker.rehearsal import Theatre, Truth

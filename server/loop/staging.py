@@ -8,7 +8,7 @@ import structlog
 
 from server.capture.rehearsal import Begun, RehearsalSource
 from server.config import RehearsalConfig
-from server.setup import theatre_of
+from server.theatre import theatre_of
 
 if TYPE_CHECKING:
     from tracker.rehearsal import Renderer

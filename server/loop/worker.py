@@ -148,7 +148,11 @@ def _staged(
     """The source of images, and what changes its scene where it is the rehearsal."""
     theatre = preparation.theatre
     if theatre is None:
-        return source_from_config(order.config, stop=stop, first_number=order.first_number), None
+        calibration = preparation.with_case(order.case).calibrated_camera
+        source = source_from_config(
+            order.config, stop=stop, first_number=order.first_number, calibration=calibration
+        )
+        return source, None
     renderer = theatre.renderer()
     if theatre.settings.events:
         renderer.prepare()

@@ -5,7 +5,17 @@ from there, so that a renamed field fails the build. The same message is sent as
 header of each image on `/ws/view`, and answered by `GET /api/live`.
 """
 
-from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.live import (
+    CameraMode,
+    CameraStatus,
+    ImageClock,
+    Instant,
+    ProcessState,
+    ProcessStatus,
+    SourceState,
+    SourceStatus,
+    Trouble,
+)
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.assessment_messages import HeadlineMessage, headline_message
 from server.stream.message import Message as Message  # noqa: PLC0414  the doors take it from here
@@ -22,6 +32,28 @@ class TroubleMessage(Message):
     context: dict[str, object]
 
 
+class CameraModeMessage(Message):
+    """How a camera gives its images."""
+
+    fourcc: str
+    """Pixel format: "MJPG", "YUYV"; empty where it is not known."""
+    width_px: int
+    height_px: int
+    rate_hz: float
+    """0 where it is not known."""
+
+
+class CameraStatusMessage(Message):
+    """What is known of a camera beside its images."""
+
+    clock: ImageClock
+    """Whose clock says when an image was taken: the camera driver's, or this machine's at its arrival."""
+    asked: CameraModeMessage | None
+    granted: CameraModeMessage | None
+    controls: dict[str, int]
+    """Their values, in the driver's own units; without those that the camera does not have."""
+
+
 class SourceMessage(Message):
     """The source of images."""
 
@@ -31,6 +63,8 @@ class SourceMessage(Message):
     images: int
     skipped_images: int
     rate_hz: float
+    camera: CameraStatusMessage | None
+    """Null where images come from files or are rendered."""
 
 
 class ProcessMessage(Message):
@@ -86,7 +120,26 @@ def source_message(source: SourceStatus) -> SourceMessage:
         images=source.images,
         skipped_images=source.skipped_images,
         rate_hz=source.rate_hz,
+        camera=_camera_message(source.camera),
     )
+
+
+def _camera_message(camera: CameraStatus | None) -> CameraStatusMessage | None:
+    if camera is None:
+        return None
+    return CameraStatusMessage(
+        clock=camera.clock,
+        asked=_mode_message(camera.asked),
+        granted=_mode_message(camera.granted),
+        controls={control.value: value for control, value in camera.controls.items()},
+    )
+
+
+def _mode_message(mode: CameraMode | None) -> CameraModeMessage | None:
+    if mode is None:
+        return None
+    width, height = mode.size_wh_px
+    return CameraModeMessage(fourcc=mode.fourcc, width_px=width, height_px=height, rate_hz=mode.rate_hz)
 
 
 def process_message(process: ProcessStatus) -> ProcessMessage:

@@ -6,8 +6,8 @@ from typing import Literal
 import numpy as np
 
 from server.config import RehearsalConfig
-from server.setup import theatre_of
 from server.store import CaseStore, DocumentKind, Home
+from server.theatre import theatre_of
 from tests.procedure.patient import tool_content
 from tracker.plan import Landmark, PlanDocument, draw_reference, plan_to_mapping
 from tracker.plan.document import PlannedChannel, VertebraPlan

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from server.config import Config, RehearsalEventConfig
-from server.setup import theatre_of
+from server.theatre import theatre_of
 from tests.procedure.real_server import RealServer
 from tracker.geometry import Rigid, Tool, Vertebra
 from tracker.navigation import Deviation

@@ -7,8 +7,8 @@ import numpy as np
 
 from server.config import Config
 from server.procedure.registered import KeptCheck, KeptRegistration, check_name
-from server.setup import theatre_of
 from server.store import CaseStore, DocumentKind, Home
+from server.theatre import theatre_of
 from tests.procedure.real_server import BUSY_MACHINE
 from tracker.plan import Landmark, PlanDocument, plan_to_mapping
 from tracker.plan.document import PlannedChannel, VertebraPlan

@@ -1,9 +1,14 @@
 """A camera that exists in a test alone: its driver (V4L2), and what OpenCV makes of it."""
 
 import errno
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import cv2
+import numpy as np
 
 from server.capture.v4l2 import ControlReading, DeviceDescription, VideoDevice
+from server.capture.v4l2.structs import fourcc_code, fourcc_text
 from server.live import CameraMode
 from tracker.camera import CameraControl
 
@@ -90,3 +95,70 @@ class FakeDevices:
         if path not in self.cameras:
             raise OSError(errno.ENOENT, "No such file or directory", path)
         return self.cameras[path]
+
+
+class FakeVideo:
+    """What OpenCV makes of a camera: it grants what is offered, and stamps images with the driver's clock.
+
+    The test sets `now_s`, the one clock of this machine, and how long an image takes to arrive.
+    """
+
+    def __init__(self, camera: FakeCamera, *, latency_s: float = 0.04) -> None:
+        self.camera = camera
+        self.latency_s = latency_s
+        self.now_s = 100.0
+        self.asked = CameraMode(fourcc="YUYV", size_wh_px=VGA, rate_hz=30.0)
+        self.calls: list[str] = []
+        self.grants: CameraMode | None = None
+        self.stamp: Callable[[float], float] = lambda taken_s: taken_s
+        self.size_wh_px: tuple[int, int] | None = None
+        self.is_open = True
+        self._stamp_s = 0.0
+        self._taken = 0
+
+    def __call__(self, text: str) -> "FakeVideo":
+        self.calls.append(f"open {text}")
+        return self
+
+    def clock(self) -> float:
+        return self.now_s
+
+    def isOpened(self) -> bool:  # noqa: N802  OpenCV's name
+        return self.is_open
+
+    def set(self, key: int, value: float) -> bool:
+        width, height = self.asked.size_wh_px
+        if key == cv2.CAP_PROP_FOURCC:
+            self.asked = replace(self.asked, fourcc=fourcc_text(int(value)))
+        elif key == cv2.CAP_PROP_FRAME_WIDTH:
+            self.asked = replace(self.asked, size_wh_px=(int(value), height))
+        elif key == cv2.CAP_PROP_FRAME_HEIGHT:
+            self.asked = replace(self.asked, size_wh_px=(width, int(value)))
+        elif key == cv2.CAP_PROP_FPS:
+            self.asked = replace(self.asked, rate_hz=value)
+        self.camera.granted = self.grants or self.asked
+        return True
+
+    def get(self, key: int) -> float:
+        granted = self.camera.granted
+        return {
+            cv2.CAP_PROP_POS_MSEC: self._stamp_s * 1000.0,
+            cv2.CAP_PROP_FRAME_WIDTH: float(granted.size_wh_px[0]),
+            cv2.CAP_PROP_FRAME_HEIGHT: float(granted.size_wh_px[1]),
+            cv2.CAP_PROP_FOURCC: float(fourcc_code(granted.fourcc)),
+            cv2.CAP_PROP_FPS: granted.rate_hz,
+        }[key]
+
+    def grab(self) -> bool:
+        self._stamp_s = self.stamp(self.now_s - self.latency_s)
+        return True
+
+    def retrieve(self) -> tuple[bool, np.ndarray | None]:
+        width, height = self.size_wh_px or self.camera.granted.size_wh_px
+        self._taken += 1
+        # Of another grey each time, as no two images of a sensor are the same; one byte in memory.
+        image = np.broadcast_to(np.uint8(self._taken % 251), (height, width, 3))
+        return True, image
+
+    def release(self) -> None:
+        self.calls.append("release")

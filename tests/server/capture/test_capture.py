@@ -13,7 +13,7 @@ from server.capture.capture import Capture
 from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot
 from server.errors import CaptureError
-from server.live import SourceState
+from server.live import CameraStatus, SourceState
 from tracker.rehearsal import Event, EventKind
 
 
@@ -31,6 +31,7 @@ class ToldSource:
         self.waits_for_taker = waits_for_taker
         self.stalls = stalls
         self.defect: CaptureError | None = None
+        self.camera: CameraStatus | None = None
         self.told: queue.Queue[Shot | BaseException | None] = queue.Queue()
         self.opened = 0
 

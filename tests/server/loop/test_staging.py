@@ -15,7 +15,8 @@ from server.loop.rehearsed import Rehearsed
 from server.loop.staging import SceneOrder, Staging
 from server.loop.supervisor import Supervisor
 from server.loop.worker import NewestCase, NewestScene, WorkerOrder, _listen
-from server.setup import CaseSetup, build_setup, theatre_of
+from server.setup import CaseSetup, build_setup
+from server.theatre import theatre_of
 from tests.server.loop.made import steady_worker
 from tracker.errors import InvalidInput
 from tracker.navigation import Absent

@@ -30,7 +30,7 @@ ORDER = WorkerOrder(config=Config(), log=LogSettings(as_json=True), first_number
 class Counting:
     """Three images, each one taken before the next, then the end."""
 
-    name, waits_for_taker, stalls, defect = "counting", True, False, None
+    name, waits_for_taker, stalls, defect, camera = "counting", True, False, None, None
 
     def __init__(self) -> None:
         self.number = 10

@@ -2,6 +2,7 @@ import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
 import { useWords } from "../words/WordsContext";
+import { cameraFacts } from "./cameraFacts";
 import { heardOf } from "./heard";
 import { Pane } from "./Pane";
 import { searchTimeMs } from "./searchTime";
@@ -24,6 +25,7 @@ export function DetailsPane(): ReactNode {
     [d.skipped, String(snapshot?.skipped_images ?? source?.skipped_images ?? NONE)],
     [d.restarts, source === null ? NONE : String(view.newest?.process.restarts ?? NONE)],
     [d.size, snapshot ? `${snapshot.width_px} × ${snapshot.height_px} px` : NONE],
+    ...cameraFacts(source?.camera ?? null, words),
     [d.version, dashboard?.version ?? NONE],
   ];
   const stages = Object.entries(snapshot?.stage_ms ?? {});

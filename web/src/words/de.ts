@@ -116,6 +116,7 @@ export const de: Words = {
     ended: "am Ende",
     unknown: "unbekannt",
   },
+  imageClock: { driver: "dem Kameratreiber", arrival: "der Ankunft" },
   linkState: {
     connecting: "verbindet",
     open: "verbunden",
@@ -131,6 +132,8 @@ export const de: Words = {
     restarts: "Neustarts der Verfolgung",
     images: "Bilder",
     size: "Bildgröße",
+    clock: "Bildzeit von",
+    mode: "Kameramodus",
     version: "Version",
     plainVideo: "Einfaches Video für andere Bildschirme",
   },

@@ -118,6 +118,7 @@ export const en: Words = {
     ended: "at its end",
     unknown: "not known",
   },
+  imageClock: { driver: "the camera's driver", arrival: "its arrival" },
   linkState: {
     connecting: "connecting",
     open: "connected",
@@ -133,6 +134,8 @@ export const en: Words = {
     restarts: "Restarts of tracking",
     images: "Images",
     size: "Image size",
+    clock: "Image time from",
+    mode: "Camera mode",
     version: "Version",
     plainVideo: "Plain video for other screens",
   },

@@ -1,6 +1,6 @@
 // What there is to say, in every language.
 import type { Cause } from "../live/assess";
-import type { MovesSeen, Priority, UnseenReason, Wall } from "../live/messages";
+import type { ImageClock, MovesSeen, Priority, UnseenReason, Wall } from "../live/messages";
 
 import type { AuditWords } from "./audit/en";
 import type { CameraWords } from "./camera/en";
@@ -71,6 +71,7 @@ export interface Words {
     string
   >;
   cameraState: Record<"opening" | "running" | "reconnecting" | "ended" | "unknown", string>;
+  imageClock: Record<ImageClock, string>;
   linkState: Record<"connecting" | "open" | "lost" | "not-reached", string>;
   details: Record<
     | "title"
@@ -81,6 +82,8 @@ export interface Words {
     | "restarts"
     | "images"
     | "size"
+    | "clock"
+    | "mode"
     | "version"
     | "plainVideo",
     string

@@ -1,0 +1,72 @@
+"""When an image was taken: by the driver's clock where that is plausible, else when the image arrived."""
+
+import math
+
+from server.live import ImageClock
+
+# What two readings of one clock may differ by, because the driver computes its time from the camera's.
+MAX_AHEAD_S = 0.005
+# Of an image that came straight from the camera: exposure, transfer and a few buffers of a slow camera.
+MAX_AGE_S = 1.0
+# From so many plausible times in a row on, an old image is old and no mistake of the clock.
+TRUSTED_AFTER = 30
+# So many more implausible times than plausible ones: this clock is not used any more.
+GIVEN_UP_AFTER = 15
+# Times of images grow; by this at least, also where the clock is changed between two of them.
+MIN_STEP_S = 1e-6
+
+
+class DriverClock:
+    """Judges the driver's times image by image. Both clocks are monotonic, in seconds."""
+
+    def __init__(self) -> None:
+        self._last_driver_s = -math.inf
+        self._last_s = -math.inf
+        self._plausible_in_row = 0
+        self._implausible = 0
+        self._gave_up = False
+        self._is_used = True
+
+    @property
+    def clock(self) -> ImageClock:
+        """Which clock stamped the last image; before the first one, the driver's."""
+        return ImageClock.DRIVER if self._is_used else ImageClock.ARRIVAL
+
+    @property
+    def gave_up(self) -> bool:
+        """Whether the driver's clock was implausible so often that it is not used any more."""
+        return self._gave_up
+
+    def restart(self) -> None:
+        """The device was opened again: its first time is held against none before."""
+        self._last_driver_s = -math.inf
+
+    def captured_at_s(self, driver_s: float, *, arrived_s: float) -> float:
+        """When an image was taken; never later than it arrived, and always later than the one before.
+
+        Args:
+            driver_s: what the driver says; 0 where it says nothing.
+            arrived_s: when the image arrived.
+        """
+        is_plausible = self._judge(driver_s, arrived_s)
+        self._is_used = is_plausible and not self._gave_up
+        at_s = min(driver_s, arrived_s) if self._is_used else arrived_s
+        self._last_s = max(at_s, self._last_s + MIN_STEP_S)
+        return self._last_s
+
+    def _judge(self, driver_s: float, arrived_s: float) -> bool:
+        grows = driver_s > self._last_driver_s
+        self._last_driver_s = driver_s
+        age_s = arrived_s - driver_s
+        is_young = -MAX_AHEAD_S <= age_s <= MAX_AGE_S
+        if grows and is_young and driver_s > 0.0:
+            self._plausible_in_row += 1
+            self._implausible = max(0, self._implausible - 1)
+            return True
+        # An image that waited in a buffer while this machine was busy: its arrival would make it look new.
+        is_late = grows and age_s > MAX_AGE_S and self._plausible_in_row >= TRUSTED_AFTER
+        self._implausible += 1
+        if not is_late:
+            self._plausible_in_row = 0
+        self._gave_up = self._gave_up or self._implausible >= GIVEN_UP_AFTER
+        return is_late

@@ -1,0 +1,153 @@
+"""A local camera as a source: what it is asked for, and whose clock stamps its images."""
+
+import pytest
+from structlog.testing import capture_logs
+
+from server.capture.address import source_from_text
+from server.capture.local_camera import CalibratedCamera, LocalCameraSource
+from server.capture.modes import WantedMode
+from server.capture.shot import Shot
+from server.capture.v4l2 import NoDevices, VideoDevices
+from server.errors import CaptureError
+from server.live import CameraMode, ImageClock
+from tests.server.capture.fake_camera import FULL_HD, HD, VGA, FakeCamera, FakeDevices, FakeVideo
+
+MJPG_FULL_HD = CameraMode(fourcc="MJPG", size_wh_px=FULL_HD, rate_hz=30.0)
+
+
+def source_of(
+    video: FakeVideo,
+    *,
+    wanted: WantedMode | None = None,
+    calibration: CalibratedCamera | None = None,
+    devices: VideoDevices | None = None,
+    text: str = "0",
+) -> LocalCameraSource:
+    return LocalCameraSource(
+        source_from_text(text),
+        wanted=wanted,
+        calibration=calibration,
+        devices=devices or FakeDevices(video.camera),
+        open_video=video,
+        clock=video.clock,
+    )
+
+
+def read(source: LocalCameraSource, video: FakeVideo, *, after_s: float = 1 / 30) -> Shot:
+    video.now_s += after_s
+    shot = source.read()
+    assert shot is not None
+    return shot
+
+
+@pytest.fixture
+def video() -> FakeVideo:
+    return FakeVideo(FakeCamera())
+
+
+@pytest.mark.parametrize("text", ["0", "/dev/video0"])
+def test_full_hd_over_usb_2_is_asked_for_as_mjpg(video: FakeVideo, text: str) -> None:
+    source = source_of(video, text=text)
+    source.open()
+    assert video.asked == MJPG_FULL_HD
+    assert read(source, video).image.shape == (1080, 1920, 3)
+    assert source.camera.asked == source.camera.granted == MJPG_FULL_HD
+    assert source.defect is None
+
+
+def test_the_size_of_the_calibration_comes_before_the_largest(video: FakeVideo) -> None:
+    source_of(video, calibration=CalibratedCamera(size_wh_px=HD)).open()
+    assert video.asked.size_wh_px == HD
+
+
+def test_what_the_settings_ask_is_asked_and_what_is_not_offered_is_told(video: FakeVideo) -> None:
+    source_of(video, wanted=WantedMode(size_wh_px=HD, rate_hz=60)).open()
+    assert (video.asked.size_wh_px, video.asked.rate_hz) == (HD, 60)
+    source = source_of(video, wanted=WantedMode(size_wh_px=(1600, 1200)))
+    source.open()
+    assert video.asked.size_wh_px == FULL_HD
+    assert source.defect is not None
+    assert source.defect.code == "CAMERA_MODE_NOT_OFFERED"
+
+
+def test_what_the_driver_grants_is_read_back(video: FakeVideo) -> None:
+    video.grants = CameraMode(fourcc="YUYV", size_wh_px=FULL_HD, rate_hz=5.0)
+    source = source_of(video)
+    source.open()
+    assert source.camera.granted == video.grants
+    assert source.defect is not None
+    assert source.defect.code == "CAMERA_MODE_NOT_GRANTED"
+
+
+def test_a_camera_that_is_slower_than_granted_is_told(video: FakeVideo) -> None:
+    source = source_of(video)
+    source.open()
+    for _ in range(150):
+        read(source, video, after_s=1 / 15)
+    assert source.defect is not None
+    assert source.defect.code == "CAMERA_RATE_DIFFERS"
+    assert "15.0 Hz" in source.defect.message
+
+
+def test_without_v4l2_what_the_settings_say_is_asked_and_opencv_tells_what_was_granted(
+    video: FakeVideo,
+) -> None:
+    video.camera.granted = CameraMode(fourcc="YUYV", size_wh_px=VGA, rate_hz=30.0)
+    source = source_of(video, devices=NoDevices())
+    source.open()
+    assert video.camera.granted.size_wh_px == VGA
+    assert source.camera.asked is None
+    assert source.camera.granted == video.camera.granted
+    wanted = source_of(video, devices=NoDevices(), wanted=WantedMode(size_wh_px=HD, rate_hz=15))
+    wanted.open()
+    assert (video.asked.size_wh_px, video.asked.rate_hz) == (HD, 15)
+    assert wanted.defect is None
+
+
+def test_an_image_is_as_old_as_its_driver_says(video: FakeVideo) -> None:
+    source = source_of(video)
+    source.open()
+    shot = read(source, video)
+    assert shot.captured_at_s == pytest.approx(video.now_s - video.latency_s)
+    assert shot.source_time_s == shot.captured_at_s
+    assert source.camera.clock is ImageClock.DRIVER
+
+
+def test_without_v4l2_an_image_counts_from_its_arrival(video: FakeVideo) -> None:
+    source = source_of(video, devices=NoDevices())
+    source.open()
+    assert read(source, video).captured_at_s == video.now_s
+    assert source.camera.clock is ImageClock.ARRIVAL
+
+
+def test_a_driver_whose_clock_is_wrong_is_told_once_and_not_believed_any_more(video: FakeVideo) -> None:
+    video.stamp = lambda taken_s: 1.7e9 + taken_s
+    source = source_of(video)
+    source.open()
+    with capture_logs() as logs:
+        for _ in range(40):
+            assert read(source, video).captured_at_s == video.now_s
+        # Not even when it comes right, nor after the device was opened again.
+        video.stamp = lambda taken_s: taken_s
+        source.open()
+        for _ in range(40):
+            assert read(source, video).captured_at_s == video.now_s
+    assert source.camera.clock is ImageClock.ARRIVAL
+    warned = [line for line in logs if line["log_level"] == "warning"]
+    assert [line["code"] for line in warned] == ["CAMERA_CLOCK_IMPLAUSIBLE"]
+
+
+def test_numbers_go_on_when_the_camera_is_opened_again(video: FakeVideo) -> None:
+    source = source_of(video)
+    source.open()
+    assert [read(source, video).number for _ in range(2)] == [0, 1]
+    source.open()
+    assert video.calls.count("release") == 1
+    assert read(source, video).number == 2
+
+
+def test_a_device_that_cannot_be_opened_is_told(video: FakeVideo) -> None:
+    video.is_open = False
+    with pytest.raises(CaptureError) as caught:
+        source_of(video).open()
+    assert caught.value.code == "CAMERA_NOT_OPENED"

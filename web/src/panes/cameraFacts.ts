@@ -1,0 +1,18 @@
+import type { CameraModeMessage, CameraStatusMessage } from "../live/messages";
+import { shownNumber } from "../live/rounding";
+import type { Words } from "../words/shape";
+
+/** What a camera's driver granted, and whose clock stamps its images; nothing where there is no camera. */
+export function cameraFacts(camera: CameraStatusMessage | null, words: Words): [string, string, string][] {
+  if (camera === null) return [];
+  const d = words.details;
+  const facts: [string, string, string][] = [[d.clock, words.imageClock[camera.clock], "image-clock"]];
+  if (camera.granted !== null) facts.push([d.mode, modeText(camera.granted), "camera-mode"]);
+  return facts;
+}
+
+function modeText({ fourcc, width_px, height_px, rate_hz }: CameraModeMessage): string {
+  const size = `${String(width_px)} × ${String(height_px)} px`;
+  const rate = rate_hz > 0 ? `${shownNumber(rate_hz)} Hz` : "";
+  return [size, fourcc, rate].filter((part) => part !== "").join(", ");
+}
