@@ -1,13 +1,13 @@
 """A camera file: the camera's matrix and lens as calibration wrote them, and whose they are."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import yaml
 
 from server.yaml_file import yaml_in
-from tracker.camera import CameraModel
+from tracker.camera import CameraControl, CameraModel
 from tracker.errors import CalibrationError, InvalidInput
 
 REMEDY = (
@@ -24,11 +24,13 @@ class CameraFile:
         model: the camera.
         camera_name: which camera it is, as `camera.name` in the settings; None where it does not say.
         camera_source: its source, as `camera.source` in the settings; None where it does not say.
+        controls: of the camera at the calibration, in its driver's own units; empty where it does not say.
     """
 
     model: CameraModel
     camera_name: str | None = None
     camera_source: str | None = None
+    controls: Mapping[CameraControl, int] = field(default_factory=dict)
 
 
 def load_camera_file(path: Path) -> CameraModel:
@@ -48,16 +50,41 @@ def read_camera_file(path: Path) -> CameraFile:
     if not isinstance(values, dict):
         message = f"the camera file {path} is a {type(values).__name__}, needed keys with values"
         raise InvalidInput("CAMERA_FILE_INVALID", message, REMEDY, context)
+    camera = values.get("camera")
+    whose = camera if isinstance(camera, dict) else {}
     try:
         model = CameraModel.from_mapping(values)
+        controls = controls_in(whose)
     except InvalidInput as error:
         raise InvalidInput(
             error.code, f"{path}: {error.message}", error.remedy, {**error.context, **context}
         ) from error
-    camera = values.get("camera")
-    whose = camera if isinstance(camera, dict) else {}
     return CameraFile(
-        model=model, camera_name=_text(whose.get("name")), camera_source=_text(whose.get("source"))
+        model=model,
+        camera_name=_text(whose.get("name")),
+        camera_source=_text(whose.get("source")),
+        controls=controls,
+    )
+
+
+def controls_in(camera: Mapping[str, object]) -> Mapping[CameraControl, int]:
+    """The values of a camera's controls under `controls`; none where there is no such key.
+
+    Raises:
+        InvalidInput: CAMERA_FILE_INVALID, a control that is not known, or a value that is no whole number.
+    """
+    values = camera.get("controls", {})
+    known = [control.value for control in CameraControl]
+    if isinstance(values, Mapping) and all(
+        key in known and isinstance(value, int) and not isinstance(value, bool)
+        for key, value in values.items()
+    ):
+        return {CameraControl(key): value for key, value in values.items()}
+    raise InvalidInput(
+        "CAMERA_FILE_INVALID",
+        f"the controls of a camera are {values!r}, needed are whole numbers by name",
+        f"Leave controls out, or name some of these with their values: {', '.join(known)}.",
+        {"controls": str(values)},
     )
 
 
@@ -85,11 +112,18 @@ def camera_file_text(file: CameraFile, facts: Mapping[str, object]) -> str:
         "distortion": file.model.distortion.tolist(),
         "size_wh_px": list(file.model.size_wh_px),
     }
-    whose = {"name": file.camera_name, "source": file.camera_source}
+    whose: dict[str, object] = {"name": file.camera_name, "source": file.camera_source}
+    if file.controls:
+        whose["controls"] = controls_values(file.controls)
     if any(whose.values()):
         values["camera"] = {key: value for key, value in whose.items() if value is not None}
     text: str = yaml.safe_dump({**values, **facts}, sort_keys=False, default_flow_style=None, width=110)
     return text
+
+
+def controls_values(controls: Mapping[CameraControl, int]) -> dict[str, int]:
+    """Controls as a file or a document has them."""
+    return {control.value: value for control, value in controls.items()}
 
 
 def _text(value: object) -> str | None:

@@ -77,6 +77,11 @@ class CameraConfig(Section):
     height: Annotated[int, Field(ge=16, le=4320)] | None = None
     rate_hz: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
     """Asked of a local camera; the rate of a folder, and of a file that has none (30 if left out)."""
+    lock_controls: bool = True
+    """Of a local camera: automatic focus is switched off at the start, and focus, zoom, pan and tilt are set
+    to what they were at the calibration."""
+    lock_light: bool = False
+    """Automatic exposure and white balance are switched off once they have settled."""
     readout_ms: Annotated[float, Field(ge=0.0, le=200.0)] = 0.0
     """From when the first row of an image is read to the last one; 0 of a global shutter."""
 

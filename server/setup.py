@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from server.camera_file import load_camera_file
+from server.camera_file import read_camera_file
 from server.capture.address import SourceKind, source_from_text
 from server.capture.local_camera import CalibratedCamera
 from server.config import Config
 from server.marker_file import load_marker_image
 from server.theatre import theatre_of
 from server.tool_file import tool_from_config
-from tracker.camera import CameraModel
+from tracker.camera import CameraControl, CameraModel
 from tracker.errors import CalibrationError
 from tracker.marker import MarkerModel, ScoreSettings
 from tracker.navigation import Absent, AbsentReason, DrillLimits, Guide, Setup
@@ -64,6 +64,7 @@ class CaseSetup:
 
     Attributes:
         camera: calibrated in this case.
+        camera_controls: their values at that calibration; empty where they were not kept.
         models: markers whose picture was sent into this case.
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
@@ -76,6 +77,7 @@ class CaseSetup:
     """
 
     camera: CameraModel | None = None
+    camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
     models: tuple[MarkerModel, ...] = ()
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
@@ -113,6 +115,7 @@ class Preparation:
         withheld: why no number is given although all is known; None when nothing is in the way.
         registered_from_s: see `CaseSetup`.
         guide: what is known of the pedicle besides its channel; None takes the channel alone.
+        camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
     """
 
     camera: CameraModel | None
@@ -130,6 +133,7 @@ class Preparation:
     registered_from_s: float | None = None
     guide: Guide | None = None
     limits: DrillLimits = field(default_factory=DrillLimits)
+    camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
 
     def guide_along(self, channel: Channel) -> Guide:
         """What a drill in this channel is held against: the case's bone, the rehearsal's, or the channel."""
@@ -149,7 +153,9 @@ class Preparation:
     @property
     def calibrated_camera(self) -> CalibratedCamera | None:
         """What a camera is set to so that the calibration in use holds of it; None where there is none."""
-        return None if self.camera is None else CalibratedCamera(size_wh_px=self.camera.size_wh_px)
+        if self.camera is None:
+            return None
+        return CalibratedCamera(size_wh_px=self.camera.size_wh_px, controls=self.camera_controls)
 
     @property
     def setup(self) -> Setup | None:
@@ -196,7 +202,11 @@ class Preparation:
         markers = {model.name for model in models}
         known = {name: tool for name, tool in case.tools.items() if tool.marker in markers}
         changed = replace(
-            self, camera=case.camera or self.camera, models=models, tools={**self.tools, **known}
+            self,
+            camera=case.camera or self.camera,
+            camera_controls=self.camera_controls if case.camera is None else case.camera_controls,
+            models=models,
+            tools={**self.tools, **known},
         )
         if case.channel is None:
             return changed
@@ -252,8 +262,10 @@ def build_setup(config: Config) -> Preparation:
         for name, tool in config.tools.items()
     }
     calibration = config.camera.calibration
+    camera = None if calibration is None else read_camera_file(calibration)
     bare = Preparation(
-        camera=None if calibration is None else load_camera_file(calibration),
+        camera=None if camera is None else camera.model,
+        camera_controls={} if camera is None else camera.controls,
         models=models,
         tools=tools,
         channel=Absent(reason=AbsentReason.NO_PLAN),

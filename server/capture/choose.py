@@ -61,7 +61,12 @@ def source_from_config(
         )
     if address.kind is SourceKind.LOCAL_CAMERA:
         return LocalCameraSource(
-            address, wanted=wanted_mode(camera), calibration=calibration, first_number=first_number
+            address,
+            wanted=wanted_mode(camera),
+            calibration=calibration,
+            lock_controls=camera.lock_controls,
+            lock_light=camera.lock_light,
+            first_number=first_number,
         )
     if address.kind is SourceKind.STREAM:
         return StreamSource(address, stop=stop, first_number=first_number)

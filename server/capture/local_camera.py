@@ -12,6 +12,7 @@ import structlog
 
 from server.capture.address import SourceAddress
 from server.capture.codecs import open_device
+from server.capture.controls import ControlKeeper
 from server.capture.driver_clock import DriverClock
 from server.capture.mode_check import ModeCheck
 from server.capture.modes import WantedMode, choose_mode
@@ -61,6 +62,8 @@ class LocalCameraSource:
         address: number or path of the device.
         wanted: what the settings ask for.
         calibration: that is in use at the start; None while there is none.
+        lock_controls: switch automatic focus off, and set what the calibration has.
+        lock_light: switch automatic exposure and white balance off once they have settled.
         first_number: number of its first image.
         devices: asked for what the camera offers.
         open_video: opens it in OpenCV.
@@ -73,6 +76,8 @@ class LocalCameraSource:
         *,
         wanted: WantedMode | None = None,
         calibration: CalibratedCamera | None = None,
+        lock_controls: bool = True,
+        lock_light: bool = False,
         first_number: int = 0,
         devices: VideoDevices | None = None,
         open_video: Callable[[str], Video] = open_device,
@@ -84,6 +89,9 @@ class LocalCameraSource:
         self._text = address.text
         self._wanted = wanted or WantedMode()
         self._calibration = calibration
+        self._adopted: CalibratedCamera | None = None
+        self._lock_controls = lock_controls
+        self._lock_light = lock_light
         self._number = first_number
         self._devices = devices or devices_here()
         self._open_video = open_video
@@ -93,6 +101,7 @@ class LocalCameraSource:
         self._device: VideoDevice | None = None
         self._asked: CameraMode | None = None
         self._check: ModeCheck | None = None
+        self._keeper: ControlKeeper | None = None
 
     @property
     def defect(self) -> CaptureError | None:
@@ -106,7 +115,15 @@ class LocalCameraSource:
             clock=self._stamps.clock if self._device is not None else ImageClock.ARRIVAL,
             asked=self._asked,
             granted=None if self._check is None else self._check.granted,
+            controls={} if self._keeper is None else self._keeper.values,
         )
+
+    def adopt(self, calibration: CalibratedCamera | None) -> None:
+        """From the next image on give what this calibration was made with. From any thread.
+
+        Where the settings name no size, the camera is opened again in the calibration's.
+        """
+        self._adopted = calibration
 
     def open(self) -> None:
         """Open the device, and ask it for format, size and rate."""
@@ -125,9 +142,11 @@ class LocalCameraSource:
         self._device = self._opened_device()
         self._stamps.restart()
         self._ask(camera)
+        self._keep_controls()
 
     def read(self) -> Shot | None:
         """The next image."""
+        self._use_adopted()
         camera, image = self._camera, None
         captured_at_s = 0.0
         if camera is not None and camera.grab():
@@ -143,6 +162,8 @@ class LocalCameraSource:
         if self._check is not None:
             height, width = image.shape[:2]
             self._check.take((width, height), captured_at_s)
+        if self._keeper is not None:
+            self._keeper.poll(self._clock())
         shot = Shot(
             image=np.asarray(image, dtype=np.uint8),
             number=self._number,
@@ -160,6 +181,31 @@ class LocalCameraSource:
         if self._device is not None:
             self._device.close()
             self._device = None
+        self._keeper = None
+
+    def _use_adopted(self) -> None:
+        """Take up the calibration that was adopted last, if it is another one."""
+        adopted, self._adopted = self._adopted, None
+        if adopted is None or adopted == self._calibration:
+            return
+        before, self._calibration = self._asked, adopted
+        if self._camera is None:
+            return
+        if before is not None and self._wanted.size_wh_px is None and before != self._chosen():
+            self.open()
+        elif self._keeper is not None:
+            self._keeper.restore(adopted.controls)
+
+    def _keep_controls(self) -> None:
+        if self._device is not None:
+            self._keeper = ControlKeeper(
+                self._device,
+                name=self.name,
+                lock_focus=self._lock_controls,
+                lock_light=self._lock_light,
+                calibrated={} if self._calibration is None else self._calibration.controls,
+                at_s=self._clock(),
+            )
 
     def _captured_at_s(self, camera: Video) -> float:
         arrived_s = self._clock()
@@ -196,11 +242,7 @@ class LocalCameraSource:
     def _ask(self, camera: Video) -> None:
         """Ask for a mode, and keep what was granted."""
         calibrated = None if self._calibration is None else self._calibration.size_wh_px
-        offered: tuple[CameraMode, ...] = ()
-        if self._device is not None:
-            with contextlib.suppress(OSError):
-                offered = self._device.modes()
-        asked = choose_mode(offered, self._wanted, calibrated_size_wh_px=calibrated)
+        asked = self._chosen()
         # Where it is not known what is offered, what the settings want is asked for as it stands.
         size = self._wanted.size_wh_px or calibrated if asked is None else asked.size_wh_px
         rate_hz = self._wanted.rate_hz if asked is None else asked.rate_hz
@@ -215,6 +257,15 @@ class LocalCameraSource:
         granted = self._granted(camera)
         self._check = ModeCheck(self.name, wanted=self._wanted, asked=asked, granted=granted)
         log.info("camera asked", camera=self.name, asked=str(asked or "its own mode"), granted=str(granted))
+
+    def _chosen(self) -> CameraMode | None:
+        """Of what the device offers; None where that is not known."""
+        calibrated = None if self._calibration is None else self._calibration.size_wh_px
+        offered: tuple[CameraMode, ...] = ()
+        if self._device is not None:
+            with contextlib.suppress(OSError):
+                offered = self._device.modes()
+        return choose_mode(offered, self._wanted, calibrated_size_wh_px=calibrated)
 
     def _granted(self, camera: Video) -> CameraMode:
         """The mode that is set now: as the device says, else as OpenCV does."""

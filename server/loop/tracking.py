@@ -2,13 +2,15 @@
 
 import dataclasses
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import structlog
 
+from server.capture.local_camera import CalibratedCamera
 from server.capture.shot import Shot
 from server.live import Trouble
 from server.setup import CaseSetup, Preparation
+from tracker.camera import CameraControl, ControlChange, control_changes
 from tracker.errors import CalibrationError
 from tracker.navigation import Absent, Guide, NavigationSnapshot, Setup, Steadying, Watching, navigate
 from tracker.pipeline import Tracker
@@ -30,7 +32,18 @@ class Tracking:
         self._watching = Watching()
         self._watched_registration: tuple[bytes, float | None] | None = None
         self._guide: Guide | None = None
-        self.trouble: Trouble | None = None
+        self._size_trouble: Trouble | None = None
+        self._changes: tuple[ControlChange, ...] = ()
+
+    @property
+    def trouble(self) -> Trouble | None:
+        """Why no millimetre is claimed although images come; None while nothing is in the way."""
+        return self._size_trouble or (_changed_trouble(self._changes[0]) if self._changes else None)
+
+    @property
+    def calibrated_camera(self) -> CalibratedCamera | None:
+        """What the camera is set to so that the calibration in use holds of it; None where there is none."""
+        return self._preparation.calibrated_camera
 
     def adopt(self, case: CaseSetup) -> None:
         """From the next image on work with what this case knows; nothing of the one before is kept."""
@@ -38,9 +51,14 @@ class Tracking:
         self._setup = None
 
     def conclude(
-        self, shot: Shot, *, skipped_images: int, clock: Callable[[], float] = time.monotonic
+        self,
+        shot: Shot,
+        *,
+        skipped_images: int,
+        controls: Mapping[CameraControl, int] | None = None,
+        clock: Callable[[], float] = time.monotonic,
     ) -> NavigationSnapshot:
-        """What this image says.
+        """What this image says, of a camera whose controls have these values; None where none is known.
 
         A camera file for another size is told as `trouble`; the marker is then found without it, and no
         millimetre is claimed.
@@ -58,6 +76,8 @@ class Tracking:
         sightings = tracker.step(shot.image, captured_at_s=shot.captured_at_s)
         tracked_s = clock()
         watched = self._watching.take(setup, shot.image, sightings, at_s=shot.captured_at_s)
+        self._note_controls(setup, controls or {})
+        watched = dataclasses.replace(watched, camera_changes=self._changes)
         watched_s = clock()
         snapshot = navigate(
             setup=setup,
@@ -80,13 +100,13 @@ class Tracking:
         return dataclasses.replace(snapshot, stage_ms=stage_ms)
 
     def _prepare(self, size_wh_px: tuple[int, int], at_s: float) -> None:
-        self.trouble = None
+        self._size_trouble = None
         try:
             setup = self._preparation.setup_for(size_wh_px)
         except CalibrationError as error:
             # Told here and shown on the page; the picture goes on without millimetres.
             log.warning(error.message, code=error.code, remedy=error.remedy)
-            self.trouble = Trouble.from_error(error)
+            self._size_trouble = Trouble.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
         self._tracker = self._preparation.tracker_for(setup)
         self._steadying = Steadying(self._preparation.smoothing)
@@ -95,12 +115,34 @@ class Tracking:
         self._watch_registration(setup, at_s)
         self._setup = setup
 
+    def _note_controls(self, setup: Setup, controls: Mapping[CameraControl, int]) -> None:
+        """Compare the camera's controls with those at the calibration in use, and log what changed, once."""
+        calibrated = self._preparation.camera_controls if setup.camera_calibrated else {}
+        changes = control_changes(calibrated, controls)
+        if changes != self._changes:
+            self._changes = changes
+            for change in changes:
+                trouble = _changed_trouble(change)
+                log.warning(trouble.message, code=trouble.code, remedy=trouble.remedy)
+
     def _watch_registration(self, setup: Setup, at_s: float) -> None:
         """Begin to watch another registration; one that stays, or was checked, is watched on."""
         now = (_identity(setup.registration), self._preparation.registered_from_s)
         if now != self._watched_registration:
             self._watched_registration = now
             self._watching.begin(from_s=self._preparation.registered_from_s, now_s=at_s)
+
+
+def _changed_trouble(change: ControlChange) -> Trouble:
+    control, calibrated, now = change.control.value, change.calibrated, change.now
+    return Trouble(
+        code="CAMERA_CHANGED",
+        message=f"{control} of the camera changed from {calibrated} to {now} since the calibration in use, "
+        "which does not hold any more",
+        remedy=f"Set {control} back to {calibrated} (a new start does, unless camera.lock_controls is false) "
+        "or calibrate the camera again.",
+        context={"control": control, "calibrated": calibrated, "now": now},
+    )
 
 
 def _identity(registration: Registration | Absent) -> bytes:

@@ -19,6 +19,7 @@ import structlog
 
 from server.capture.capture import Capture
 from server.capture.choose import source_from_config
+from server.capture.local_camera import LocalCameraSource
 from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot, Source
 from server.config import Config
@@ -190,6 +191,8 @@ def work(
         case = newest.take()
         if case is not None:
             tracking.adopt(case)
+            if isinstance(source, LocalCameraSource):
+                source.adopt(tracking.calibrated_camera)
         scene = None if scenes is None else scenes.take()
         if scene is not None and staging is not None:
             staging.order(scene)
@@ -198,7 +201,13 @@ def work(
             link.send(replace(told, trouble=trouble, tracked_images=tracked))
             continue
         try:
-            snapshot = tracking.conclude(shot, skipped_images=told.source.skipped_images, clock=clock)
+            camera = told.source.camera
+            snapshot = tracking.conclude(
+                shot,
+                skipped_images=told.source.skipped_images,
+                controls=None if camera is None else camera.controls,
+                clock=clock,
+            )
             trouble = tracking.trouble
             link.send(replace(told, snapshot=snapshot, trouble=trouble, tracked_images=tracked + 1), shot)
             tracked += 1

@@ -1,17 +1,18 @@
 """Views of a calibration board, taken by themselves from the live images while somebody moves it."""
 
 import threading
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from server.live import Instant, LiveHub, SourceState, Trouble
+from server.live import Instant, LiveHub, SourceState, SourceStatus, Trouble
 from server.procedure.following import Follower
-from tracker.camera import Board
+from tracker.camera import Board, CameraControl, control_changes
 from tracker.camera.collecting import BoardCollector, CollectingProgress, Judgement
 from tracker.camera.detection import BoardNotFound, BoardView, find_board
-from tracker.errors import InvalidInput
+from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
 
 # Each look costs a good part of a core; the video needs the rest.
@@ -75,6 +76,7 @@ class BoardCollection:
         self._lock = threading.Lock()
         self._collector: BoardCollector | None = None
         self._taken: list[TakenView] = []
+        self._controls: Mapping[CameraControl, int] = {}
         self._image_number = -1
         self._said = "waiting for an image"
         self._points_px = NO_POINTS
@@ -101,6 +103,12 @@ class BoardCollection:
         """The views that are kept."""
         with self._lock:
             return tuple(self._taken)
+
+    @property
+    def controls(self) -> Mapping[CameraControl, int]:
+        """Of the live camera, when views were last taken of it; empty where none is known."""
+        with self._lock:
+            return self._controls
 
     def add(self, image: npt.NDArray[np.uint8], *, name: str) -> None:
         """Keep the board's view in an image that was taken by hand, whether or not it adds something new.
@@ -144,9 +152,25 @@ class BoardCollection:
                 captured_at_s=instant.snapshot.captured_at_s,
             )
             if judgement is Judgement.TAKEN:
+                self._note_controls(instant.source)
                 self._taken.append(TakenView(name=f"image {number}", view=found))
             self._image_number, self._points_px = number, found.image_points_px
             self._said = SAID[judgement]
+
+    def _note_controls(self, source: SourceStatus) -> None:
+        """Refuse views of a camera that was changed since the first one: they are of two cameras."""
+        now = {} if source.camera is None else source.camera.controls
+        changes = control_changes(self._controls, now)
+        if changes:
+            change = changes[0]
+            raise CalibrationError(
+                "CAMERA_CHANGED",
+                f"{change.control.value} of the camera changed from {change.calibrated} to {change.now} "
+                "while views were taken",
+                "Leave the camera alone (camera.lock_controls switches automatic focus off), and start anew.",
+                {"control": change.control.value, "before": change.calibrated, "now": change.now},
+            )
+        self._controls = now or self._controls
 
     def _refuse_more(self) -> None:
         if len(self._taken) >= MOST_VIEWS:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from server.calibration import accuracy_values, coverage_svg, report_values, residuals_svg, view_values
+from server.camera_file import CameraFile, controls_in, controls_values
 from server.config import CalibrationConfig
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import Job, Jobs, Report
@@ -12,7 +13,7 @@ from server.procedure.board_collection import BoardCollection, TakenView
 from server.procedure.held import Held
 from server.procedure.opened import opened_case
 from server.store import Case, CaseStore, Document, DocumentKind, Standing
-from tracker.camera import Board, CameraModel
+from tracker.camera import Board, CameraControl, CameraModel
 from tracker.camera.accuracy import accuracy_of_grid
 from tracker.camera.calibration import calibrate, with_board_judged
 from tracker.camera.detection import BoardNotFound, find_board
@@ -77,7 +78,7 @@ class CameraStep:
         """
         case = opened_case(self._store)
         collection = self.collection
-        taken, status = collection.taken, collection.status
+        taken, status, controls = collection.taken, collection.status, collection.controls
         if not taken:
             raise SetupOrderError(
                 "COLLECTION_EMPTY",
@@ -86,7 +87,7 @@ class CameraStep:
             )
 
         def keep(values: Any) -> object:  # noqa: ANN401  what JSON made of the answer of `calibrate_views`
-            document = self._keep(case, values["report"], values["plots"], made_by)
+            document = self._keep(case, values["report"], values["plots"], made_by, controls=controls)
             return {"document_id": document.id, "version": document.version, **values["report"]}
 
         return self._jobs.start(
@@ -108,7 +109,7 @@ class CameraStep:
         """
         case = opened_case(self._store)
         document = self._store.current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
-        camera = kept_camera(document, source=self._source)
+        camera = kept_camera(document, source=self._source).model
         newest = self._hub.newest
         if newest is None or newest.image is None:
             raise CaptureError(
@@ -150,7 +151,13 @@ class CameraStep:
         return None if document is None else (document, self._store.standing(document))
 
     def _keep(
-        self, case: Case, report: Mapping[str, Any], plots: Mapping[str, str], made_by: str
+        self,
+        case: Case,
+        report: Mapping[str, Any],
+        plots: Mapping[str, str],
+        made_by: str,
+        *,
+        controls: Mapping[CameraControl, int],
     ) -> Document:
         """Keep a calibration that passes its gate, with its pictures."""
         rms_px = float(report["rms_px"])
@@ -167,6 +174,8 @@ class CameraStep:
                 new.path.write_text(picture, encoding="utf-8")
             files[name] = new.stored.id
         camera = {key: report[key] for key in ("matrix", "distortion", "size_wh_px")}
+        if controls:
+            camera["controls"] = controls_values(controls)
         return self._store.put(
             case.id,
             DocumentKind.CAMERA,
@@ -191,8 +200,8 @@ def calibrate_views(
     }
 
 
-def kept_camera(document: Document, *, source: str) -> CameraModel:
-    """The camera in a document of a case.
+def kept_camera(document: Document, *, source: str) -> CameraFile:
+    """The camera in a document of a case, with its controls at the calibration as far as they were kept.
 
     Raises:
         CalibrationError: CAMERA_DIFFERS, it was calibrated from another source than this one.
@@ -208,4 +217,6 @@ def kept_camera(document: Document, *, source: str) -> CameraModel:
             "Calibrate this camera, or start with the one that was calibrated.",
             {"calibrated": made_for, "source": source},
         )
-    return CameraModel.from_mapping(values)
+    return CameraFile(
+        model=CameraModel.from_mapping(values), camera_source=source, controls=controls_in(values)
+    )

@@ -8,6 +8,7 @@ from dataclasses import replace
 import structlog
 
 from server.alarms import ProcedureFacts
+from server.camera_file import CameraFile
 from server.procedure.camera import MAIN_CAMERA, kept_camera
 from server.procedure.confirmed import confirmation_name
 from server.procedure.facts import facts_of
@@ -25,7 +26,6 @@ from server.procedure.state import Brought, Procedure
 from server.procedure.tool import kept_tool
 from server.setup import CaseSetup
 from server.store import CaseStore, Current, Document, DocumentKind
-from tracker.camera import CameraModel
 from tracker.errors import NavigationError
 from tracker.navigation import AbsentReason, Guide
 from tracker.plan import Channel
@@ -110,7 +110,7 @@ class CaseInUse:
         return [document for document in newest if isinstance(self._store.standing(document), Current)]
 
     def _setup_of(self, documents: list[Document]) -> CaseSetup:
-        cameras: dict[str, CameraModel] = {}
+        cameras: dict[str, CameraFile] = {}
         tools: dict[str, ToolModel] = {}
         channel: Channel | None = None
         registered: KeptRegistration | None = None
@@ -132,8 +132,10 @@ class CaseInUse:
                     tools.update(_named(document.name, kept_tool(document).model(document.name)))
             except NavigationError as error:
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
+        camera = cameras.get(MAIN_CAMERA)
         return CaseSetup(
-            camera=cameras.get(MAIN_CAMERA),
+            camera=None if camera is None else camera.model,
+            camera_controls={} if camera is None else camera.controls,
             models=self._markers.of_case,
             tools=tools,
             channel=channel,

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
 
+from server.texts.controls import control_name, setting
 from server.texts.language import NO_TEXT, Language, Text, amount, clock_text, text_of
 from server.texts.phrases import PHRASES
 from server.texts.places import near_text, through_text
@@ -103,6 +104,9 @@ def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[s
         else f"{alarm.worst_site.tool}: ",
         "time": clock_text(alarm.worst_at_s + unix_offset_s),
         "by": alarm.by or SOMEBODY[language],
+        "control": control_name(alarm.control, language),
+        "calibrated": "" if alarm.measure is None else setting(alarm.control, alarm.measure.limit, language),
+        "set": "" if alarm.measure is None else setting(alarm.control, alarm.measure.value, language),
     }
 
 

@@ -122,6 +122,13 @@ ENGLISH: Mapping[Condition, Phrases] = {
         past="The patient marker had moved since registration.",
         remedy="Stop. Fix the marker. Register again.",
     ),
+    Condition.CAMERA_CHANGED: Phrases(
+        title="CAMERA CHANGED",
+        present="{control} changed from {calibrated} to {set} since the calibration.",
+        past="{control} was not as calibrated.",
+        bare="The camera was changed since the calibration.",
+        remedy="Stop. Set it back, or calibrate and register again.",
+    ),
     Condition.REGISTRATION_OUT_OF_DATE: Phrases(
         title="REGISTRATION OUT OF DATE",
         present="Something that the registration depends on was changed.",
@@ -256,6 +263,13 @@ GERMAN: Mapping[Condition, Phrases] = {
         present="Patientenmarker seit der Registrierung bewegt.",
         past="Der Patientenmarker war seit der Registrierung bewegt worden.",
         remedy="Anhalten. Marker befestigen. Neu registrieren.",
+    ),
+    Condition.CAMERA_CHANGED: Phrases(
+        title="KAMERA VERSTELLT",
+        present="{control} seit der Kalibrierung von {calibrated} auf {set} verstellt.",
+        past="{control} war anders als bei der Kalibrierung.",
+        bare="Die Kamera wurde seit der Kalibrierung verstellt.",
+        remedy="Anhalten. Zurückstellen, oder neu kalibrieren und registrieren.",
     ),
     Condition.REGISTRATION_OUT_OF_DATE: Phrases(
         title="REGISTRIERUNG VERALTET",

@@ -20,6 +20,7 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
     "en": {
         AbsentReason.MARKER_UNSEEN: State("NO TRACKING", "marker not seen"),
         AbsentReason.CAMERA_NOT_CALIBRATED: State("CAMERA NOT CALIBRATED", "calibrate the camera first"),
+        AbsentReason.CAMERA_CHANGED: State("CAMERA CHANGED", "set it back, or calibrate again"),
         AbsentReason.POSE_UNCERTAIN: State("POSE UNCERTAIN", "show the marker nearer, steadier, more tilted"),
         AbsentReason.TOOL_NOT_DEFINED: State("TOOL NOT DEFINED", "calibrate the tool first"),
         AbsentReason.NOT_REGISTERED: State("NOT REGISTERED", "register plan and patient"),
@@ -35,6 +36,7 @@ STATES: Mapping[Language, Mapping[AbsentReason, State]] = {
     "de": {
         AbsentReason.MARKER_UNSEEN: State("KEIN TRACKING", "Marker nicht gesehen"),
         AbsentReason.CAMERA_NOT_CALIBRATED: State("KAMERA NICHT KALIBRIERT", "zuerst die Kamera kalibrieren"),
+        AbsentReason.CAMERA_CHANGED: State("KAMERA VERSTELLT", "zurückstellen oder neu kalibrieren"),
         AbsentReason.POSE_UNCERTAIN: State("LAGE UNSICHER", "Marker näher, ruhiger, schräger zeigen"),
         AbsentReason.TOOL_NOT_DEFINED: State("WERKZEUG NICHT BESTIMMT", "zuerst das Werkzeug kalibrieren"),
         AbsentReason.NOT_REGISTERED: State("NICHT REGISTRIERT", "Plan und Patient registrieren"),

@@ -17,7 +17,7 @@ from fastapi.testclient import TestClient
 from server.app import AppParts, create_app
 from server.config import Config
 from server.jobs import Jobs
-from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.live import CameraStatus, Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.logs import LogSettings
 from server.procedure import Steps
 from server.setup import CaseSetup, Preparation, build_setup
@@ -63,6 +63,7 @@ class Server:
         seen: Seen | None = None,
         beside: Mapping[str, Seen] | None = None,
         moved: AbsentReason | None = None,
+        camera: CameraStatus | None = None,
     ) -> NavigationSnapshot:
         """Publish an image, or markers seen in it, as the tracking process would; what it says."""
         self.number += 1
@@ -83,7 +84,7 @@ class Server:
         self.hub.publish(
             Instant(
                 sequence=self.number,
-                source=SourceStatus(name="rehearsal", state=SourceState.RUNNING),
+                source=SourceStatus(name="rehearsal", state=SourceState.RUNNING, camera=camera),
                 process=ProcessStatus(state=ProcessState.RUNNING),
                 snapshot=snapshot,
                 image=image,

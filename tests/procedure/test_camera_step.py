@@ -6,8 +6,9 @@ import cv2
 import numpy as np
 import pytest
 
+from server.live import CameraStatus, ImageClock
 from tests.procedure.conftest import Server
-from tracker.camera import CameraModel
+from tracker.camera import CameraControl, CameraModel
 from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings
 from tracker.rehearsal.boards import HOLD_S, MOVE_S, PLACES
 
@@ -99,6 +100,26 @@ def test_a_board_can_be_printed(server: Server, file: str, begins: bytes) -> Non
     assert answer.content.lstrip().startswith(begins)
     refused = server.ask("POST", "/api/camera/board", 422, json={"board": {**DOTS, "pitch_mm": 40.0}})
     assert refused["code"] == "BOARD_TOO_LARGE"
+
+
+def test_the_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_use(server: Server) -> None:
+    open_a_case(server)
+    _, images = shown()
+    server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+    controls = {CameraControl.FOCUS: 45, CameraControl.GAIN: 20}
+    for late_s in (0.0, 0.3):
+        camera = CameraStatus(clock=ImageClock.DRIVER, controls=controls)
+        server.show(at_s=late_s, image=images[0], camera=camera)
+        server.until(
+            lambda: server.ask("GET", "/api/camera/collection", 200)["image_number"] == server.number
+        )
+    for image in images[1:8]:
+        server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
+    job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
+    assert job["state"] == "done", job["trouble"]
+    kept = server.ask("GET", "/api/camera/calibration", 200)
+    assert kept["content"]["camera"]["controls"] == {"focus": 45, "gain": 20}
+    assert server.adopted[-1].camera_controls == controls
 
 
 def test_a_withdrawn_camera_is_used_no_more(server: Server) -> None:

@@ -7,10 +7,11 @@ import cv2
 import numpy as np
 import pytest
 
-from server.camera_file import load_camera_file
+from server.camera_file import camera_file_text, load_camera_file, read_camera_file
 from server.config import CameraConfig, Config, MarkerConfig, RehearsalConfig, ToolConfig
 from server.marker_file import load_marker_image
 from server.setup import CaseSetup, Preparation, build_setup, nominal_camera
+from tracker.camera import CameraControl
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.navigation import Absent, AbsentReason
 from tracker.plan import Channel
@@ -78,6 +79,16 @@ def test_a_camera_file_may_be_yaml_or_json(tmp_path: Path) -> None:
         pytest.param("matrix: 1", "CAMERA_FILE_INCOMPLETE", id="keys-missing"),
         pytest.param("a: [", "CAMERA_FILE_UNREADABLE", id="not-yaml"),
         pytest.param(json.dumps({**CAMERA, "matrix": "k"}), "CAMERA_FILE_INVALID", id="matrix-is-a-word"),
+        pytest.param(
+            json.dumps({**CAMERA, "camera": {"controls": {"focus": "near"}}}),
+            "CAMERA_FILE_INVALID",
+            id="a-control-is-a-word",
+        ),
+        pytest.param(
+            json.dumps({**CAMERA, "camera": {"controls": {"sharpness": 3}}}),
+            "CAMERA_FILE_INVALID",
+            id="a-control-that-is-none",
+        ),
         pytest.param(json.dumps({**CAMERA, "distortion": [0]}), "CAMERA_MODEL_INVALID", id="one-coefficient"),
     ],
 )
@@ -87,6 +98,17 @@ def test_a_camera_file_that_cannot_be_used_names_itself(tmp_path: Path, text: st
         load_camera_file(tmp_path / "c.yaml")
     assert caught.value.code == code
     assert "c.yaml" in caught.value.message
+
+
+def test_a_camera_file_keeps_the_controls_of_its_camera(tmp_path: Path) -> None:
+    path = tmp_path / "c.yaml"
+    path.write_text(json.dumps({**CAMERA, "camera": {"name": "main", "controls": {"focus": 120, "zoom": 0}}}))
+    file = read_camera_file(path)
+    assert file.controls == {CameraControl.FOCUS: 120, CameraControl.ZOOM: 0}
+    path.write_text(camera_file_text(file, {}))
+    assert read_camera_file(path).controls == file.controls
+    settings = Config(camera=CameraConfig(source="v.mov", calibration=path))
+    assert build_setup(settings).camera_controls == file.controls
 
 
 def config(folder: Path, *, calibrated: bool) -> Config:

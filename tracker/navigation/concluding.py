@@ -38,6 +38,8 @@ def tool_in_view(
         return Absent(reason=AbsentReason.MARKER_UNSEEN)
     if not setup.camera_calibrated:
         return Absent(reason=AbsentReason.CAMERA_NOT_CALIBRATED)
+    if watched.camera_changes:
+        return Absent(reason=AbsentReason.CAMERA_CHANGED)
     if tool.marker in watched.jumped:
         return Absent(reason=AbsentReason.POSE_JUMPED)
     own = _placed(tool, sighting.camera_from_marker, sighting.pose_covariance)

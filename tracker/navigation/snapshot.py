@@ -10,7 +10,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from tracker.camera import CameraModel
+from tracker.camera import CameraModel, ControlChange
 from tracker.geometry import (
     Array,
     Camera,
@@ -35,6 +35,7 @@ class AbsentReason(StrEnum):
 
     MARKER_UNSEEN = "MARKER_UNSEEN"  # the marker is not seen in this image
     CAMERA_NOT_CALIBRATED = "CAMERA_NOT_CALIBRATED"  # found in the picture, but mm are not known
+    CAMERA_CHANGED = "CAMERA_CHANGED"  # focus or zoom are not what they were at the calibration
     POSE_UNCERTAIN = "POSE_UNCERTAIN"  # seen, but the tip could be millimetres away from where it seems
     TOOL_NOT_DEFINED = "TOOL_NOT_DEFINED"  # nobody said where the tip is behind this marker
     NOT_REGISTERED = "NOT_REGISTERED"  # plan and patient are not registered
@@ -134,6 +135,8 @@ class Watched:
         reference_moved: likewise of the marker on the patient; a check on anatomy takes it back.
         scene: what the still scene says of the camera.
         unseen_s: by marker, how long ago it was seen, 0 for one in this image.
+        camera_changes: controls of the camera that are not what they were at the calibration in use, and
+            void it; what spoils most comes first.
     """
 
     jumped: frozenset[str] = frozenset()
@@ -141,6 +144,7 @@ class Watched:
     reference_moved: bool = False
     scene: SceneState = SceneState.UNSURE
     unseen_s: Mapping[str, float | NeverSeen] = field(default_factory=dict)
+    camera_changes: tuple[ControlChange, ...] = ()
 
 
 UNWATCHED = Watched()

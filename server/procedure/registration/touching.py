@@ -23,6 +23,7 @@ UNSEEN = {
     AbsentReason.MARKER_UNSEEN: "the tool's marker is not seen",
     AbsentReason.POSE_UNCERTAIN: "the tip could be millimetres away from where it seems",
     AbsentReason.CAMERA_NOT_CALIBRATED: "the camera is not calibrated",
+    AbsentReason.CAMERA_CHANGED: "the camera's focus or zoom is not as it was calibrated",
 }
 
 

@@ -54,6 +54,7 @@ class FakeCamera:
         default_factory=lambda: CameraMode(fourcc="YUYV", size_wh_px=VGA, rate_hz=30.0)
     )
     fault: OSError | None = None
+    was_set: list[tuple[CameraControl, int]] = field(default_factory=list)
 
     def description(self) -> DeviceDescription:
         if self.fault is not None:
@@ -77,6 +78,7 @@ class FakeCamera:
         if control not in self.controls:
             raise OSError(errno.EINVAL, "Invalid argument")
         self.controls[control] = value
+        self.was_set.append((control, value))
 
     def close(self) -> None:
         pass

@@ -11,6 +11,7 @@ from server.capture.v4l2 import NoDevices, VideoDevices
 from server.errors import CaptureError
 from server.live import CameraMode, ImageClock
 from tests.server.capture.fake_camera import FULL_HD, HD, VGA, FakeCamera, FakeDevices, FakeVideo
+from tracker.camera import CameraControl
 
 MJPG_FULL_HD = CameraMode(fourcc="MJPG", size_wh_px=FULL_HD, rate_hz=30.0)
 
@@ -151,3 +152,38 @@ def test_a_device_that_cannot_be_opened_is_told(video: FakeVideo) -> None:
     with pytest.raises(CaptureError) as caught:
         source_of(video).open()
     assert caught.value.code == "CAMERA_NOT_OPENED"
+
+
+def test_the_controls_are_in_the_status_and_are_read_again(video: FakeVideo) -> None:
+    source = source_of(video)
+    source.open()
+    assert source.camera.controls[CameraControl.AUTOFOCUS] == 0
+    video.camera.controls[CameraControl.FOCUS] = 99
+    read(source, video, after_s=1.1)
+    assert source.camera.controls[CameraControl.FOCUS] == 99
+
+
+def test_a_calibration_that_is_adopted_sets_the_focus_and_the_size(video: FakeVideo) -> None:
+    source = source_of(video)
+    source.open()
+    read(source, video)
+    source.adopt(CalibratedCamera(size_wh_px=FULL_HD, controls={CameraControl.FOCUS: 45}))
+    assert read(source, video).image.shape == (1080, 1920, 3)
+    assert video.camera.controls[CameraControl.FOCUS] == 45
+    assert video.calls == ["open 0"], "it is of the same size"
+    source.adopt(CalibratedCamera(size_wh_px=HD, controls={CameraControl.FOCUS: 50}))
+    assert read(source, video).image.shape == (720, 1280, 3)
+    assert source.camera.controls[CameraControl.FOCUS] == 50
+    # Adopted once more, nothing is set: what a person changed meanwhile stays.
+    video.camera.controls[CameraControl.FOCUS] = 60
+    source.adopt(CalibratedCamera(size_wh_px=HD, controls={CameraControl.FOCUS: 50}))
+    read(source, video, after_s=1.1)
+    assert source.camera.controls[CameraControl.FOCUS] == 60
+
+
+def test_a_size_that_the_settings_name_stays_whatever_is_adopted(video: FakeVideo) -> None:
+    source = source_of(video, wanted=WantedMode(size_wh_px=VGA))
+    source.open()
+    source.adopt(CalibratedCamera(size_wh_px=HD))
+    assert read(source, video).image.shape == (480, 640, 3)
+    assert video.calls == ["open 0"]

@@ -8,9 +8,9 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from server.live import Instant, LiveHub, SourceState, SourceStatus, Trouble
+from server.live import CameraStatus, ImageClock, Instant, LiveHub, SourceState, SourceStatus, Trouble
 from server.procedure.board_collection import BoardCollection
-from tracker.camera import Board
+from tracker.camera import Board, CameraControl
 from tracker.errors import InvalidInput
 from tracker.navigation import NavigationSnapshot
 from tracker.rehearsal import BoardKind, Scene, Theatre, TheatreSettings
@@ -105,6 +105,24 @@ def test_images_of_another_size_end_it_and_what_was_taken_stays(camera: Camera) 
     assert trouble is not None
     assert trouble.code == "IMAGE_SIZE_CHANGED"
     assert "680x400" in trouble.message
+    assert len(camera.collection.taken) == 1
+
+
+def test_a_lens_that_moves_between_two_views_ends_it(camera: Camera) -> None:
+    def source(focus: int) -> SourceStatus:
+        controls = {CameraControl.FOCUS: focus, CameraControl.GAIN: focus}
+        status = CameraStatus(clock=ImageClock.DRIVER, controls=controls)
+        return SourceStatus(name="0", state=SourceState.RUNNING, camera=status)
+
+    for image in images()[:2]:
+        camera.show(image, source(45))
+    assert camera.collection.controls == {CameraControl.FOCUS: 45, CameraControl.GAIN: 45}
+    camera.show(images()[2], source(46))
+    camera.show(images()[3], source(46))
+    trouble = camera.collection.status.trouble
+    assert trouble is not None
+    assert trouble.code == "CAMERA_CHANGED"
+    assert "focus of the camera changed from 45 to 46" in trouble.message
     assert len(camera.collection.taken) == 1
 
 

@@ -3,9 +3,11 @@
 import pytest
 
 from server.texts import LANGUAGES, Language, alarm_text, alarm_title
+from server.texts.controls import CONTROLS
 from server.texts.language import clock_text
 from server.texts.phrases import PHRASES
 from tests.server.texts.breach import MEDIAL, NOON_S, alarm, breach, mm
+from tracker.camera import CameraControl
 from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Showing, Site
 from tracker.navigation.clearance import MeasuredAgainst
 from tracker.navigation.directions import Wall
@@ -66,6 +68,26 @@ TIME = clock_text(NOON_S + 3.0)
             id="with the digits of its figure",
         ),
         pytest.param(
+            alarm(
+                Condition.CAMERA_CHANGED,
+                measure=Measure(value=135.0, limit=120.0, unit=""),
+                control=CameraControl.FOCUS,
+            ),
+            "Focus changed from 120 to 135 since the calibration.",
+            "Stop. Set it back, or calibrate and register again.",
+            id="the lens moved",
+        ),
+        pytest.param(
+            alarm(
+                Condition.CAMERA_CHANGED,
+                measure=Measure(value=1.0, limit=0.0, unit=""),
+                control=CameraControl.AUTOFOCUS,
+            ),
+            "Automatic focus changed from off to on since the calibration.",
+            "Stop. Set it back, or calibrate and register again.",
+            id="a switch is on or off",
+        ),
+        pytest.param(
             alarm(Condition.DRILL_UNSEEN, presence=Showing.NO, worst=Measure(value=3.2, limit=1.0, unit="s")),
             "Drill marker was not seen for 3.2 s.",
             "",
@@ -110,3 +132,10 @@ def test_no_two_conditions_share_a_title(language: Language) -> None:
 def test_who_acknowledged_is_named() -> None:
     known = alarm_text(breach(acknowledged_by="M. Ito"), unix_offset_s=0.0).known
     assert known == {"en": "Acknowledged by M. Ito.", "de": "Quittiert von M. Ito."}
+
+
+def test_every_control_of_a_camera_has_a_name_in_every_language() -> None:
+    for language in LANGUAGES:
+        assert set(CONTROLS[language]) == set(CameraControl)
+        assert len(set(CONTROLS[language].values())) == len(CameraControl)
+    assert CONTROLS["en"] != CONTROLS["de"]

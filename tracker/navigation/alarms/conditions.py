@@ -45,6 +45,7 @@ class Condition(StrEnum):
     POSE_JUMPED = "POSE_JUMPED"  # two poses explain the image, or it moved faster than a hand
     CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
     REFERENCE_MOVED = "REFERENCE_MOVED"  # since the registration
+    CAMERA_CHANGED = "CAMERA_CHANGED"  # focus or zoom, since the calibration in use
     REGISTRATION_OUT_OF_DATE = "REGISTRATION_OUT_OF_DATE"
     CALIBRATION_OUT_OF_DATE = "CALIBRATION_OUT_OF_DATE"
     CHECK_DUE = "CHECK_DUE"  # the check on anatomy is older than its limit
@@ -122,6 +123,7 @@ TRAITS: Mapping[Condition, Trait] = MappingProxyType(
         Condition.POSE_JUMPED: _technical(Priority.MEDIUM, clear_s=2.0),
         Condition.CAMERA_MOVED: _technical(Priority.HIGH),
         Condition.REFERENCE_MOVED: _technical(Priority.HIGH),
+        Condition.CAMERA_CHANGED: _technical(Priority.HIGH),
         Condition.REGISTRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CALIBRATION_OUT_OF_DATE: _technical(Priority.HIGH),
         Condition.CHECK_DUE: _technical(Priority.LOW),

@@ -190,6 +190,7 @@ class AlarmEngine:
             worst_site=occurrence.worst_site,
             acknowledged_by=occurrence.acknowledged_by,
             by=occurrence.by,
+            control=occurrence.control,
         )
 
 

@@ -7,6 +7,7 @@ from math import isnan
 from types import MappingProxyType
 from typing import TypeAlias
 
+from tracker.camera import CameraControl
 from tracker.navigation.alarms.conditions import TRAITS, Condition
 from tracker.navigation.alarms.limits import AlarmLimits
 from tracker.navigation.alarms.observed import NotKnown, Observed, Site
@@ -45,6 +46,7 @@ class Evidence:
         severity: how bad it is, in the unit of the measure; larger is worse. 0 where there is no measure.
         site: where in the bone the number was measured; None where it is no matter of a place.
         by: who asks, where somebody does.
+        control: of the camera that it is about, where it is about one.
         superseded: it does not show because a louder condition does; should that go at once, its own
             confirmation has gone on.
     """
@@ -54,6 +56,7 @@ class Evidence:
     severity: float = 0.0
     site: Site | None = None
     by: str = ""
+    control: CameraControl | None = None
     superseded: bool = False
 
 
@@ -167,6 +170,17 @@ def _pose_uncertain(observed: Observed, limits: AlarmLimits, standing: bool) -> 
     return Evidence(showing=_showing(shows), measure=measure, severity=measure.value)
 
 
+def _camera_changed(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
+    """Any difference: a focus that stepped once has moved the lens, and steps again."""
+    del limits, standing
+    change = observed.camera_change
+    if change is None:
+        return GONE
+    measure = Measure(value=float(change.now), limit=float(change.calibrated), unit="")
+    severity = float(abs(change.now - change.calibrated))
+    return Evidence(showing=Showing.YES, measure=measure, severity=severity, control=change.control)
+
+
 def _check_due(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
     del standing
     age_s = observed.check_age_s
@@ -215,6 +229,7 @@ _JUDGES: Mapping[Condition, Judge] = MappingProxyType(
         Condition.REFERENCE_MOVED: lambda observed, _limits, _standing: _flag(
             not observed.reference_in_place
         ),
+        Condition.CAMERA_CHANGED: _camera_changed,
         Condition.REGISTRATION_OUT_OF_DATE: lambda observed, _limits, _standing: _flag(
             not observed.registration_current
         ),

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from tracker.camera import ControlChange
 from tracker.navigation.clearance import MeasuredAgainst
 from tracker.navigation.directions import Wall
 
@@ -61,6 +62,7 @@ class Observed:
         pose_steady: the pose did not jump, and no second one explains the image as well.
         camera_in_place: it did not move since the registration.
         reference_in_place: it did not move since the registration.
+        camera_change: the control of the camera that voids its calibration; None while none does.
         registration_current: it is not out of date.
         calibration_current: it is not out of date.
         check_age_s: since the last check on anatomy.
@@ -92,6 +94,7 @@ class Observed:
     pose_steady: bool = True
     camera_in_place: bool = True
     reference_in_place: bool = True
+    camera_change: ControlChange | None = None
     registration_current: bool = True
     calibration_current: bool = True
     check_age_s: Reading = NOT_KNOWN

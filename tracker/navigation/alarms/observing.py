@@ -91,6 +91,7 @@ def observed_of(
         pose_steady=AbsentReason.POSE_JUMPED not in reasons,
         camera_in_place=AbsentReason.CAMERA_MOVED not in reasons,
         reference_in_place=AbsentReason.REFERENCE_MOVED not in reasons,
+        camera_change=next(iter(snapshot.watched.camera_changes), None),
     )
     return _with_figures(observed, snapshot) if silent_s <= fresh_s else observed
 

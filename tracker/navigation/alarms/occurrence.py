@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import inf
 
+from tracker.camera import CameraControl
 from tracker.navigation.alarms.conditions import Trait
 from tracker.navigation.alarms.evidence import Evidence, Measure, Showing
 from tracker.navigation.alarms.observed import Site
@@ -43,6 +44,7 @@ class Occurrence:
         acknowledged_severity: how bad it was at worst when it was acknowledged.
         acknowledged_by: who did; empty when nobody did.
         by: who asks, where somebody does.
+        control: of the camera that it is about, where it is about one.
     """
 
     state: AlarmState = AlarmState.NORMAL
@@ -59,6 +61,7 @@ class Occurrence:
     acknowledged_severity: float = inf
     acknowledged_by: str = ""
     by: str = ""
+    control: CameraControl | None = None
 
     @property
     def is_standing(self) -> bool:
@@ -171,6 +174,7 @@ def _cleared(was: Occurrence, trait: Trait) -> Occurrence:
             worst_at_s=was.worst_at_s,
             worst_site=was.worst_site,
             raised_at_s=was.raised_at_s,
+            control=was.control,
         )
     return replace(was, state=AlarmState.LATCHED, gone_since_s=inf)
 
@@ -181,7 +185,7 @@ def _with_measure(
     """With the number of this moment, and the worst one since the first; by whom it is asked."""
     if evidence.showing is Showing.UNKNOWN:
         return was
-    now = replace(was, by=evidence.by or was.by)
+    now = replace(was, by=evidence.by or was.by, control=evidence.control or was.control)
     if evidence.measure is None:
         if is_first:
             return replace(now, measure=None, site=None, worst=None, worst_site=None)

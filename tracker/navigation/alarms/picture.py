@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from tracker.camera import CameraControl
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority
 from tracker.navigation.alarms.evidence import Measure, Showing
 from tracker.navigation.alarms.observed import Site
@@ -49,6 +50,7 @@ class Alarm:
         worst_at_s, worst_site: when and where that was.
         acknowledged_by: who knows of it; empty when nobody does.
         by: who asks, where somebody does.
+        control: of the camera that it is about, where it is about one.
     """
 
     number: int
@@ -63,6 +65,7 @@ class Alarm:
     worst_site: Site | None = None
     acknowledged_by: str = ""
     by: str = ""
+    control: CameraControl | None = None
 
     @property
     def priority(self) -> Priority:

@@ -3,6 +3,7 @@
 import pytest
 
 from tests.tracker.navigation.alarms.theatre_of_alarms import Stream, good
+from tracker.camera import CameraControl, ControlChange
 from tracker.errors import InvalidInput
 from tracker.navigation.alarms import (
     NOT_KNOWN,
@@ -198,6 +199,9 @@ ALARMING: dict[Condition, dict[str, object]] = {
     Condition.POSE_JUMPED: {"pose_steady": False},
     Condition.CAMERA_MOVED: {"camera_in_place": False},
     Condition.REFERENCE_MOVED: {"reference_in_place": False},
+    Condition.CAMERA_CHANGED: {
+        "camera_change": ControlChange(control=CameraControl.FOCUS, calibrated=120, now=135)
+    },
     Condition.REGISTRATION_OUT_OF_DATE: {"registration_current": False},
     Condition.CALIBRATION_OUT_OF_DATE: {"calibration_current": False},
     Condition.CHECK_DUE: {"check_age_s": 1801.0},

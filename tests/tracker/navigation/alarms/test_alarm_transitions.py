@@ -90,7 +90,7 @@ def test_every_condition_has_its_priority_of_the_table() -> None:
     }
     assert by_priority[Priority.HIGH] == {
         *(Condition.BREACH, Condition.PAST_DEPTH, Condition.CAMERA_MOVED, Condition.REFERENCE_MOVED),
-        *(Condition.REGISTRATION_OUT_OF_DATE, Condition.CALIBRATION_OUT_OF_DATE),
+        *(Condition.REGISTRATION_OUT_OF_DATE, Condition.CALIBRATION_OUT_OF_DATE, Condition.CAMERA_CHANGED),
     }
     assert by_priority[Priority.LOW] == {
         *(Condition.CHECK_DUE, Condition.NO_ARMED_SCREEN, Condition.DISK_NEARLY_FULL),

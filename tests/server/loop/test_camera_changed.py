@@ -1,0 +1,124 @@
+"""A camera whose lens moved: no millimetre any more, the reason in words, and an alarm by its name."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from structlog.testing import capture_logs
+
+from server.alarms import AlarmDesk
+from server.capture.shot import Shot
+from server.config import Config, RehearsalConfig
+from server.live import ProcessState, ProcessStatus, SourceState, SourceStatus
+from server.loop.tracking import Tracking
+from server.setup import CaseSetup, Preparation, build_setup
+from server.texts import alarm_text, headline_of
+from tracker.camera import CameraControl
+from tracker.navigation import Absent, AbsentReason, Deviation, NavigationSnapshot
+from tracker.navigation.alarms import AlarmPicture, Condition, Priority
+
+RUNS = SourceStatus(name="camera 0", state=SourceState.RUNNING)
+WORKS = ProcessStatus(state=ProcessState.RUNNING)
+FOCUS, AUTOFOCUS, GAIN = CameraControl.FOCUS, CameraControl.AUTOFOCUS, CameraControl.GAIN
+CALIBRATED = {FOCUS: 120, AUTOFOCUS: 0, GAIN: 20}
+PERIOD_S = 1 / 30
+
+
+@lru_cache(maxsize=1)
+def prepared() -> tuple[Preparation, np.ndarray]:
+    preparation = build_setup(Config(rehearsal=RehearsalConfig(width=640, height=360)))
+    assert preparation.theatre is not None
+    return preparation, preparation.theatre.renderer().image_at(0.0)
+
+
+class Theatre:
+    """Images of the rehearsal's drill, from a camera whose controls the test sets."""
+
+    def __init__(self, calibrated: Mapping[CameraControl, int]) -> None:
+        preparation, self._image = prepared()
+        self.tracking = Tracking(replace(preparation, camera_controls=calibrated))
+        self.now_s = 100.0
+        self._number = 0
+        self._desk = AlarmDesk(Config(), clock=lambda: self.now_s)
+
+    def show(self, controls: Mapping[CameraControl, int]) -> tuple[NavigationSnapshot, AlarmPicture]:
+        self._number += 1
+        self.now_s += PERIOD_S
+        self._desk.screen_said("theatre", armed=True)
+        shot = Shot(
+            image=self._image, number=self._number, captured_at_s=self.now_s, source_time_s=self.now_s
+        )
+        snapshot = self.tracking.conclude(shot, skipped_images=0, controls=controls)
+        return snapshot, self._desk.look(snapshot, RUNS, WORKS)
+
+
+def test_a_lens_that_moved_takes_the_numbers_and_alarms_by_its_name_until_it_is_set_back() -> None:
+    theatre = Theatre(CALIBRATED)
+    snapshot, alarms = theatre.show(CALIBRATED)
+    assert isinstance(snapshot.deviations["drill"], Deviation)
+    assert alarms.alarms == ()
+    with capture_logs() as logs:
+        for _ in range(3):
+            snapshot, alarms = theatre.show({**CALIBRATED, FOCUS: 135})
+    assert snapshot.deviations["drill"] == Absent(reason=AbsentReason.CAMERA_CHANGED)
+    assert headline_of(snapshot, alarms).title["en"] == "CAMERA CHANGED"
+    top = alarms.alarms[0]
+    assert (top.condition, top.priority) == (Condition.CAMERA_CHANGED, Priority.HIGH)
+    words = alarm_text(top, unix_offset_s=0.0)
+    assert words.sentence["en"] == "Focus changed from 120 to 135 since the calibration."
+    assert words.sentence["de"] == "Fokus seit der Kalibrierung von 120 auf 135 verstellt."
+    assert words.remedy["en"]
+    trouble = theatre.tracking.trouble
+    assert trouble is not None
+    assert trouble.code == "CAMERA_CHANGED"
+    assert "from 120 to 135" in trouble.message
+    assert "back to 120" in trouble.remedy
+    assert [line["code"] for line in logs if line["log_level"] == "warning"] == ["CAMERA_CHANGED"]
+    for _ in range(60):
+        snapshot, alarms = theatre.show(CALIBRATED)
+    assert isinstance(snapshot.deviations["drill"], Deviation)
+    assert alarms.alarms == ()
+    assert theatre.tracking.trouble is None
+
+
+@pytest.mark.parametrize(
+    ("calibrated", "now"),
+    [
+        pytest.param({}, {**CALIBRATED, FOCUS: 135}, id="the calibration has none"),
+        pytest.param(CALIBRATED, {}, id="the camera tells none"),
+        pytest.param(CALIBRATED, {**CALIBRATED, GAIN: 90}, id="brightness alone"),
+    ],
+)
+def test_what_is_not_known_or_voids_nothing_alarms_nobody(
+    calibrated: Mapping[CameraControl, int], now: Mapping[CameraControl, int]
+) -> None:
+    theatre = Theatre(calibrated)
+    for _ in range(3):
+        snapshot, alarms = theatre.show(now)
+    assert isinstance(snapshot.deviations["drill"], Deviation)
+    assert alarms.alarms == ()
+    assert theatre.tracking.trouble is None
+
+
+def test_without_a_calibration_no_control_counts() -> None:
+    preparation, image = prepared()
+    tracking = Tracking(replace(preparation, camera=None, camera_controls=CALIBRATED))
+    shot = Shot(image=image, number=0, captured_at_s=1.0, source_time_s=1.0)
+    snapshot = tracking.conclude(shot, skipped_images=0, controls={**CALIBRATED, FOCUS: 135})
+    assert snapshot.watched.camera_changes == ()
+    assert tracking.trouble is None
+
+
+def test_the_calibration_of_a_case_brings_its_own_controls() -> None:
+    preparation, _ = prepared()
+    of_settings = replace(preparation, camera_controls=CALIBRATED)
+    assert of_settings.with_case(CaseSetup()).camera_controls == CALIBRATED
+    of_case = CaseSetup(camera=preparation.camera, camera_controls={FOCUS: 45})
+    assert of_settings.with_case(of_case).camera_controls == {FOCUS: 45}
+    # A calibration of the case without controls is not held against those of the settings' one.
+    assert of_settings.with_case(CaseSetup(camera=preparation.camera)).camera_controls == {}
+    calibrated = of_settings.with_case(of_case).calibrated_camera
+    assert calibrated is not None
+    assert calibrated.controls == {FOCUS: 45}
