@@ -77,6 +77,9 @@ class CameraConfig(Section):
     height: Annotated[int, Field(ge=16, le=4320)] | None = None
     rate_hz: Annotated[float, Field(gt=0.0, le=1000.0)] | None = None
     """Asked of a local camera; the rate of a folder, and of a file that has none (30 if left out)."""
+    same_sensor_area: bool = False
+    """Images of all sizes with one ratio of width to height show the same area of the sensor, so that a
+    calibration may be scaled."""
     lock_controls: bool = True
     """Of a local camera: automatic focus is switched off at the start, and focus, zoom, pan and tilt are set
     to what they were at the calibration."""

@@ -116,6 +116,7 @@ class Preparation:
         registered_from_s: see `CaseSetup`.
         guide: what is known of the pedicle besides its channel; None takes the channel alone.
         camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
+        same_sensor_area: images of all sizes show the same area of the sensor, as the settings say.
     """
 
     camera: CameraModel | None
@@ -134,6 +135,7 @@ class Preparation:
     guide: Guide | None = None
     limits: DrillLimits = field(default_factory=DrillLimits)
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
+    same_sensor_area: bool = False
 
     def guide_along(self, channel: Channel) -> Guide:
         """What a drill in this channel is held against: the case's bone, the rehearsal's, or the channel."""
@@ -174,17 +176,8 @@ class Preparation:
         """
         if self.camera is None:
             return self.uncalibrated_setup_for(size_wh_px)
-        if self.camera.size_wh_px != tuple(size_wh_px):
-            (width, height), (width_file, height_file) = size_wh_px, self.camera.size_wh_px
-            raise CalibrationError(
-                "CAMERA_SIZE_MISMATCH",
-                f"{'images are' if image is None else f'{image} is'} {width}x{height} px, but the camera was "
-                f"calibrated at {width_file}x{height_file} px",
-                ("" if image is None else "Leave the image out if another camera took it. ")
-                + "Set the camera to the calibrated size, or calibrate it at this one; nothing is scaled.",
-                {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_file, height_file]},
-            )
-        return self._setup(self.camera, calibrated=True)
+        camera = camera_for_size(self.camera, size_wh_px, same_sensor_area=self.same_sensor_area, image=image)
+        return self._setup(camera, calibrated=True)
 
     def uncalibrated_setup_for(self, size_wh_px: tuple[int, int]) -> Setup:
         """A setup that finds and labels markers, and claims no millimetre."""
@@ -266,6 +259,7 @@ def build_setup(config: Config) -> Preparation:
     bare = Preparation(
         camera=None if camera is None else camera.model,
         camera_controls={} if camera is None else camera.controls,
+        same_sensor_area=config.camera.same_sensor_area,
         models=models,
         tools=tools,
         channel=Absent(reason=AbsentReason.NO_PLAN),
@@ -307,6 +301,42 @@ def _rehearsed_guide(theatre: "Theatre") -> Guide:
     """The bone of a theatre in software: known exactly, and worth a second of work once."""
     chosen = choose_wall(theatre.channels[0], theatre.surface, None, radius_mm=theatre.tool.radius_mm)
     return Guide(wall=chosen.wall)
+
+
+def camera_for_size(
+    camera: CameraModel, size_wh_px: tuple[int, int], *, same_sensor_area: bool, image: str | None = None
+) -> CameraModel:
+    """The calibrated camera for images of this size: as it is, or scaled where that is known to be exact.
+
+    Args:
+        camera: as it was calibrated.
+        size_wh_px: of the images.
+        same_sensor_area: somebody said that images of all sizes show the same area of the sensor.
+        image: which one has that size, if that can be told.
+
+    Raises:
+        CalibrationError: CAMERA_SIZE_MISMATCH.
+    """
+    if camera.size_wh_px == tuple(size_wh_px):
+        return camera
+    has_aspect = camera.has_aspect_of(size_wh_px)
+    if same_sensor_area and has_aspect:
+        return camera.scaled_to(size_wh_px)
+    (width, height), (width_file, height_file) = size_wh_px, camera.size_wh_px
+    raise CalibrationError(
+        "CAMERA_SIZE_MISMATCH",
+        f"{'images are' if image is None else f'{image} is'} {width}x{height} px, but the camera was "
+        f"calibrated at {width_file}x{height_file} px",
+        ("" if image is None else "Leave the image out if another camera took it. ")
+        + f"Set the camera to {width_file}x{height_file} px, or calibrate it at {width}x{height} px. "
+        + (
+            "If both sizes show the same scene to its very edges, say so with camera.same_sensor_area, and "
+            "the calibration is scaled."
+            if has_aspect
+            else "To another ratio of width to height it is never scaled: another area is seen."
+        ),
+        {"image_size_wh_px": [width, height], "calibrated_size_wh_px": [width_file, height_file]},
+    )
 
 
 def nominal_camera(size_wh_px: tuple[int, int]) -> CameraModel:

@@ -12,6 +12,7 @@ from server.live import LiveHub
 from server.procedure.board_collection import BoardCollection, TakenView
 from server.procedure.held import Held
 from server.procedure.opened import opened_case
+from server.setup import camera_for_size
 from server.store import Case, CaseStore, Document, DocumentKind, Standing
 from tracker.camera import Board, CameraControl, CameraModel
 from tracker.camera.accuracy import accuracy_of_grid
@@ -33,16 +34,25 @@ class CameraStep:
         jobs: where it is computed.
         gate: what calibration and accuracy check must reach.
         source: the camera's source in words, kept with the result.
+        same_sensor_area: images of all sizes show the same area of the sensor.
     """
 
     def __init__(
-        self, *, hub: LiveHub, store: CaseStore, jobs: Jobs, gate: CalibrationConfig, source: str
+        self,
+        *,
+        hub: LiveHub,
+        store: CaseStore,
+        jobs: Jobs,
+        gate: CalibrationConfig,
+        source: str,
+        same_sensor_area: bool = False,
     ) -> None:
         self._hub = hub
         self._store = store
         self._jobs = jobs
         self._gate = gate
         self._source = source
+        self._same_sensor_area = same_sensor_area
         self._held: Held[BoardCollection] = Held(
             "views of a calibration board are",
             remedy="Start collecting, and say what board it is.",
@@ -105,11 +115,11 @@ class CameraStep:
             OutOfDateError: DOCUMENT_MISSING or DOCUMENT_OUT_OF_DATE, the camera has to be calibrated first.
             CaptureError: NO_PICTURE.
             InvalidInput: BOARD_NOT_FOUND, or as `accuracy_of_grid`.
-            CalibrationError: ACCURACY_PLANE_UNKNOWN.
+            CalibrationError: ACCURACY_PLANE_UNKNOWN, CAMERA_SIZE_MISMATCH.
         """
         case = opened_case(self._store)
         document = self._store.current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
-        camera = kept_camera(document, source=self._source).model
+        calibrated = kept_camera(document, source=self._source).model
         newest = self._hub.newest
         if newest is None or newest.image is None:
             raise CaptureError(
@@ -117,6 +127,8 @@ class CameraStep:
                 "there is no picture to measure in",
                 "Wait until the video runs, with the board in it, and try again.",
             )
+        height, width = newest.image.shape[:2]
+        camera = camera_for_size(calibrated, (width, height), same_sensor_area=self._same_sensor_area)
         seen = find_board(newest.image, board)
         if isinstance(seen, BoardNotFound):
             raise InvalidInput(

@@ -154,7 +154,14 @@ def _registration(
 
 
 def _camera_step(hub: LiveHub, store: CaseStore, jobs: Jobs, config: Config, brought: Brought) -> CameraStep:
-    return CameraStep(hub=hub, store=store, jobs=jobs, gate=config.calibration, source=brought.source)
+    return CameraStep(
+        hub=hub,
+        store=store,
+        jobs=jobs,
+        gate=config.calibration,
+        source=brought.source,
+        same_sensor_area=config.camera.same_sensor_area,
+    )
 
 
 def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:

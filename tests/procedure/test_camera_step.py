@@ -86,6 +86,11 @@ def check_accuracy(server: Server, image: np.ndarray) -> None:
     assert server.ask("POST", "/api/camera/accuracy", 503, json=asked)["code"] == "NO_PICTURE"
     server.show(at_s=0.0, image=np.full_like(image, 90))
     assert server.ask("POST", "/api/camera/accuracy", 422, json=asked)["code"] == "BOARD_NOT_FOUND"
+    other = cv2.resize(image, (480, 270))
+    server.show(at_s=0.5, image=other)
+    refused = server.ask("POST", "/api/camera/accuracy", 409, json=asked)
+    assert refused["code"] == "CAMERA_SIZE_MISMATCH"
+    assert "480x270" in refused["message"]
     server.show(at_s=1.0, image=image)
     check = server.ask("POST", "/api/camera/accuracy", 201, json=asked)["content"]
     assert check["passed"]

@@ -1,6 +1,7 @@
 """Marker pictures, camera files, and the setup made from them."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -160,6 +161,26 @@ def test_a_camera_file_for_another_size_is_refused_with_both_sizes(tmp_path: Pat
     assert "640x360" in caught.value.message
     assert "64x48" in caught.value.message
     assert not preparation.uncalibrated_setup_for((640, 360)).camera_calibrated
+
+
+def test_a_calibration_is_scaled_only_where_somebody_says_that_it_may_be(tmp_path: Path) -> None:
+    plain = build_setup(config(tmp_path, calibrated=True))
+    with pytest.raises(CalibrationError) as caught:
+        plain.setup_for((128, 96))
+    assert "128x96" in caught.value.message
+    assert "64x48" in caught.value.message
+    assert "camera.same_sensor_area" in caught.value.remedy
+    stated = replace(plain, same_sensor_area=True)
+    setup = stated.setup_for((128, 96))
+    assert setup.camera_calibrated
+    assert setup.camera.size_wh_px == (128, 96)
+    assert setup.camera.matrix[0, 0] == 1000.0
+    # Of another shape it never is, and the remedy does not say that it could be.
+    with pytest.raises(CalibrationError) as caught:
+        stated.setup_for((128, 72))
+    assert caught.value.code == "CAMERA_SIZE_MISMATCH"
+    assert "same_sensor_area" not in caught.value.remedy
+    assert "never scaled" in caught.value.remedy
 
 
 def prepared(tmp_path: Path) -> Preparation:

@@ -90,6 +90,34 @@ class CameraModel:
             ) from error
         return cls(matrix=matrix, distortion=distortion, size_wh_px=(width, height))
 
+    def has_aspect_of(self, size_wh_px: tuple[int, int]) -> bool:
+        """Whether images of this size have exactly the calibrated ratio of width to height."""
+        return self.size_wh_px[0] * size_wh_px[1] == self.size_wh_px[1] * size_wh_px[0]
+
+    def scaled_to(self, size_wh_px: tuple[int, int]) -> "CameraModel":
+        """The same camera with images of another size that show the same area of its sensor.
+
+        Exact for pixels that are joined or split evenly: their edges coincide, so centres (integers here)
+        move by half a pixel's difference. The lens stays: its coefficients are of normalised coordinates.
+
+        Raises:
+            InvalidInput: CAMERA_ASPECT_DIFFERS, width and height would be scaled differently.
+        """
+        (width, height), (width_before, height_before) = size_wh_px, self.size_wh_px
+        if not self.has_aspect_of(size_wh_px):
+            raise InvalidInput(
+                "CAMERA_ASPECT_DIFFERS",
+                f"a camera of {width_before}x{height_before} px cannot be scaled to {width}x{height} px, "
+                "which has another ratio of width to height",
+                "Calibrate the camera at that size.",
+                {"size_wh_px": [width, height], "calibrated_size_wh_px": [width_before, height_before]},
+            )
+        scale = width / width_before
+        matrix = self.matrix.copy()
+        matrix[:2] *= scale
+        matrix[:2, 2] += (scale - 1.0) / 2.0
+        return CameraModel(matrix=matrix, distortion=self.distortion, size_wh_px=size_wh_px)
+
     def px_from_camera(self, points_mm: npt.ArrayLike) -> Array:
         """Pixels (n, 2) of points (n, 3) in mm of the camera frame; points must be in front (z > 0)."""
         points = np.asarray(points_mm, dtype=np.float64).reshape(-1, 1, 3)

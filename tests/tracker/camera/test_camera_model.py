@@ -178,3 +178,36 @@ def test_a_camera_from_another_process_is_as_read_only_as_before() -> None:
     for name in ("matrix", "distortion", "lens"):
         np.testing.assert_array_equal(getattr(arrived, name), getattr(camera, name))
         assert not getattr(arrived, name).flags.writeable, name
+
+
+def spot(size_wh_px: tuple[int, int], centre_px: np.ndarray) -> np.ndarray:
+    """A bright Gaussian spot."""
+    columns, rows = np.meshgrid(np.arange(size_wh_px[0]), np.arange(size_wh_px[1]))
+    return np.asarray(np.exp(-((columns - centre_px[0]) ** 2 + (rows - centre_px[1]) ** 2) / (2 * 6.0**2)))
+
+
+def centroid_px(image: np.ndarray) -> np.ndarray:
+    columns, rows = np.meshgrid(np.arange(image.shape[1]), np.arange(image.shape[0]))
+    return np.asarray([(columns * image).sum(), (rows * image).sum()]) / float(image.sum())
+
+
+def test_a_scaled_camera_sees_a_point_where_joined_pixels_show_it() -> None:
+    camera = camera_of((640, 480), distortion=[-0.2, 0.05, 0.001, -0.002, 0.0])
+    point_mm = np.array([[60.0, -40.0, 500.0]])
+    whole = spot((640, 480), camera.px_from_camera(point_mm)[0])
+    for size_wh_px in ((320, 240), (160, 120)):
+        joined = cv2.resize(whole, size_wh_px, interpolation=cv2.INTER_AREA)
+        seen_px = camera.scaled_to(size_wh_px).px_from_camera(point_mm)[0]
+        np.testing.assert_allclose(seen_px, centroid_px(joined), atol=0.01)
+    back = camera.scaled_to((320, 240)).scaled_to((640, 480))
+    np.testing.assert_allclose(back.matrix, camera.matrix)
+
+
+@pytest.mark.parametrize("size_wh_px", [(640, 479), (480, 640), (1280, 720)])
+def test_a_camera_is_not_scaled_to_another_shape(size_wh_px: tuple[int, int]) -> None:
+    camera = camera_of((640, 480))
+    assert not camera.has_aspect_of(size_wh_px)
+    with pytest.raises(InvalidInput) as caught:
+        camera.scaled_to(size_wh_px)
+    assert caught.value.code == "CAMERA_ASPECT_DIFFERS"
+    assert "640x480" in caught.value.message
