@@ -28,14 +28,21 @@ FLAGS = (
 )
 
 
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    """The system's Chromium; `COAXIAL_CHROMIUM` names another one."""
+def chromium_path() -> str:
+    """The one that `COAXIAL_CHROMIUM` names, or the first on the path."""
     named = os.environ.get("COAXIAL_CHROMIUM")
     path = named or next(filter(None, map(shutil.which, BROWSERS)), None)
     assert path, f"no browser: set COAXIAL_CHROMIUM, or install one of {', '.join(BROWSERS)}"
+    return path
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """The system's Chromium; `COAXIAL_CHROMIUM` names another one."""
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, headless=True, args=list(FLAGS))
+        chromium = playwright.chromium.launch(
+            executable_path=chromium_path(), headless=True, args=list(FLAGS)
+        )
         yield chromium
         chromium.close()
 

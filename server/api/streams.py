@@ -20,7 +20,9 @@ instants (gaps in `sequence`); one that takes nothing for 2 s is cut off. The cl
 length of the header (unsigned, little endian), the header (a `LiveMessage` as JSON), and the JPEG of that
 same instant, empty when there is no image. Then it may ask again: one image is on the way at a time. The
 size is full, half or quarter, or auto for the one that the line carries; `{"size": "half"}` changes it while
-the line stands, and `shown_scale_ratio` in the header says in which one the picture came.
+the line stands, and `shown_scale_ratio` in the header says in which one the picture came. A client may say
+how long it needed to show an image, `{"next": true, "showing_ms": 12}`, so that this does not count against
+its line, and that it cannot show a larger one, `{"largest": "half"}`.
 
 Both are open to pages of this server and to programs that send no Origin. A client that sends anything else
 is closed with code 1008 or 1009 and the reason in words; one that is too many (`video.most_viewers`, eight of

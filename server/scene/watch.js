@@ -22,7 +22,12 @@
   const tell = () => {
     if (window.parent === window) return;
     window.parent.postMessage(
-      { kind: "coaxial-scene", image_number: drawn, connected: connected && !contextLost },
+      {
+        kind: "coaxial-scene",
+        image_number: drawn,
+        connected: connected && !contextLost,
+        drawn_by_processor: drawnByProcessor,
+      },
       location.origin,
     );
   };
@@ -32,7 +37,7 @@
   document.hasFocus = () => true;
 
   // Without a graphics card the processor draws the scene, which then takes a whole core from the video and
-  // the tracker if it may. A dozen pictures a second are enough for it.
+  // the tracker if it may.
   const drawnByProcessor = (() => {
     const gl = document.createElement("canvas").getContext("webgl");
     const names = gl && gl.getExtension("WEBGL_debug_renderer_info");
@@ -42,29 +47,49 @@
     return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
   })();
   if (drawnByProcessor) {
-    const leastMs = 80;
-    const ownRequest = window.requestAnimationFrame.bind(window);
-    let due = new Map();
-    let handle = 0;
-    let lastAt = -Infinity;
-    const tick = (at) => {
-      if (at - lastAt < leastMs) {
-        ownRequest(tick);
-        return;
-      }
-      lastAt = at;
-      const now = due;
-      due = new Map();
-      for (const callback of now.values()) callback(at);
+    // Four samples a pixel and a copy of each image cost the processor more than they show.
+    const ownContext = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, options) {
+      const cheaper = { antialias: false, preserveDrawingBuffer: false };
+      return ownContext.call(this, kind, kind.startsWith("webgl") ? { ...options, ...cheaper } : options);
     };
-    window.requestAnimationFrame = (callback) => {
-      if (due.size === 0) ownRequest(tick);
-      handle += 1;
-      due.set(handle, callback);
-      return handle;
-    };
-    window.cancelAnimationFrame = (which) => due.delete(which);
   }
+
+  // No more images a second than the page around it allows; until it has spoken, a few where the processor
+  // draws them. viser draws on demand, in frames that it asks for here.
+  const slackMs = 4;
+  let minIntervalMs = drawnByProcessor ? Math.min(200, 0.4 * staleAfterMs) : 0;
+  const ownRequest = window.requestAnimationFrame.bind(window);
+  let due = new Map();
+  let handle = 0;
+  let lastAt = -Infinity;
+  let waiting = false;
+  const drawDue = (at) => {
+    lastAt = at;
+    waiting = false;
+    const callbacks = due;
+    due = new Map();
+    for (const callback of callbacks.values()) callback(at);
+  };
+  const wait = () => {
+    if (waiting) return;
+    waiting = true;
+    const restMs = minIntervalMs - (now() - lastAt) - slackMs;
+    if (restMs > 0) setTimeout(() => ownRequest(drawDue), restMs);
+    else ownRequest(drawDue);
+  };
+  window.requestAnimationFrame = (callback) => {
+    handle += 1;
+    due.set(handle, callback);
+    wait();
+    return handle;
+  };
+  window.cancelAnimationFrame = (which) => due.delete(which);
+  addEventListener("message", (event) => {
+    if (event.origin !== location.origin || !event.data || event.data.kind !== "coaxial-rate") return;
+    const wanted = Number(event.data.min_interval_ms);
+    if (wanted >= 0 && wanted <= staleAfterMs) minIntervalMs = wanted;
+  });
 
   // viser's WebSocket lives in a worker, whose messages tell how the line is. Every second without a line viser
   // tries anew and gives up the attempt before: a server that is just starting would never be reached.

@@ -7,12 +7,15 @@ The client sends `{"next": true}` and gets one binary message:
     the rest   the JPEG of that same instant; empty when there is no image
 
 Then it may ask again. So one image is on the way at a time, and a thin line carries fewer images instead of
-older ones. A second `{"next": true}` before the answer changes nothing. `{"size": "half"}` asks for another
-size from the next image on: full, half, quarter, or auto for the one that the line carries.
+older ones. A second `{"next": true}` before the answer changes nothing. `{"next": true, "showing_ms": 12}`
+also says how long the client needed to show the last image: that time does not count against its line.
+`{"size": "half"}` asks for another size from the next image on: full, half, quarter, or auto for the one that
+the line carries. `{"largest": "half"}`: with auto, send none larger, because the client cannot show it.
 """
 
 import asyncio
 import json
+import math
 import struct
 import time
 from dataclasses import dataclass
@@ -24,14 +27,16 @@ from server.security import person_of
 from server.stream.connection import line_of
 from server.stream.errors import TooManyViewers
 from server.stream.fitting.pictures import Pictures
-from server.stream.fitting.sizes import Choice
+from server.stream.fitting.sizes import Choice, Size
 from server.stream.fitting.texts import Texts
 from server.stream.socket import REFUSED, Misbehaviour, converse, turn_away
 from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 HEADER_LENGTH = struct.Struct("<I")
 GRANT = {"next": True}
-UNDERSTOOD = 'only {"next": true} and {"size": "auto" | "full" | "half" | "quarter"} are understood'
+UNDERSTOOD = (
+    'only {"next": true, "showing_ms"?: 0 or more}, {"size": ...} and {"largest": ...} are understood'
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,12 +61,14 @@ class Granting:
     Attributes:
         granted: whether the next image may be sent.
         at_s: when that was said last; monotonic.
+        showing_s: how long the client says that it needed to show the last image.
     """
 
     def __init__(self, viewer: Viewer) -> None:
         self._viewer = viewer
         self.granted = asyncio.Event()
         self.at_s = 0.0
+        self.showing_s = 0.0
 
     def hear(self, text: str) -> None:
         """One message of the client.
@@ -73,13 +80,32 @@ class Granting:
             said = json.loads(text)
         except (ValueError, RecursionError):
             said = None
-        if said == GRANT:
-            self.at_s = time.monotonic()
-            self.granted.set()
-        elif isinstance(said, dict) and list(said) == ["size"] and said["size"] in list(Choice):
+        if not isinstance(said, dict):
+            raise Misbehaviour(REFUSED, UNDERSTOOD)
+        if list(said) == ["size"] and said["size"] in list(Choice):
             self._viewer.pace.choose(Choice(said["size"]))
+        elif list(said) == ["largest"] and said["largest"] in list(Size):
+            self._viewer.pace.limit(Size(said["largest"]))
+        elif said.pop("next", None) is True and (showing_ms := _showing_ms(said)) is not None:
+            self.at_s, self.showing_s = time.monotonic(), showing_ms / 1000.0
+            self.granted.set()
         else:
             raise Misbehaviour(REFUSED, UNDERSTOOD)
+
+    def line_free_at_s(self, *, drained_at_s: float) -> float:
+        """When the line had carried the last image; monotonic.
+
+        That is before the client began to show it, and not before its last byte had left this machine.
+        """
+        return min(self.at_s, max(drained_at_s, self.at_s - self.showing_s))
+
+
+def _showing_ms(rest: dict[str, object]) -> float | None:
+    """How long the client says that it needed, 0 where it says nothing; None for what is not understood."""
+    showing_ms = rest.pop("showing_ms", 0.0)
+    if rest or isinstance(showing_ms, bool) or not isinstance(showing_ms, int | float):
+        return None
+    return float(showing_ms) if math.isfinite(showing_ms) and showing_ms >= 0.0 else None
 
 
 async def view_message(view: View, instant: Instant, viewer: Viewer) -> bytes:
@@ -108,18 +134,21 @@ async def _show(websocket: WebSocket, view: View, viewer: Viewer) -> None:
 
     async def speak() -> None:
         began_s: float | None = None
+        drained_at_s = 0.0
         while True:
             await granting.granted.wait()
             newest = view.hub.newest
             if began_s is not None and newest is not None:
-                # Until the client asks again: what it needs to show an image holds the next one up too.
+                # Until the client asks again, but for what it needed itself: that is not its line's.
                 missed = max(0, newest.sequence - viewer.sequence - 1)
-                viewer.pace.sent(began_s=began_s, ended_s=granting.at_s, missed=missed)
+                free_at_s = granting.line_free_at_s(drained_at_s=drained_at_s)
+                viewer.pace.sent(began_s=began_s, ended_s=free_at_s, missed=missed)
             instant = await view.hub.next_after(viewer.sequence)
             granting.granted.clear()
             viewer.took(instant.sequence)
             content = await view_message(view, instant, viewer)
             began_s = time.monotonic()
             await view.viewers.send(websocket.send_bytes(content), line)
+            drained_at_s = time.monotonic()
 
     await converse(websocket, view.viewers, speak=speak, hear=granting.hear)

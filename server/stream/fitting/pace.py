@@ -28,6 +28,7 @@ class Pace:
     def __init__(self, choice: Choice = Choice.AUTO) -> None:
         self._choice = choice
         self._carried = Size.FULL
+        self._largest = Size.FULL
         self._wait_s = WAIT_S
         self._up_from_s = -float("inf")
         self._raised_at_s = -float("inf")
@@ -42,7 +43,11 @@ class Pace:
     @property
     def size(self) -> Size:
         """In which size its next picture goes out."""
-        return self._choice.fixed or self._carried
+        return self._choice.fixed or self._carried.at_most(self._largest)
+
+    def limit(self, largest: Size) -> None:
+        """With auto, send nothing larger: the viewer cannot show more, however much its line carries."""
+        self._largest = largest
 
     def choose(self, choice: Choice) -> None:
         """Take what the viewer asks for; with auto, begin with the size that it had."""

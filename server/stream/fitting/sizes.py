@@ -23,6 +23,10 @@ class Size(StrEnum):
         """The next step down; the smallest stays."""
         return {Size.FULL: Size.HALF}.get(self, Size.QUARTER)
 
+    def at_most(self, limit: "Size") -> "Size":
+        """This size, or the limit where that is smaller."""
+        return min(self, limit, key=lambda size: size.scale_ratio)
+
     @property
     def larger(self) -> "Size":
         """The next step up; the largest stays."""

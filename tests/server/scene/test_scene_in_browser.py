@@ -98,7 +98,7 @@ def test_the_drill_is_seen_told_about_and_hidden(browser: Browser, theatre: Thea
     numbers = [m["image_number"] for m in messages if m["image_number"] is not None]
     assert numbers == sorted(numbers)
     assert numbers[0] >= 99_990
-    assert set(messages[0]) == {"kind", "image_number", "connected"}
+    assert set(messages[0]) == {"kind", "image_number", "connected", "drawn_by_processor"}
     assert {m["kind"] for m in messages} == {"coaxial-scene"}
 
 

@@ -99,3 +99,15 @@ def test_what_was_chosen_stays_whatever_the_line_does() -> None:
 def test_an_unknown_size_is_refused_with_the_known_ones() -> None:
     with pytest.raises(SizeUnknown, match="no size 'tiny', only auto, full, half, quarter"):
         choice_from_text("tiny")
+
+
+def test_a_viewer_that_cannot_show_more_gets_no_more_and_less_on_a_thin_line() -> None:
+    line = Thin(Pace())
+    line.pace.limit(Size.HALF)
+    line.carry(bytes_per_s=1e8, seconds=2.0)
+    sizes = [line.pace.size]
+    line.carry(bytes_per_s=1e6 / 8, seconds=10.0)
+    sizes.append(line.pace.size)
+    # What was asked for by name comes.
+    line.pace.choose(Choice.FULL)
+    assert [*sizes, line.pace.size] == [Size.HALF, Size.QUARTER, Size.FULL]

@@ -13,6 +13,8 @@ from starlette.testclient import WebSocketTestSession
 from starlette.websockets import WebSocketDisconnect
 
 from server.live import Instant, LiveHub
+from server.stream.view_socket import Granting
+from server.stream.viewers import Viewer, ViewerKind
 
 LiveInstant = Callable[..., Instant]
 OpenSocket = Callable[..., WebSocketTestSession]
@@ -73,6 +75,11 @@ def test_an_instant_without_image_comes_with_an_empty_jpeg(
         pytest.param("next", 1008, "only {", id="no-json"),
         pytest.param('{"next": false}', 1008, "only {", id="another-value"),
         pytest.param('{"next": true, "camera": "x"}', 1008, "only {", id="more-than-asked"),
+        pytest.param('{"next": true, "showing_ms": -1}', 1008, "only {", id="before-it-came"),
+        pytest.param('{"next": true, "showing_ms": "12"}', 1008, "only {", id="no-number"),
+        pytest.param('{"next": true, "showing_ms": true}', 1008, "only {", id="a-truth-value"),
+        pytest.param('{"next": true, "showing_ms": Infinity}', 1008, "only {", id="for-ever"),
+        pytest.param('{"largest": "auto"}', 1008, "only {", id="largest-of-all"),
         pytest.param('{"size": "tiny"}', 1008, "only {", id="unknown-size"),
         pytest.param('{"size": ["full"]}', 1008, "only {", id="sizes"),
         pytest.param("[" * 1000, 1008, "only {", id="deep"),
@@ -110,6 +117,37 @@ def test_the_size_is_asked_for_at_the_door_and_changed_on_the_way(
             shown.append((header["shown_scale_ratio"], decoded.shape[1], header["snapshot"]["width_px"]))
     # The pixels in the message are always those of the camera's image.
     assert shown == [(0.5, 80, 160), (0.25, 40, 160), (1.0, 160, 160), (1.0, 160, 160)]
+
+
+def test_a_client_gets_none_larger_than_it_can_show_and_none_smaller_for_being_slow(
+    open_socket: OpenSocket, hub: LiveHub, live_instant: LiveInstant
+) -> None:
+    with open_socket("/ws/view") as socket:
+        shown = []
+        for sequence, said in enumerate((None, "half", "full")):
+            if said is not None:
+                socket.send_text(json.dumps({"largest": said}))
+            hub.publish(live_instant(sequence))
+            socket.send_text('{"next": true, "showing_ms": 900}')
+            shown.append(unpacked(socket.receive_bytes())[0]["shown_scale_ratio"])
+    assert shown == [1.0, 0.5, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("showing_s", "drained_at_s", "free_at_s"),
+    [
+        pytest.param(0.0, 10.0, 10.5, id="says-nothing"),
+        pytest.param(0.3, 10.0, 10.2, id="busy-itself"),
+        pytest.param(9.0, 10.1, 10.1, id="claims-more-than-there-was"),
+        pytest.param(0.3, 11.0, 10.5, id="granted-before-it-was-noted"),
+    ],
+)
+def test_what_the_client_needed_itself_is_not_the_lines(
+    showing_s: float, drained_at_s: float, free_at_s: float
+) -> None:
+    granting = Granting(Viewer(ViewerKind.VIEW))
+    granting.at_s, granting.showing_s = 10.5, showing_s
+    assert granting.line_free_at_s(drained_at_s=drained_at_s) == pytest.approx(free_at_s)
 
 
 def test_a_flood_of_questions_ends_with_a_reason(open_socket: OpenSocket) -> None:

@@ -1,5 +1,6 @@
-// What this viewer's line carries: how many images a second come, in which size, and whether that is little.
+// What this viewer gets: how many images a second, in which size, and what is slow where that is little.
 // Pure: times go in as numbers.
+import { drawingWithScreenMs, type Timings } from "./timings";
 
 export const PICTURE_CHOICES = ["auto", "full", "half", "quarter"] as const;
 export type PictureChoice = (typeof PICTURE_CHOICES)[number];
@@ -12,44 +13,49 @@ export interface Carried {
   scaleRatio: number;
   imagesPerS: number;
   /** Why less comes than the camera gives, where it does. */
-  little: "thin" | "slow" | "reduced" | null;
+  little: SlowPart | "reduced" | null;
+}
+
+/** What holds the images up. */
+export type SlowPart = "thin" | "server" | "decoding" | "drawing";
+
+/** What this device allows, and where it stands. */
+export interface Device {
+  largestPicture: "full" | "half";
+  sharesMachine: boolean;
 }
 
 const WINDOW_MS = 3000;
 /** Of the camera's rate: below the first something is said, above the second no more. */
 const FEW_RATIO = 0.5;
 const ENOUGH_RATIO = 0.7;
-/** A page that spends more of its time than this on drawing is itself what is slow. */
-const DRAWING_RATIO = 0.6;
-
-interface Arrival {
-  atMs: number;
-  drawingMs: number;
-}
+/** A page that spends more of its time than this on showing images is itself what is slow. */
+const SHOWING_RATIO = 0.5;
+/** Of the time in which nothing comes: what is less on the network is spent in the server. */
+const NETWORK_RATIO = 0.5;
 
 export class Carrying {
   choice: PictureChoice = "auto";
-  private arrivals: Arrival[] = [];
+  private arrivedAtMs: number[] = [];
   private scaleRatio = 1;
   private sizePx: [number, number] | null = null;
   private fewer = false;
 
-  /** A picture stands on the page: grabbed in this size, sent at this scale, drawn in so long. */
-  took(atMs: number, drawingMs: number, sizePx: [number, number], scaleRatio: number): void {
-    this.arrivals.push({ atMs, drawingMs });
-    this.arrivals = this.arrivals.filter((one) => atMs - one.atMs <= WINDOW_MS);
+  /** A picture stands on the page: grabbed in this size, sent at this scale. */
+  took(atMs: number, sizePx: [number, number], scaleRatio: number): void {
+    this.arrivedAtMs = [...this.arrivedAtMs.filter((one) => atMs - one <= WINDOW_MS), atMs];
     this.scaleRatio = scaleRatio;
     this.sizePx = [Math.round(sizePx[0] * scaleRatio), Math.round(sizePx[1] * scaleRatio)];
   }
 
   forget(): void {
-    this.arrivals = [];
+    this.arrivedAtMs = [];
     this.fewer = false;
   }
 
   /** At a camera that gives so many images a second; 0 where that is not known. */
-  look(nowMs: number, cameraHz: number): Carried {
-    const recent = this.arrivals.filter((one) => nowMs - one.atMs <= WINDOW_MS);
+  look(nowMs: number, cameraHz: number, timings: Timings, device: Device): Carried {
+    const recent = this.arrivedAtMs.filter((atMs) => nowMs - atMs <= WINDOW_MS);
     const imagesPerS = rateOf(recent, nowMs);
     if (imagesPerS < cameraHz * FEW_RATIO) this.fewer = recent.length > 1;
     else if (imagesPerS >= cameraHz * ENOUGH_RATIO) this.fewer = false;
@@ -59,22 +65,37 @@ export class Carrying {
       heightPx: this.sizePx?.[1] ?? null,
       scaleRatio: this.scaleRatio,
       imagesPerS,
-      little: this.little(recent, imagesPerS),
+      little: this.little(imagesPerS, timings, device),
     };
   }
 
-  private little(recent: Arrival[], imagesPerS: number): Carried["little"] {
-    const drawingMs = recent.reduce((sum, one) => sum + one.drawingMs, 0) / Math.max(recent.length, 1);
-    const isDrawing = (drawingMs * imagesPerS) / 1000 > DRAWING_RATIO;
-    if (this.fewer || (this.scaleRatio < 1 && this.choice === "auto")) return isDrawing ? "slow" : "thin";
-    return this.scaleRatio < 1 ? "reduced" : null;
+  private little(imagesPerS: number, timings: Timings, device: Device): Carried["little"] {
+    const isSmall = this.scaleRatio < 1;
+    // The server makes it smaller for its line alone; what this page has asked for is this device's doing.
+    const isOwn = isSmall && device.largestPicture === "half" && this.scaleRatio >= 0.5;
+    if (this.choice === "auto" && isSmall) return isOwn ? slowerOf(timings) : "thin";
+    if (this.fewer) return slowPart(imagesPerS, timings, device);
+    return isSmall ? "reduced" : null;
   }
 }
 
+function slowPart(imagesPerS: number, timings: Timings, { sharesMachine }: Device): SlowPart {
+  const betweenMs = 1000 / Math.max(imagesPerS, 1);
+  const showingMs = timings.decodingMs + drawingWithScreenMs(timings);
+  if (showingMs > SHOWING_RATIO * betweenMs) return slowerOf(timings);
+  const { networkMs } = timings;
+  const isQuick = networkMs !== null && networkMs < NETWORK_RATIO * (betweenMs - showingMs);
+  return sharesMachine || isQuick ? "server" : "thin";
+}
+
+function slowerOf(timings: Timings): "decoding" | "drawing" {
+  return timings.decodingMs > drawingWithScreenMs(timings) ? "decoding" : "drawing";
+}
+
 /** Images a second, counted by the gaps between them; a gap that still lasts counts too. */
-function rateOf(recent: Arrival[], nowMs: number): number {
+function rateOf(recent: number[], nowMs: number): number {
   const [first, last] = [recent[0], recent.at(-1)];
   if (first === undefined || last === undefined || recent.length < 2) return 0;
-  const gapMs = (last.atMs - first.atMs) / (recent.length - 1);
-  return 1000 / Math.max(gapMs, (nowMs - first.atMs) / recent.length, 1);
+  const gapMs = (last - first) / (recent.length - 1);
+  return 1000 / Math.max(gapMs, (nowMs - first) / recent.length, 1);
 }

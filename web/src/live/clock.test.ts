@@ -25,3 +25,12 @@ test.each([
   clock.sample(askedAtMs, answeredAtMs, 1);
   expect(clock.capturedAtMs(1000, 20, 0)).toBe(980);
 });
+
+test("the quickest of the last samples counts: a slow one is off by half of its round trip", () => {
+  const clock = new ServerClock();
+  clock.sample(1000, 1010, 101.005);
+  clock.sample(6000, 6400, 106.39);
+  expect(clock.aheadMs).toBe(100_000);
+  for (let i = 0; i < 8; i += 1) clock.sample(10_000, 10_100, 110.06);
+  expect(clock.aheadMs).toBe(100_010);
+});

@@ -61,6 +61,13 @@ test("grants one image when it opens, and no other before it is told", () => {
   expect(images).toEqual([7]);
 });
 
+test("says with a grant how long the page needed, and what it cannot show", () => {
+  newest().onopen?.();
+  line.grant(41.7);
+  line.limitSize("half");
+  expect(newest().sent.slice(1)).toEqual(['{"next":true,"showing_ms":42}', '{"largest":"half"}']);
+});
+
 test("another size is asked for on a line that stands, and only there", () => {
   line.askSize("half");
   expect(newest().sent).toEqual([]);

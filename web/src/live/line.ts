@@ -15,8 +15,6 @@ export interface LineDoors {
   onFrame(frame: ViewFrame): void;
 }
 
-const GRANT = JSON.stringify({ next: true });
-
 export class ViewLine {
   private readonly kept: KeptLine<Socket>;
 
@@ -56,9 +54,15 @@ export class ViewLine {
     this.kept.lose();
   }
 
-  /** The last image is dealt with: the server may send the newest one. */
-  grant(): void {
-    this.kept.standing?.send(GRANT);
+  /** The last image is dealt with, and the page needed so long for that: the server may send the newest one. */
+  grant(showingMs?: number): void {
+    const spent = showingMs === undefined ? {} : { showing_ms: Math.round(showingMs) };
+    this.kept.standing?.send(JSON.stringify({ next: true, ...spent }));
+  }
+
+  /** No picture larger than this from the next one on: the device cannot show more. */
+  limitSize(largest: string): void {
+    this.kept.standing?.send(JSON.stringify({ largest }));
   }
 
   /** Ask for pictures of another size, from the next one on. */

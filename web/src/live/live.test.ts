@@ -91,7 +91,7 @@ test("what was being drawn when the line was lost is not shown on the next line"
   live.setLink("lost");
   live.setLink("open");
   done(true);
-  expect(await taking).toBe(false);
+  expect(await taking).toMatchObject({ stands: false });
   expect(live.look().numbers.live).toBe(false);
 });
 
@@ -122,6 +122,22 @@ test("the true age of everything can be read, clocks compared", async () => {
   live.answered(message(), nowMs, live.currentGeneration);
   nowMs = 1100;
   expect(live.look().ages).toMatchObject({ pictureMs: 120, clockAheadMs: 99_020 });
+});
+
+test("what the page itself needs for an image is told apart from the network", async () => {
+  live.setDraw((_jpeg, _isCurrent, onDecoded) => {
+    nowMs += 30;
+    onDecoded();
+    nowMs += 10;
+    return Promise.resolve(true);
+  });
+  expect(await live.take(frame(1))).toEqual({ stands: true, showingMs: 40 });
+});
+
+test("a page that was too busy to hear counts that as its own time", async () => {
+  live.load.tick(nowMs);
+  nowMs += 250;
+  expect(await live.take(frame(1))).toMatchObject({ showingMs: 200 });
 });
 
 test("a chosen size is told at once, and the picture says which one came", async () => {

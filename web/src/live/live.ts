@@ -9,20 +9,19 @@ import {
   type Situation,
   type Taken,
 } from "./assess";
-import { Carrying, type PictureChoice } from "./carried";
+import type { PictureChoice } from "./carried";
 import { ServerClock } from "./clock";
 import { firstMessageAt } from "./firstMessage";
+import type { Draw, Shown } from "./draw";
 import type { ViewFrame } from "./frame";
 import type { LinkState } from "./line";
+import { Load } from "./load";
 import type { LiveMessage } from "./messages";
 import { ReturnHold } from "./returnHold";
 import { SceneAge, type SceneNote } from "./sceneAge";
 import { agesOf, type View } from "./view";
 
 export type { Ages, View } from "./view";
-
-/** Draws the picture of a frame; false when it cannot be drawn. */
-export type Draw = (jpeg: Uint8Array<ArrayBuffer>, isCurrent: () => boolean) => Promise<boolean>;
 
 export class Live {
   private draw: Draw = () => Promise.resolve(false);
@@ -33,7 +32,8 @@ export class Live {
   private readonly clock = new ServerClock();
   private readonly hold = new ReturnHold();
   private readonly sceneAge = new SceneAge();
-  private readonly carrying = new Carrying();
+  /** What this page can carry, and what is slow. */
+  readonly load = new Load();
   private onChoice: (choice: PictureChoice) => void = () => undefined;
   private readonly painters = new Set<(view: View) => void>();
 
@@ -68,7 +68,8 @@ export class Live {
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
       scene,
       ages: agesOf(video, numbers, scene, this.clock.aheadMs),
-      carried: this.carrying.look(nowMs, this.is.newest?.source.rate_hz ?? 0),
+      carried: this.load.look(nowMs, this.is.limits, this.is.newest?.source.rate_hz ?? 0),
+      budget: this.load.budget,
     };
     for (const painter of this.painters) painter(view);
     return view;
@@ -85,13 +86,13 @@ export class Live {
   }
 
   choosePicture(choice: PictureChoice): void {
-    this.carrying.choice = choice;
+    this.load.choice = choice;
     this.onChoice(choice);
     this.look();
   }
 
   get pictureChoice(): PictureChoice {
-    return this.carrying.choice;
+    return this.load.choice;
   }
 
   setLimits(limits: Limits): void {
@@ -102,6 +103,7 @@ export class Live {
     this.is.hidden = hidden;
     // A page in the background is held back by the browser: what it did not hear there says nothing of the server.
     if (!hidden) this.is.waitingSinceMs = this.now();
+    this.load.forget();
     this.look();
   }
 
@@ -114,30 +116,36 @@ export class Live {
 
   sceneDrawn(note: SceneNote): void {
     this.sceneAge.drawn(note, this.now());
+    this.load.sceneDrawn(note.drawn_by_processor, this.now());
   }
 
   /** Takes one frame; resolves when it stands on the page and the next may be granted. */
-  async take({ message, jpeg }: ViewFrame): Promise<boolean> {
+  async take({ message, jpeg }: ViewFrame): Promise<Shown> {
     const generation = this.generation;
     const isCurrent = (): boolean => generation === this.generation;
     const receivedAtMs = (this.is.waitingSinceMs = this.heard());
+    const showing = this.load.begin(receivedAtMs);
     this.is.newest = message;
     const taken = this.takenFrom(message, receivedAtMs);
     if (taken) this.sceneAge.image(taken.snapshot.image_number, taken.capturedAtMs);
     // Numbers and picture change together, when the picture is ready: both are of one image.
-    const began = this.now();
-    const drawn = taken !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent));
+    const onDecoded = (): void => {
+      showing.decoded(this.now());
+    };
+    const drawn = taken !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent, onDecoded));
     // Not before its picture stands: to say that there is none would be a false alarm.
     this.is.everHeard = true;
-    if (!isCurrent()) return false;
+    if (!isCurrent()) return { stands: false, showingMs: 0 };
     this.is.numbers = taken;
+    showing.stands(this.now());
     if (drawn) {
       this.is.picture = taken;
       this.is.canvasSinceMs = null;
-      this.noteCarried(taken.snapshot, began, message.shown_scale_ratio);
+      const times = showing.times(this.clock.pageMs(message.sent_at_s), taken.capturedAtMs);
+      this.load.shown(times, taken.snapshot, message.shown_scale_ratio);
     }
     this.look();
-    return true;
+    return { stands: true, showingMs: showing.pageMs };
   }
 
   /** The answer to a question that was asked because the line was quiet, or to compare clocks. */
@@ -162,11 +170,6 @@ export class Live {
     return this.is.link !== "open" || this.is.heardAtMs === null ? 0 : this.now() - this.is.heardAtMs;
   }
 
-  private noteCarried(of: Taken["snapshot"], beganMs: number, scaleRatio: number): void {
-    const nowMs = this.now();
-    this.carrying.took(nowMs, nowMs - beganMs, [of.width_px, of.height_px], scaleRatio);
-  }
-
   private heard(): number {
     this.is.heardAtMs = this.now();
     return this.is.heardAtMs;
@@ -177,7 +180,7 @@ export class Live {
     this.is.newest = this.is.numbers = this.is.picture = null;
     this.clock.forget();
     this.sceneAge.forget();
-    this.carrying.forget();
+    this.load.forget();
   }
 
   private takenFrom(message: LiveMessage, receivedAtMs: number): Taken | null {

@@ -3,7 +3,7 @@ import { isSceneNote, SceneAge } from "./sceneAge";
 
 let scene: SceneAge;
 const note = (image_number: number | null, connected = true) =>
-  ({ kind: "coaxial-scene", image_number, connected }) as const;
+  ({ kind: "coaxial-scene", image_number, connected, drawn_by_processor: false }) as const;
 
 beforeEach(() => {
   scene = new SceneAge();

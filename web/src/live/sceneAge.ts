@@ -9,6 +9,8 @@ export interface SceneNote {
   kind: "coaxial-scene";
   image_number: number | null;
   connected: boolean;
+  /** Whether it is drawn without a graphics card. */
+  drawn_by_processor: boolean;
 }
 
 export function isSceneNote(value: unknown): value is SceneNote {
@@ -17,6 +19,7 @@ export function isSceneNote(value: unknown): value is SceneNote {
   return (
     note["kind"] === "coaxial-scene" &&
     typeof note["connected"] === "boolean" &&
+    typeof note["drawn_by_processor"] === "boolean" &&
     (note["image_number"] === null || Number.isInteger(note["image_number"]))
   );
 }

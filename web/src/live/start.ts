@@ -4,15 +4,17 @@ import type { components, paths } from "../schema";
 import { chosenBefore, keepChoice } from "./chosen";
 import { ViewLine, type Socket } from "./line";
 import type { Live } from "./live";
+import { LOOK_EVERY_MS } from "./load";
 import { isSceneNote } from "./sceneAge";
 
 export type Dashboard = components["schemas"]["DashboardMessage"];
 
-const LOOK_EVERY_MS = 50;
 const ASK_WHEN_QUIET_MS = 300;
 const ASK_TIMEOUT_MS = 450;
 const COMPARE_CLOCKS_EVERY_MS = 5000;
 const NEW_LINE_WHEN_QUIET_MS = 2500;
+
+const LOOPBACK = /^(localhost|127(\.\d+){3}|\[::1\])$/;
 
 const server = createClient<paths>({ baseUrl: location.origin });
 
@@ -47,6 +49,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
   };
 
   const look = (): void => {
+    live.load.tick(performance.now());
     const view = live.look();
     const quietMs = live.quietMs();
     const sinceAskedMs = performance.now() - askedAtMs;
@@ -61,6 +64,7 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
 
   const onEachScreenImage = (): void => {
     if (signal.aborted) return;
+    live.load.screenImage(performance.now());
     live.look();
     requestAnimationFrame(onEachScreenImage);
   };
@@ -81,14 +85,17 @@ export function start(live: Live, onDashboard: (dashboard: Dashboard) => void): 
     { signal },
   );
   onVisibility();
+  live.load.sharesMachine = LOOPBACK.test(location.hostname);
   live.choosePicture(chosenBefore());
   live.setOnChoice((choice) => {
     keepChoice(choice);
     line.askSize(choice);
   });
+  const leaveSize = tellLargest(live, line);
   line.start();
   return () => {
     stop.abort();
+    leaveSize();
     clearInterval(timer);
     line.stop();
   };
@@ -107,12 +114,21 @@ function viewLine(live: Live, onOpen: () => void): ViewLine {
       tellScenes();
     },
     onFrame: (frame) => {
-      void live.take(frame).then((standing) => {
-        if (standing) line.grant();
+      void live.take(frame).then(({ stands, showingMs }) => {
+        if (stands) line.grant(showingMs);
       });
     },
   });
   return line;
+}
+
+/** Tells the server, on each line anew, when this device can show no full picture. */
+function tellLargest(live: Live, line: ViewLine): () => void {
+  let told = "full";
+  return live.onLook(({ link, budget }) => {
+    if (link !== "open") told = "full";
+    else if (budget.largestPicture !== told) line.limitSize((told = budget.largestPicture));
+  });
 }
 
 /** The server is there again: `watch.js` in each scene hears this, and takes its own line up at once. */

@@ -1,5 +1,6 @@
 // What the page knows of one moment, as every pane is told it.
 import type { NumbersVerdict, VideoVerdict } from "./assess";
+import type { DrawingBudget } from "./budget";
 import type { Carried } from "./carried";
 import type { FirstMessage } from "./firstMessage";
 import type { LinkState } from "./line";
@@ -32,6 +33,8 @@ export interface View {
   ages: Ages;
   /** What this viewer's line carries. */
   carried: Carried;
+  /** What this device can draw. */
+  budget: DrawingBudget;
 }
 
 export function agesOf(

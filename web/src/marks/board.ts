@@ -12,6 +12,7 @@ const AGAIN_AFTER_MS = 100;
 
 export class Board {
   private waiting = false;
+  private isEmpty = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
@@ -62,6 +63,10 @@ export class Board {
     const pointed = this.hand()?.pointed(nowMs) ?? null;
     canvas.dataset["pointers"] = String(pointers.length);
     canvas.dataset["pointed"] = String(pointed !== null);
+    const isEmpty = state.marks.length + own.length + pointers.length === 0 && pointed === null;
+    // To clear what is clear already would still have the whole picture put together anew.
+    if (isEmpty && this.isEmpty) return;
+    this.isEmpty = isEmpty;
     this.fit(context);
     if (placement === null) return;
     const pen: Pen = { context, placement, width: canvas.clientWidth };
@@ -75,7 +80,7 @@ export class Board {
     }
     for (const pointer of pointers) paintPointer(pen, pointer);
     if (pointed !== null) paintPointer(pen, { ...pointed, seat: you, name: state.you?.name ?? "" });
-    if (state.marks.length + own.length + pointers.length > 0 || pointed !== null) {
+    if (!isEmpty) {
       this.timer = setTimeout(() => {
         this.ask();
       }, AGAIN_AFTER_MS);

@@ -1,25 +1,27 @@
 import { useEffect, useRef, useState, type ReactNode } from "react";
+import type { DrawingBudget } from "../live/budget";
 import { usePainter, useLive } from "../live/LiveContext";
 import { shownDuration, shownNumber } from "../live/rounding";
 import { useWords } from "../words/WordsContext";
 import { Cover } from "./Cover";
 import { Pane } from "./Pane";
+import { Paced } from "./paced";
+import { setSize, tellRate, tellView, VIEWS, type ViewName } from "./sceneFrame";
 import { setData, setText } from "./setText";
 
 /** A scene that says nothing for this long, while the server is there, is loaded anew. */
 const RELOAD_AFTER_MS = 15_000;
 
-const VIEWS = ["behind", "channel", "camera"] as const;
-type ViewName = (typeof VIEWS)[number];
-
 /** The 3-D scene in its frame, covered whenever what it has drawn is not live. */
 export function ScenePane(): ReactNode {
   const words = useWords();
-  const { view } = useLive();
+  const { live, view } = useLive();
   const stage = useRef<HTMLDivElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
   const age = useRef<HTMLSpanElement>(null);
   const frame = useRef<HTMLIFrameElement>(null);
+  const paced = useRef(new Paced());
+  const told = useRef<DrawingBudget | null>(null);
   const [attempt, setAttempt] = useState(0);
   const [chosen, setChosen] = useState<ViewName>("behind");
   // Before the server has spoken there is no scene to load; a frame loaded then would show an error page.
@@ -27,8 +29,14 @@ export function ScenePane(): ReactNode {
   const [wanted, setWanted] = useState(known);
   if (known && !wanted) setWanted(true);
 
-  usePainter(({ scene }) => {
+  usePainter(({ nowMs, scene, budget }) => {
+    if (budget !== told.current) {
+      told.current = budget;
+      tellRate(frame.current, budget);
+      setSize(frame.current, budget);
+    }
     setData(stage.current, "live", String(scene.state === "live"));
+    if (!paced.current.isDue(nowMs, scene.state === "live" ? `${scene.imageNumber}` : scene.state)) return;
     const behind = scene.state === "live" && scene.behindImages > 0 ? ` (−${scene.behindImages})` : "";
     setText(
       stamp.current,
@@ -62,11 +70,15 @@ export function ScenePane(): ReactNode {
         {wanted && (
           <iframe
             key={attempt}
-            ref={frame}
+            ref={(element) => {
+              frame.current = element;
+              setSize(element, live.load.budget);
+            }}
             src="/scene/"
             title={words.scene.title}
             onLoad={() => {
               tellView(frame.current, chosen);
+              tellRate(frame.current, live.load.budget);
             }}
           />
         )}
@@ -98,9 +110,4 @@ export function ScenePane(): ReactNode {
       </div>
     </Pane>
   );
-}
-
-/** `watch.js` in the frame hears this, and puts the viewer there. */
-function tellView(frame: HTMLIFrameElement | null, view: ViewName): void {
-  frame?.contentWindow?.postMessage({ kind: "coaxial-view", view }, location.origin);
 }

@@ -5,8 +5,9 @@ import { shownNumber } from "../live/rounding";
 import { MarksLayer } from "../marks/MarksLayer";
 import { useWords } from "../words/WordsContext";
 import { Announcer } from "./Announcer";
-import { clearPicture, drawPicture } from "./drawPicture";
+import { clearPicture, drawCoarsely, drawPicture } from "./drawPicture";
 import { Moves } from "./Moves";
+import { Paced } from "./paced";
 import { Pane } from "./Pane";
 import { setData, setText } from "./setText";
 import { troublesOf } from "./troubles";
@@ -28,30 +29,39 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
   const stage = useRef<HTMLDivElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
   const painted = useRef(false);
+  const coarseOf = useRef<number | null>(null);
+  const paced = useRef(new Paced());
 
   // Before the painters' first look, which then knows that this canvas is new.
   useLayoutEffect(() => {
-    live.setDraw(async (jpeg, isCurrent) => {
-      if (canvas.current === null || coarse.current === null) return false;
-      const drawn = await drawPicture(canvas.current, coarse.current, jpeg, isCurrent);
+    live.setDraw(async (jpeg, isCurrent, onDecoded) => {
+      if (canvas.current === null) return false;
+      const drawn = await drawPicture(canvas.current, jpeg, isCurrent, onDecoded);
       if (drawn) painted.current = true;
       return drawn;
     });
   }, [live]);
 
-  usePainter(({ video, numbers }) => {
+  usePainter(({ nowMs, video, numbers }) => {
     setData(stage.current, "live", String(video.live));
     // Numbers are burned into the picture: they go when the page's own numbers go for their age.
-    setData(stage.current, "late", String(video.live && !numbers.live && numbers.cause === "old"));
+    const late = video.live && !numbers.live && numbers.cause === "old";
+    const image = late ? video.imageNumber : null;
+    if (image !== null && image !== coarseOf.current && canvas.current && coarse.current) {
+      drawCoarsely(coarse.current, canvas.current);
+    }
+    coarseOf.current = image;
+    setData(stage.current, "late", String(late));
     // Also what was still being decoded when its time was over.
     if (painted.current && !video.live && canvas.current && coarse.current) {
       clearPicture(canvas.current);
       clearPicture(coarse.current);
       painted.current = false;
     }
+    if (!paced.current.isDue(nowMs, video.live ? `${video.imageNumber}` : "")) return;
     const age = video.live ? `${shownNumber(video.ageMs, 0)} ms` : "";
-    const image = video.live ? `${words.video.image} ${video.imageNumber}` : "";
-    setText(stamp.current, video.live ? `${image} · ${words.video.age} ${age}` : "");
+    const number = video.live ? `${words.video.image} ${video.imageNumber}` : "";
+    setText(stamp.current, video.live ? `${number} · ${words.video.age} ${age}` : "");
   });
 
   const cause = view.video.live ? "old" : view.video.cause;

@@ -1,11 +1,11 @@
 // From JPEG bytes to the canvas, past React.
 
-/** Draws the picture, and coarsely the same; false when it is no picture, or its line has gone meanwhile. */
+/** Draws the picture, and tells when it is decoded; false when it is no picture, or its line has gone meanwhile. */
 export async function drawPicture(
   canvas: HTMLCanvasElement,
-  coarse: HTMLCanvasElement,
   jpeg: Uint8Array<ArrayBuffer>,
   isCurrent: () => boolean,
+  onDecoded: () => void,
 ): Promise<boolean> {
   let bitmap: ImageBitmap;
   try {
@@ -13,6 +13,7 @@ export async function drawPicture(
   } catch {
     return false;
   }
+  onDecoded();
   try {
     const context = canvas.getContext("2d", { alpha: false });
     if (context === null || !isCurrent()) return false;
@@ -21,12 +22,15 @@ export async function drawPicture(
       canvas.height = bitmap.height;
     }
     context.drawImage(bitmap, 0, 0);
-    // Too coarse to read a number or a line from; much cheaper than a blurring style on a slow machine.
-    coarse.getContext("2d", { alpha: false })?.drawImage(bitmap, 0, 0, coarse.width, coarse.height);
     return true;
   } finally {
     bitmap.close();
   }
+}
+
+/** The picture too coarsely to read a number or a line from; much cheaper than a blurring style on a slow machine. */
+export function drawCoarsely(coarse: HTMLCanvasElement, canvas: HTMLCanvasElement): void {
+  coarse.getContext("2d", { alpha: false })?.drawImage(canvas, 0, 0, coarse.width, coarse.height);
 }
 
 /** Leaves nothing of the last picture. */

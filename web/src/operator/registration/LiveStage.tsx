@@ -28,7 +28,6 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
   const size = useImageSize();
   const ownStage = useRef<HTMLDivElement>(null);
   const ownCanvas = useRef<HTMLCanvasElement>(null);
-  const coarse = useRef<HTMLCanvasElement>(null);
   const still = useRef<HTMLCanvasElement>(null);
   const stamp = useRef<HTMLParagraphElement>(null);
   const heldAt = useRef(0);
@@ -38,10 +37,10 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
 
   // Before the painters' first look, which then knows that this canvas is new.
   useLayoutEffect(() => {
-    live.setDraw((jpeg, isCurrent) =>
-      canvas.current === null || coarse.current === null
+    live.setDraw((jpeg, isCurrent, onDecoded) =>
+      canvas.current === null
         ? Promise.resolve(false)
-        : drawPicture(canvas.current, coarse.current, jpeg, isCurrent),
+        : drawPicture(canvas.current, jpeg, isCurrent, onDecoded),
     );
   }, [live, canvas]);
 
@@ -115,7 +114,6 @@ export function LiveStage({ children, stage, picture, held = false, onHeld }: Li
         style={{ aspectRatio: `${size.widthPx} / ${size.heightPx}` }}
       >
         <canvas ref={canvas} width={1280} height={720} role="img" aria-label={words.registration.videoAlt} />
-        <canvas className="coarse" ref={coarse} width={32} height={18} aria-hidden="true" />
         <canvas className="still" ref={still} width={1280} height={720} hidden={!held} aria-hidden="true" />
         <div className="stage-space" style={{ width: size.widthPx, height: size.heightPx }}>
           {children}

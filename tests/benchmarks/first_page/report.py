@@ -1,0 +1,132 @@
+"""What was seen on one screen, and the tables of all of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+from tests.benchmarks.tables import NOTHING, Table, number, pair
+
+# What is asked of a machine of two cores without a graphics card.
+MIN_LIVE_RATIO, MIN_IMAGES_PER_S, MIN_WIDTH_PX, MAX_AGE_P95_MS = 0.99, 15.0, 640, 100.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Seen:
+    """What stood on one screen.
+
+    Attributes:
+        size_px: of the screen.
+        spent_s: how long it was watched.
+        live_ratio: share of time with numbers, of the time in which there could be any.
+        unseen_ratio: share of time in which the marker was out of view.
+        images_per_s, scene_images_per_s, screen_images_per_s: of the picture, the 3-D scene, the page.
+        min_width_px: of the picture.
+        small_ratio: share of time in which the picture was narrower than asked.
+        ages_ms: of each picture, from its grab to its place on the page.
+        scene_live_ratio: share of time.
+        longest_gap_ms: between two images of the page.
+        notes: share of time by what the page called slow.
+        processor_use: share of a core by process.
+        load: of the machine, at the end.
+    """
+
+    size_px: tuple[int, int]
+    spent_s: float
+    live_ratio: float
+    unseen_ratio: float
+    images_per_s: float
+    scene_images_per_s: float
+    screen_images_per_s: float
+    min_width_px: int
+    small_ratio: float
+    ages_ms: list[float]
+    scene_live_ratio: float
+    longest_gap_ms: float
+    notes: Mapping[str, float]
+    processor_use: Mapping[str, float]
+    load: str
+
+    @classmethod
+    def of(
+        cls,
+        recorded: Mapping[str, Any],
+        *,
+        size_px: tuple[int, int],
+        processor_use: Mapping[str, float],
+        load: str,
+    ) -> Self:
+        """From what `recorder.js` has counted."""
+        span_ms, numbers_ms = recorded["spanMs"], recorded["numbersMs"]
+        span_s = span_ms / 1000.0
+        possible_ms = numbers_ms["live"] + numbers_ms["late"]
+        widths_ms = {int(width): ms for width, ms in recorded["widthMs"].items()}
+        return cls(
+            size_px=size_px,
+            spent_s=span_s,
+            live_ratio=numbers_ms["live"] / possible_ms if possible_ms > 0 else float("nan"),
+            unseen_ratio=numbers_ms["unseen"] / span_ms,
+            images_per_s=recorded["pictures"] / span_s,
+            scene_images_per_s=recorded["sceneImages"] / span_s,
+            screen_images_per_s=recorded["screenImages"] / span_s,
+            min_width_px=recorded["minWidthPx"] or 0,
+            small_ratio=sum(ms for width, ms in widths_ms.items() if width < MIN_WIDTH_PX) / span_ms,
+            ages_ms=recorded["agesMs"],
+            scene_live_ratio=recorded["sceneMs"] / span_ms,
+            longest_gap_ms=recorded["longestGapMs"],
+            notes={name: ms / span_ms for name, ms in recorded["noteMs"].items()},
+            processor_use=processor_use,
+            load=load,
+        )
+
+
+def report(seen: Sequence[Seen]) -> str:
+    """The tables as Markdown."""
+    return "\n".join((_page_table(seen).markdown, _processor_table(seen).markdown))
+
+
+def _page_table(seen: Sequence[Seen]) -> Table:
+    columns = [
+        "screen",
+        "numbers live",
+        "picture images/s",
+        "min width px",
+        "picture age ms",
+        "3-D live",
+        "3-D images/s",
+        "page images/s",
+        "longest gap ms",
+        "said to be slow",
+        "load",
+    ]
+    rows = [
+        [
+            f"{one.size_px[0]}x{one.size_px[1]}",
+            f"{100 * one.live_ratio:.1f} %",
+            number(one.images_per_s, 1),
+            f"{one.min_width_px} ({100 * one.small_ratio:.0f} % under {MIN_WIDTH_PX})",
+            pair(one.ages_ms, 95.0, 0),
+            f"{100 * one.scene_live_ratio:.0f} %",
+            number(one.scene_images_per_s, 1),
+            number(one.screen_images_per_s, 1),
+            number(one.longest_gap_ms, 0),
+            ", ".join(f"{name} {100 * ratio:.0f} %" for name, ratio in one.notes.items()) or NOTHING,
+            one.load,
+        ]
+        for one in seen
+    ]
+    note = (
+        f"Wanted: numbers live {100 * MIN_LIVE_RATIO:.0f} % of the time in which the marker is in view, "
+        f"{MIN_IMAGES_PER_S:.0f} images/s, {MIN_WIDTH_PX} px, {MAX_AGE_P95_MS:.0f} ms. Ages are median / "
+        "95th percentile, from the grab of an image to its place on the page."
+    )
+    return Table(title="The theatre's page", columns=columns, rows=rows, note=note)
+
+
+def _processor_table(seen: Sequence[Seen]) -> Table:
+    names = sorted({name for one in seen for name in one.processor_use})
+    rows = [
+        [f"{one.size_px[0]}x{one.size_px[1]}"]
+        + [f"{100 * one.processor_use.get(name, 0.0):.0f} %" for name in names]
+        for one in seen
+    ]
+    return Table(title="Processor use, of a core", columns=["screen", *names], rows=rows)

@@ -1,0 +1,101 @@
+import { beforeEach, expect, test } from "vitest";
+import { BudgetControl, budgetSteps, strainOf } from "./budget";
+import type { Timings } from "./timings";
+
+const STEPS = budgetSteps(500);
+const IDLE: Timings = {
+  images: 30,
+  networkMs: 2,
+  decodingMs: 8,
+  drawingMs: 1,
+  ageMs: 60,
+  screenIntervalMs: 17,
+};
+const SLOW: Timings = { ...IDLE, decodingMs: 60, drawingMs: 60 };
+
+let control: BudgetControl;
+let nowMs: number;
+let step: number;
+
+/** So many seconds of this. */
+function pass(seconds: number, timings: Timings, ageLimitMs: number | null = null): void {
+  for (const until = nowMs + 1000 * seconds; nowMs < until; nowMs += 50) {
+    step = control.look(nowMs, STEPS, timings, strainOf(timings, ageLimitMs));
+  }
+}
+
+beforeEach(() => {
+  control = new BudgetControl();
+  nowMs = 10_000;
+  step = 0;
+});
+
+test("gives way in this order: the scene's rate, its size, the picture's size", () => {
+  const seen = [];
+  for (let second = 0; second < 30; second += 1) {
+    pass(1, SLOW);
+    if (STEPS[step] !== seen.at(-1)) seen.push(STEPS[step]);
+  }
+  const full = { largestPicture: "full" };
+  expect(seen).toEqual([
+    { sceneIntervalMs: 80, sceneScale: 1, ...full },
+    { sceneIntervalMs: 125, sceneScale: 1, ...full },
+    { sceneIntervalMs: 200, sceneScale: 1, ...full },
+    { sceneIntervalMs: 200, sceneScale: 0.7, ...full },
+    { sceneIntervalMs: 200, sceneScale: 0.5, ...full },
+    { sceneIntervalMs: 200, sceneScale: 0.35, ...full },
+    { sceneIntervalMs: 200, sceneScale: 0.35, largestPicture: "half" },
+  ]);
+});
+
+test.each([500, 300, 100, 40])(
+  "no rate lets the scene go stale between two images, limit %d ms",
+  (limitMs) => {
+    const steps = budgetSteps(limitMs);
+    expect(Math.max(...steps.map((one) => one.sceneIntervalMs))).toBeLessThanOrEqual(0.4 * limitMs);
+    expect(steps.at(-1)?.largestPicture).toBe("half");
+  },
+);
+
+test.each<[string, Partial<Timings>, number | null, string]>([
+  ["all is quick", {}, null, "idle"],
+  ["showing takes long", { decodingMs: 45 }, null, "strained"],
+  ["the screen shows few images", { screenIntervalMs: 60 }, null, "strained"],
+  ["images are old from a server elsewhere", { ageMs: 140 }, null, "idle"],
+  ["images are old from a server on this machine", { ageMs: 140 }, 150, "strained"],
+  ["neither well nor badly", { decodingMs: 30 }, null, "normal"],
+])("%s", (_, changes, ageLimitMs, strain) => {
+  expect(strainOf({ ...IDLE, ...changes }, ageLimitMs)).toBe(strain);
+});
+
+test("a scene that is drawn by the processor begins at its slowest rate, and never gets every image", () => {
+  control.sceneDrawnByProcessor(STEPS, nowMs);
+  pass(1, IDLE);
+  expect(STEPS[step]).toMatchObject({ sceneIntervalMs: 200, sceneScale: 1 });
+  pass(60, IDLE);
+  expect(STEPS[step]).toMatchObject({ sceneIntervalMs: 80, sceneScale: 1 });
+});
+
+test("the picture is not made smaller where showing it is not what takes the time", () => {
+  pass(60, { ...IDLE, ageMs: 140 }, 150);
+  expect(STEPS[step]).toMatchObject({ sceneScale: 0.35, largestPicture: "full" });
+});
+
+test("comes back step by step, and later after each mistake", () => {
+  pass(5, SLOW);
+  const low = step;
+  pass(12, IDLE);
+  expect(step).toBe(low - 1);
+  pass(3, SLOW);
+  expect(step).toBeGreaterThanOrEqual(low);
+  const again = step;
+  pass(15, IDLE);
+  expect(step).toBe(again);
+  pass(8, IDLE);
+  expect(step).toBe(again - 1);
+});
+
+test("what has only begun says nothing yet", () => {
+  pass(5, { ...SLOW, images: 2 });
+  expect(step).toBe(0);
+});

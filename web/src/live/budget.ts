@@ -1,0 +1,121 @@
+// What gives way when this device is too slow for everything: the 3-D scene's rate, then its size, and only then the
+// picture's size (its rate follows by itself: the next image is asked for when one stands). Never the numbers.
+// Pure: times go in as numbers.
+import type { Timings } from "./timings";
+
+export interface DrawingBudget {
+  /** Least time between two images of the 3-D scene; 0 for as often as the screen shows one. */
+  sceneIntervalMs: number;
+  /** Width and height in which the 3-D scene is drawn, of those in which it is shown. */
+  sceneScale: number;
+  /** The largest picture that this device can show. */
+  largestPicture: "full" | "half";
+}
+
+export type Strain = "strained" | "normal" | "idle";
+
+const SCENE_INTERVALS_MS = [0, 80, 125, 200];
+const SCENE_SCALES = [0.7, 0.5, 0.35];
+/** A scene that is drawn more seldom than this share of its limit would be stale in between. */
+const MAX_INTERVAL_RATIO = 0.4;
+
+/** A change needs so long to be felt. */
+const LOOK_AFTER_MS = 1500;
+/** With fewer images than this there is nothing to judge. */
+const MIN_IMAGES = 4;
+const WAIT_MS = 10_000;
+const MAX_WAIT_MS = 160_000;
+/** A step back up that is taken down again so soon was a mistake. */
+const REGRET_MS = 15_000;
+
+const STRAINED = { showingMs: 40, screenIntervalMs: 40, ageRatio: 0.6 };
+const IDLE = { showingMs: 25, screenIntervalMs: 28, ageRatio: 0.5 };
+/** Below this rate the picture is made smaller, when nothing else is left. */
+const MIN_IMAGES_PER_S = 12;
+
+/** The steps, the best first. */
+export function budgetSteps(sceneStaleAfterMs: number): DrawingBudget[] {
+  const slowestMs = MAX_INTERVAL_RATIO * sceneStaleAfterMs;
+  const intervals = SCENE_INTERVALS_MS.filter((ms) => ms <= slowestMs);
+  const lastMs = intervals.at(-1) ?? 0;
+  return [
+    ...intervals.map((sceneIntervalMs) => ({ sceneIntervalMs, sceneScale: 1 })),
+    ...SCENE_SCALES.map((sceneScale) => ({ sceneIntervalMs: lastMs, sceneScale })),
+  ]
+    .map((step): DrawingBudget => ({ ...step, largestPicture: "full" }))
+    .concat({ sceneIntervalMs: lastMs, sceneScale: SCENE_SCALES.at(-1) ?? 1, largestPicture: "half" });
+}
+
+/** How hard this device works. `ageLimitMs` where the server runs on this very machine and suffers with it, else null. */
+export function strainOf(timings: Timings, ageLimitMs: number | null): Strain {
+  const { decodingMs, drawingMs, screenIntervalMs, ageMs } = timings;
+  const showingMs = decodingMs + drawingMs;
+  const ageRatio = ageLimitMs === null ? 0 : ageMs / ageLimitMs;
+  const beyond = (limit: typeof STRAINED): boolean =>
+    showingMs > limit.showingMs || screenIntervalMs > limit.screenIntervalMs || ageRatio > limit.ageRatio;
+  if (beyond(STRAINED)) return "strained";
+  return beyond(IDLE) ? "normal" : "idle";
+}
+
+/** Steps down while the device is strained, and slowly up again when it is idle. */
+export class BudgetControl {
+  private step = 0;
+  private changedAtMs = -Infinity;
+  /** The last step up, unless it is known to have been a mistake. */
+  private raisedAtMs: number | null = null;
+  private idleSinceMs: number | null = null;
+  private waitMs = WAIT_MS;
+  private drawnByProcessor = false;
+
+  /** Without a graphics card the scene begins where it takes the least rate, and rises where there is room. */
+  sceneDrawnByProcessor(steps: readonly DrawingBudget[], nowMs: number): void {
+    if (this.drawnByProcessor) return;
+    this.drawnByProcessor = true;
+    const slowest = steps.findLastIndex((one) => one.sceneScale === 1);
+    if (slowest > this.step) this.change(slowest, nowMs);
+  }
+
+  /** Since when it is as it is: what was measured before says nothing of it. */
+  get sinceMs(): number {
+    return this.changedAtMs;
+  }
+
+  look(nowMs: number, steps: readonly DrawingBudget[], timings: Timings, strain: Strain): number {
+    this.step = Math.min(this.step, steps.length - 1);
+    if (strain !== "idle") this.idleSinceMs = null;
+    if (timings.images < MIN_IMAGES || nowMs - this.changedAtMs < LOOK_AFTER_MS) return this.step;
+    if (strain === "strained" && this.mayFall(steps, timings)) this.fall(nowMs);
+    else if (strain === "idle") this.rise(nowMs);
+    return this.step;
+  }
+
+  private mayFall(steps: readonly DrawingBudget[], { decodingMs, drawingMs }: Timings): boolean {
+    const next = steps[this.step + 1];
+    if (next === undefined) return false;
+    // A smaller picture helps only where showing it is what takes the time.
+    return next.largestPicture === "full" || decodingMs + drawingMs > 1000 / MIN_IMAGES_PER_S;
+  }
+
+  private fall(nowMs: number): void {
+    const isRegret = this.raisedAtMs !== null && nowMs - this.raisedAtMs <= REGRET_MS;
+    if (isRegret) this.waitMs = Math.min(2 * this.waitMs, MAX_WAIT_MS);
+    this.raisedAtMs = null;
+    this.change(this.step + 1, nowMs);
+  }
+
+  private rise(nowMs: number): void {
+    this.idleSinceMs ??= nowMs;
+    // As often as the processor draws it at best; without a card every image of the screen is out of reach.
+    const best = this.drawnByProcessor ? 1 : 0;
+    if (this.step <= best || nowMs - this.idleSinceMs < this.waitMs) return;
+    if (this.raisedAtMs !== null) this.waitMs = WAIT_MS;
+    this.raisedAtMs = nowMs;
+    this.change(this.step - 1, nowMs);
+  }
+
+  private change(step: number, nowMs: number): void {
+    this.step = step;
+    this.changedAtMs = nowMs;
+    this.idleSinceMs = null;
+  }
+}

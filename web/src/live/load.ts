@@ -1,0 +1,76 @@
+// What this page can carry: measured with each image, told as what is slow, and kept within by what gives way.
+import type { Limits } from "./assess";
+import { BudgetControl, budgetSteps, strainOf, type DrawingBudget } from "./budget";
+import { Carrying, type Carried, type PictureChoice } from "./carried";
+import { Showing } from "./showing";
+import { Stall, TimingWindow, type ImageTimes } from "./timings";
+
+/** The page looks around at least this often, where nothing holds it up. */
+export const LOOK_EVERY_MS = 50;
+
+export class Load {
+  readonly carrying = new Carrying();
+  /** Whether the server runs on this very machine: then both share its processor, and no network lies between. */
+  sharesMachine = false;
+  private readonly window = new TimingWindow();
+  private readonly stall = new Stall(LOOK_EVERY_MS);
+  private readonly control = new BudgetControl();
+  private steps: DrawingBudget[] = budgetSteps(0);
+  private staleAfterMs = 0;
+  private current = 0;
+
+  set choice(choice: PictureChoice) {
+    this.carrying.choice = choice;
+  }
+
+  get choice(): PictureChoice {
+    return this.carrying.choice;
+  }
+
+  get budget(): DrawingBudget {
+    return this.steps[this.current] ?? { sceneIntervalMs: 0, sceneScale: 1, largestPicture: "full" };
+  }
+
+  tick(nowMs: number): void {
+    this.stall.tick(nowMs);
+  }
+
+  screenImage(nowMs: number): void {
+    this.stall.tick(nowMs);
+    this.window.screen(nowMs);
+  }
+
+  /** An image was received just now. */
+  begin(receivedAtMs: number): Showing {
+    return new Showing(this.stall, receivedAtMs);
+  }
+
+  sceneDrawn(byProcessor: boolean, nowMs: number): void {
+    if (byProcessor) this.control.sceneDrawnByProcessor(this.steps, nowMs);
+  }
+
+  shown(times: ImageTimes, of: { width_px: number; height_px: number }, scaleRatio: number): void {
+    this.window.image(times);
+    this.carrying.took(times.atMs, [of.width_px, of.height_px], scaleRatio);
+  }
+
+  forget(): void {
+    this.window.forget();
+    this.carrying.forget();
+  }
+
+  look(nowMs: number, limits: Limits, cameraHz: number): Carried {
+    if (limits.scene_stale_after_ms !== this.staleAfterMs) {
+      this.staleAfterMs = limits.scene_stale_after_ms;
+      this.steps = budgetSteps(this.staleAfterMs);
+    }
+    const timings = this.window.means(nowMs, this.control.sinceMs);
+    const strain = strainOf(timings, this.sharesMachine ? limits.pose_stale_after_ms : null);
+    this.current = this.control.look(nowMs, this.steps, timings, strain);
+    const { largestPicture } = this.budget;
+    return this.carrying.look(nowMs, cameraHz, this.window.means(nowMs), {
+      largestPicture,
+      sharesMachine: this.sharesMachine,
+    });
+  }
+}

@@ -1,0 +1,89 @@
+// How long each part of showing an image takes: on the network, decoding, drawing. Pure: times go in as numbers.
+
+/** Of one image that stands on the page. */
+export interface ImageTimes {
+  /** When it stood there. */
+  atMs: number;
+  /** From the server's sending to this page, without the time in which the page itself was busy; null if unknown. */
+  networkMs: number | null;
+  decodingMs: number;
+  /** Painting it, and what the page was busy with while it waited. */
+  drawingMs: number;
+  /** Since its grab. */
+  ageMs: number;
+}
+
+/** Means over the last seconds. */
+export interface Timings {
+  images: number;
+  networkMs: number | null;
+  decodingMs: number;
+  drawingMs: number;
+  ageMs: number;
+  /** Between two images of the screen: a browser that draws slowly gives fewer. */
+  screenIntervalMs: number;
+}
+
+const WINDOW_MS = 3000;
+/** A usual screen; what is longer than this is the drawing's. */
+const SCREEN_INTERVAL_MS = 17;
+
+export class TimingWindow {
+  private shown: ImageTimes[] = [];
+  private screenAtMs: number[] = [];
+
+  image(times: ImageTimes): void {
+    this.shown.push(times);
+    this.shown = this.shown.filter((one) => times.atMs - one.atMs <= WINDOW_MS);
+  }
+
+  screen(atMs: number): void {
+    this.screenAtMs.push(atMs);
+    while (atMs - (this.screenAtMs[0] ?? atMs) > WINDOW_MS) this.screenAtMs.shift();
+  }
+
+  forget(): void {
+    this.shown = [];
+    this.screenAtMs = [];
+  }
+
+  /** Of what has come since `fromMs`, and within the window. */
+  means(nowMs: number, fromMs = -Infinity): Timings {
+    const from = Math.max(fromMs, nowMs - WINDOW_MS);
+    const shown = this.shown.filter((one) => one.atMs >= from);
+    const screens = this.screenAtMs.filter((atMs) => atMs >= from);
+    const [first, last] = [screens[0] ?? 0, screens.at(-1) ?? 0];
+    return {
+      images: shown.length,
+      networkMs: mean(shown.flatMap(({ networkMs }) => networkMs ?? [])),
+      decodingMs: mean(shown.map((one) => one.decodingMs)) ?? 0,
+      drawingMs: mean(shown.map((one) => one.drawingMs)) ?? 0,
+      ageMs: mean(shown.map((one) => one.ageMs)) ?? 0,
+      screenIntervalMs: screens.length < 2 ? SCREEN_INTERVAL_MS : (last - first) / (screens.length - 1),
+    };
+  }
+}
+
+function mean(values: number[]): number | null {
+  return values.length === 0 ? null : values.reduce((sum, one) => sum + one, 0) / values.length;
+}
+
+/** What the screen adds to the drawing of an image. */
+export function drawingWithScreenMs({ drawingMs, screenIntervalMs }: Timings): number {
+  return drawingMs + Math.max(0, screenIntervalMs - SCREEN_INTERVAL_MS);
+}
+
+/** For how long the page was too busy to hear: it looks around at least this often. */
+export class Stall {
+  private tickAtMs = -Infinity;
+
+  constructor(private readonly everyMs: number) {}
+
+  tick(nowMs: number): void {
+    this.tickAtMs = nowMs;
+  }
+
+  overdueMs(nowMs: number): number {
+    return Number.isFinite(this.tickAtMs) ? Math.max(0, nowMs - this.tickAtMs - this.everyMs) : 0;
+  }
+}
