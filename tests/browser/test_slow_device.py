@@ -1,0 +1,106 @@
+"""A device that is too slow for everything: what gives way first, and what the page says is slow.
+
+The slowness is forced: each image takes a fixed time more than it needs here, so that the order does not hang on
+how busy the machine is.
+"""
+
+import re
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.test_dashboard import is_live
+from tests.browser.theatre import Theatre, Watched
+
+pytestmark = pytest.mark.browser
+
+Watch = Callable[..., Watched]
+
+# In the page and in the scene's frame: what is given up, in the order in which it is.
+RECORDER = """
+const given = (top.given ??= []);
+const note = (what, value) => {
+  if (given.findLast(([one]) => one === what)?.[1] !== value) given.push([what, value]);
+};
+const widths = (top.widths ??= new Set());
+if (window !== top) {
+  addEventListener("message", ({ data }) => {
+    if (data?.kind === "coaxial-rate") note("interval_ms", data.min_interval_ms);
+  });
+} else {
+  const send = WebSocket.prototype.send;
+  WebSocket.prototype.send = function (text) {
+    const { largest } = JSON.parse(text);
+    if (largest !== undefined) note("largest", largest);
+    return send.call(this, text);
+  };
+  const look = () => {
+    const frame = document.querySelector(".scene-stage iframe");
+    if (frame) note("scale", parseFloat(frame.style.width) / 100);
+    const picture = document.querySelector("canvas.sharp");
+    if (picture) widths.add(picture.width);
+    requestAnimationFrame(look);
+  };
+  requestAnimationFrame(look);
+}
+"""
+SLOW = {
+    "decoding": """
+        const decode = window.createImageBitmap.bind(window);
+        window.createImageBitmap = async (...options) => {
+          await new Promise((done) => setTimeout(done, 150));
+          return decode(...options);
+        };
+    """,
+    "drawing": """
+        const draw = CanvasRenderingContext2D.prototype.drawImage;
+        CanvasRenderingContext2D.prototype.drawImage = function (...options) {
+          if (this.canvas.className === "sharp") {
+            for (const until = performance.now() + 150; performance.now() < until; );
+          }
+          return draw.apply(this, options);
+        };
+    """,
+}
+ORDER = ["interval_ms", "scale", "largest"]
+
+
+def slowed(watched: Watched, part: str, *, query: str = "") -> Page:
+    """The page, once everything that can has given way."""
+    watched.page.add_init_script(f"(() => {{ {RECORDER} {SLOW[part]} }})()")
+    page = watched.open(f"theatre{query}")
+    page.wait_for_function("() => given.some(([what]) => what === 'largest')")
+    return page
+
+
+@pytest.mark.parametrize(
+    ("part", "query", "words"),
+    [("decoding", "", "Slow decoding"), ("drawing", "?lang=de", "Langsames Zeichnen")],
+)
+def test_a_slow_device_keeps_its_picture_longest_and_says_what_is_slow(
+    theatre: Theatre, watch: Watch, part: str, query: str, words: str
+) -> None:
+    page = slowed(watch(theatre, 1280, 800), part, query=query)
+    expect(page.get_by_test_id("line-note")).to_have_text(re.compile(f"{words}: .* 640x360"))
+    # The whole size is no step.
+    given = [one for one in page.evaluate("given") if one != ["scale", 1]]
+    assert [ORDER.index(what) for what, _ in given] == sorted(ORDER.index(what) for what, _ in given)
+    assert [scale for what, scale in given if what == "scale"] == [0.7, 0.5, 0.35]
+    intervals_ms = [interval_ms for what, interval_ms in given if what == "interval_ms"]
+    assert intervals_ms == sorted(intervals_ms)
+    assert intervals_ms[-1] == 200
+    # The line carries everything: the server has made nothing smaller by itself.
+    assert set(page.evaluate("[...widths]")) == {1280, 640}
+
+
+def test_the_scene_stays_live_at_its_slowest_and_coarsest(theatre: Theatre, watch: Watch) -> None:
+    page = slowed(watch(theatre, 1280, 800), "decoding")
+    is_live(page, "scene")
+    frame = page.locator(".scene-stage iframe")
+    assert frame.evaluate("e => [e.clientWidth / e.parentElement.clientWidth]")[0] == pytest.approx(
+        0.35, abs=0.02
+    )
+    # It is shown as large as before, and nothing stands out.
+    shown = frame.evaluate("e => e.getBoundingClientRect().width / e.parentElement.clientWidth")
+    assert shown == pytest.approx(1.0, abs=0.02)
