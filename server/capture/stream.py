@@ -4,12 +4,14 @@ import math
 import socket
 import threading
 import time
+from collections.abc import Callable
 from urllib.parse import urlsplit
 
 import cv2
 import numpy as np
 
 from server.capture.address import SourceAddress
+from server.capture.backlog import Backlog
 from server.capture.codecs import OPEN_TIMEOUT_MS, READ_TIMEOUT_MS, open_stream
 from server.capture.pace import Pace
 from server.capture.shot import Shot
@@ -19,12 +21,33 @@ from server.live import CameraStatus, ImageClock
 DEFAULT_PORTS = {"rtsp": 554, "rtsps": 322, "rtmp": 1935, "http": 80, "https": 443}
 # Short, so that a host that comes back is noticed within a second: the decoder's own attempt takes 3 s.
 KNOCK_TIMEOUT_S = 0.5
+MAX_OLD_S = 2.0
+MAX_TORN = 30
+JPEG_END = b"\xff\xd9"
+# Some cameras fill up what they send.
+JPEG_PADDING = 4096
 
 
 class StreamSource:
-    """Images of a network stream, the moment they arrive; a file behind http:// comes at its own rate."""
+    """Images of a network stream, the moment they arrive; a file behind http:// comes at its own rate.
 
-    def __init__(self, address: SourceAddress, *, stop: threading.Event, first_number: int = 0) -> None:
+    What waited on its way is left out: it is old, and nothing but its rhythm says so.
+
+    Args:
+        address: of the stream.
+        stop: set when the source shall wait no longer.
+        first_number: number of its first image.
+        clock: monotonic.
+    """
+
+    def __init__(
+        self,
+        address: SourceAddress,
+        *,
+        stop: threading.Event,
+        first_number: int = 0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self.name = address.name
         self.waits_for_taker = False
         self.stalls = True
@@ -32,10 +55,13 @@ class StreamSource:
         self.camera: CameraStatus | None = CameraStatus(clock=ImageClock.ARRIVAL)
         self._address = address.text
         self._number = first_number
+        self._clock = clock
         self._pace = Pace(stop=stop)
+        self._backlog = Backlog()
         self._is_file = False
+        self._is_jpeg = False
         self._stream: cv2.VideoCapture | None = None
-        self._given = 0
+        self._torn = 0
 
     def open(self) -> None:
         """Connect; takes at most about 4 s, and half a second when nobody answers."""
@@ -53,24 +79,25 @@ class StreamSource:
         images = float(stream.get(cv2.CAP_PROP_FRAME_COUNT))
         self._is_file = math.isfinite(images) and images > 0
         self.camera = None if self._is_file else CameraStatus(clock=ImageClock.ARRIVAL)
+        # OpenCV scales images that change their size in a stream to its first size, whatever their shape, and
+        # does not say so; of JPEG, it can hand them over as they came.
+        is_jpeg = int(stream.get(cv2.CAP_PROP_FOURCC)) == cv2.VideoWriter.fourcc(*"MJPG")
+        self._is_jpeg = is_jpeg and not self._is_file and bool(stream.set(cv2.CAP_PROP_FORMAT, -1))
         self._pace.restart()
+        self._backlog.restart()
+        self._torn = 0
         self._stream = stream
-        self._given = 0
 
     def read(self) -> Shot | None:
         """The next image."""
         if self._stream is None:
             raise self._stopped()
-        good = self._stream.grab()
-        captured_at_s = time.monotonic()
-        image = self._stream.retrieve()[1] if good else None
-        if image is None:
-            raise self._stopped()
+        image, captured_at_s = self._newest(self._stream)
         source_time_s = captured_at_s
         if self._is_file:
             source_time_s = float(self._stream.get(cv2.CAP_PROP_POS_MSEC)) / 1000.0
             self._pace.wait_until_due(source_time_s)
-            captured_at_s = time.monotonic()
+            captured_at_s = self._clock()
         shot = Shot(
             image=np.asarray(image, dtype=np.uint8),
             number=self._number,
@@ -78,7 +105,6 @@ class StreamSource:
             source_time_s=source_time_s,
         )
         self._number += 1
-        self._given += 1
         return shot
 
     def close(self) -> None:
@@ -86,6 +112,57 @@ class StreamSource:
         if self._stream is not None:
             self._stream.release()
             self._stream = None
+
+    def _newest(self, stream: cv2.VideoCapture) -> tuple[np.ndarray, float]:
+        """The next image that is whole and did not wait, with the time of its arrival; others are counted."""
+        while True:
+            good = stream.grab()
+            arrived_s = self._clock()
+            if not good:
+                raise self._stopped()
+            is_old = not self._is_file and self._backlog.is_old(arrived_s)
+            if not is_old:
+                image = self._decoded(stream)
+                if image is not None:
+                    self._torn = 0
+                    return image, arrived_s
+                self._torn += 1
+            if self._torn > MAX_TORN:
+                raise self._all_torn()
+            if is_old and self._backlog.old_for_s(arrived_s) > MAX_OLD_S:
+                raise self._in_bursts()
+            self._number += 1
+
+    def _decoded(self, stream: cv2.VideoCapture) -> np.ndarray | None:
+        """The image in its own size; None of a JPEG that is cut off."""
+        content = stream.retrieve()[1]
+        if content is None:
+            raise self._stopped()
+        if not self._is_jpeg:
+            return np.asarray(content)
+        # Without its end the rest of the image would be grey, or the one before.
+        if JPEG_END not in content[..., -JPEG_PADDING:].tobytes():
+            return None
+        image = cv2.imdecode(content, cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
+        return None if image is None else np.asarray(image)
+
+    def _in_bursts(self) -> CaptureError:
+        return CaptureError(
+            "STREAM_IN_BURSTS",
+            f"the stream {self.name} gives its images in bursts, and for {MAX_OLD_S:g} s none that did not "
+            "wait on its way",
+            "Set the camera to low latency, and connect it by cable; see that this machine is not busy. It "
+            "is opened again by itself.",
+            {"stream": self.name, "limit_s": MAX_OLD_S},
+        )
+
+    def _all_torn(self) -> CaptureError:
+        return CaptureError(
+            "STREAM_TORN",
+            f"the stream {self.name} gave {self._torn} images in a row that are cut off",
+            "Restart the camera, or what stands between it and this machine; it is opened again by itself.",
+            {"stream": self.name, "images": self._torn},
+        )
 
     def _stopped(self) -> CaptureError:
         return CaptureError(

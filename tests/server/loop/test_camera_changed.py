@@ -122,3 +122,17 @@ def test_the_calibration_of_a_case_brings_its_own_controls() -> None:
     calibrated = of_settings.with_case(of_case).calibrated_camera
     assert calibrated is not None
     assert calibrated.controls == {FOCUS: 45}
+
+
+def test_images_that_change_their_size_lose_their_millimetres_with_the_first_one() -> None:
+    preparation, image = prepared()
+    tracking = Tracking(preparation)
+    smaller = np.ascontiguousarray(image[::2, ::2])
+    told = []
+    for number, shown in enumerate((image, smaller, image)):
+        at_s = 1.0 + number * PERIOD_S
+        shot = Shot(image=shown, number=number, captured_at_s=at_s, source_time_s=at_s)
+        snapshot = tracking.conclude(shot, skipped_images=0)
+        trouble = tracking.trouble
+        told.append((snapshot.setup.camera_calibrated, "" if trouble is None else trouble.code))
+    assert told == [(True, ""), (False, "CAMERA_SIZE_MISMATCH"), (True, "")]
