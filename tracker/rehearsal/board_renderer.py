@@ -9,6 +9,7 @@ from tracker.rehearsal.backdrop import Backdrops
 from tracker.rehearsal.boards import BOARD_FROM_KIND, BoardHand, printed
 from tracker.rehearsal.point_spread import DEFOCUS_PX, point_spread
 from tracker.rehearsal.printed import covered_px
+from tracker.rehearsal.strips import Strips
 from tracker.rehearsal.theatre import Theatre
 
 Image8 = npt.NDArray[np.uint8]
@@ -59,7 +60,8 @@ class BoardRenderer:
             coverage = covered_px(outline, box)
             grey = self._plane.draw(sampled, box, self._rays, face)
             ink = cv2.multiply(grey, coverage, scale=self._brightness(pose) / 255.0)
-            exposure.lay_over(box, np.asarray(cv2.merge([ink, coverage]), dtype=np.uint8), spread)
+            layer = np.asarray(cv2.merge([ink, coverage]), dtype=np.uint8)
+            exposure.lay_over(Strips.of_box(box), layer, spread)
         return exposure.image
 
     def _brightness(self, pose: Rigid[Camera, Pattern]) -> float:

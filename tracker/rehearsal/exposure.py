@@ -4,11 +4,13 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from tracker.rehearsal.lens import Box
+from tracker.rehearsal.lens import Box, Pixels
 from tracker.rehearsal.point_spread import PointSpread
-from tracker.rehearsal.sensor import BANK_MARGIN, STILL_SHIFT_PX, Pixels, Sensor, StillNoise
+from tracker.rehearsal.sensor import BANK_MARGIN, COARSE_GAIN, STILL_SHIFT_PX, Sensor
+from tracker.rehearsal.strips import Strips
 
 Image8 = npt.NDArray[np.uint8]
+Image16 = npt.NDArray[np.int16]
 
 BAND_PX = 96
 HALF_COVERED = 127
@@ -17,9 +19,9 @@ HALF_COVERED = 127
 class Exposure:
     """An image that begins as the still scenery.
 
-    The noise of what stands still is the same field again and again, in each band of rows moved and turned
-    to its negative as the time has it: that two images are equal has a chance of 128 to the power of their
-    bands. What is laid over it, and what is refreshed, has noise that was never there before.
+    The noise of what stands still is the same field again and again, in each band of rows moved as the time
+    has it: that two images are equal has a chance of 1 in 64 to the power of their bands. What is laid over
+    it, and what is refreshed, has noise that was never there before.
 
     Attributes:
         image: (h, w, 3), BGR, as the sensor gives it; changes while it is drawn into.
@@ -27,7 +29,7 @@ class Exposure:
 
     image: Image8
 
-    def __init__(self, sensor: Sensor, lit: Image8, still_noise: StillNoise, at_s: float) -> None:
+    def __init__(self, sensor: Sensor, lit: Image8, still_noise: Image8, at_s: float) -> None:
         random = sensor.random_at(at_s)
         self._sensor = sensor
         self._lit = lit
@@ -40,21 +42,18 @@ class Exposure:
         height, width = lit.shape[:2]
         tops = range(0, height, BAND_PX)
         shifts = random.integers(0, STILL_SHIFT_PX, (len(tops), 2))
-        negatives = random.integers(0, 2, len(tops))
-        for top, (down, across), negative in zip(tops, shifts.tolist(), negatives.tolist(), strict=True):
-            # A band at a time stays in the processor's cache.
+        for top, (down, across) in zip(tops, shifts.tolist(), strict=True):
             band = self.image[top : top + BAND_PX]
-            at = np.s_[top + down : top + down + len(band), across : across + width]
-            noise = (still_noise.above[at], still_noise.below[at])
-            cv2.add(lit[top : top + BAND_PX], noise[negative], dst=band)
-            cv2.subtract(band, noise[1 - negative], dst=band)
+            noise = still_noise[top + down : top + down + len(band), across : across + width]
+            np.add(lit[top : top + BAND_PX], noise, out=band)
 
     def refresh(self, box: Box) -> None:
         """Give a part of the still scenery noise that is new in each image."""
         x, y, width, height = box
         if self._sensor.is_noisy:
             lit = self._lit[y : y + height, x : x + width]
-            self._add_noise(lit, self.image[y : y + height, x : x + width], lit[..., 1], x, y)
+            part = self.image[y : y + height, x : x + width]
+            cv2.add(lit, self._noise(lit[..., 1], x, y), dst=part, dtype=cv2.CV_8U)
 
     def dim(self, box: Box, light: Image8) -> None:
         """Leave only this much of the light (h, w) in a part of the image; 255 is all of it."""
@@ -64,44 +63,40 @@ class Exposure:
         cv2.multiply(part, cv2.merge([left] * 3), dst=part, scale=1.0 / 255.0)
 
     def lay_over(
-        self, box: Box, layer: Image8, spread: PointSpread | None, *, drawn: Box | None = None
+        self, strips: Strips, layer: Image8, spread: PointSpread | None, *, margin_px: int = 0
     ) -> None:
         """Lay something that moves over a part of the image.
 
         Args:
-            box: the part.
-            layer: sharp and premultiplied: (h, w, 4) BGR and coverage, or (h, w, 2) grey and coverage.
+            strips: the part.
+            layer: sharp, premultiplied, stacked: (h, w, 4) BGR and coverage, or (h, w, 2) grey and coverage.
             spread: what defocus and motion make of a point in it; None leaves it sharp.
-            drawn: what the layer shows, where that is more than the part; whole pixels around it.
+            margin_px: how much more than the strips the layer shows on each side; as far as a point spreads,
+                where there is more than one.
         """
-        soft = layer if spread is None else spread.of(layer)
-        x, y, width, height = box
-        part = self.image[y : y + height, x : x + width]
-        left, top = (0, 0) if drawn is None else (x - drawn[0], y - drawn[1])
-        soft = soft[top : top + part.shape[0], left : left + part.shape[1]]
-        gain = self._sensor.gain[y : y + height, x : x + width]
+        soft = strips.inner(layer if spread is None else spread.of(layer), margin_px)
         if soft.shape[2] == 2:
             grey, coverage = cv2.split(soft)
+            gain = strips.taken_from(self._sensor.gain)
             levels = cv2.multiply(grey, gain, scale=self._flicker, dtype=cv2.CV_8U)
             colour = cv2.merge([levels] * 3)
         else:
             coverage = cv2.extractChannel(soft, 3)
             bgr = cv2.cvtColor(soft, cv2.COLOR_BGRA2BGR)
-            colour = cv2.multiply(bgr, cv2.merge([gain] * 3), scale=self._flicker, dtype=cv2.CV_8U)
+            coarse = cv2.merge([strips.taken_from(self._sensor.coarse_gain)] * 3)
+            colour = cv2.multiply(bgr, coarse, scale=self._flicker / COARSE_GAIN)
             levels = cv2.extractChannel(colour, 1)
-        behind = cv2.multiply(part, cv2.merge([255 - coverage] * 3), scale=1.0 / 255.0)
-        both = cv2.add(behind, colour)
+        uncovered = cv2.merge([255 - coverage] * 3)
+        out = cv2.multiply(strips.taken_from(self.image), uncovered, scale=1.0 / 255.0)
+        out = cv2.add(out, colour)
         if self._sensor.is_noisy:
             # What shows through has its noise already.
             _, where = cv2.threshold(coverage, HALF_COVERED, 255, cv2.THRESH_BINARY)
-            self._add_noise(both, part, levels, x, y, where)
-        else:
-            part[:] = both
+            x, y = strips.places[0]
+            out = cv2.add(out, self._noise(levels, max(x, 0), y, where), dtype=cv2.CV_8U)
+        strips.put_into(self.image, np.asarray(out, dtype=np.uint8))
 
-    def _add_noise(
-        self, clean: Pixels, out: Pixels, levels: Pixels, x: int, y: int, where: Pixels | None = None
-    ) -> None:
-        """Write a part of the image with noise for its grey or green."""
+    def _noise(self, levels: Pixels, x: int, y: int, where: Pixels | None = None) -> Image16:
+        """New noise for a part of the image, with its grey or green."""
         row, column = self._bank_at
-        noise = self._sensor.noise(levels, row + y, column + x, where)
-        cv2.add(clean, noise, dst=out, dtype=cv2.CV_8U)
+        return self._sensor.noise(levels, row + y, column + x, where)

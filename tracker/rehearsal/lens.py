@@ -1,8 +1,7 @@
 """Rays through the image on a coarse grid, with the lens taken out once and for all."""
 
 import math
-from collections.abc import Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import cv2
 import numpy as np
@@ -12,22 +11,16 @@ from tracker.camera import CameraModel
 from tracker.geometry import Array
 
 Image32 = npt.NDArray[np.float32]
+# As OpenCV's functions answer.
+Pixels = npt.NDArray[np.integer[Any] | np.floating[Any]]
 Value = TypeVar("Value", np.uint8, np.float32)
 
 # Between nodes 4 px apart a straight line is off by under 0.003 px for the lenses and planes rendered here.
 NODE_PX = 4
 MARGIN_NODES = 4
-STRIP_PX = 128
 
 
 Box = tuple[int, int, int, int]  # x, y, width, height in px, all multiples of 4
-
-
-def nodes_of(box: Box, margin: int = MARGIN_NODES - 1) -> tuple[slice, slice]:
-    """Rows and columns of a rectangle's nodes with one more all around, after a margin of the nodes."""
-    x, y, width, height = box
-    row, column = y // NODE_PX + margin, x // NODE_PX + margin
-    return slice(row, row + height // NODE_PX + 2), slice(column, column + width // NODE_PX + 2)
 
 
 class RayGrid:
@@ -56,7 +49,8 @@ class RayGrid:
 
         All four numbers are multiples of 4, and the rectangle lies within the image rounded up to blocks.
         """
-        return self.nodes[nodes_of((x, y, width, height))]
+        row, column = y // NODE_PX + MARGIN_NODES - 1, x // NODE_PX + MARGIN_NODES - 1
+        return self.nodes[row : row + height // NODE_PX + 2, column : column + width // NODE_PX + 2]
 
     def box_around(self, px: Array, margin_px: int) -> Box | None:
         """The rectangle of whole blocks around points (n, 2) inside the image, None if there is none."""
@@ -70,46 +64,6 @@ class RayGrid:
         if columns <= 0 or rows <= 0:
             return None
         return first_column * NODE_PX, first_row * NODE_PX, columns * NODE_PX, rows * NODE_PX
-
-    def grown(self, box: Box, px: int) -> Box:
-        """The rectangle with this much more on each side, rounded up to whole blocks, inside the image."""
-        x, y, width, height = box
-        more = -(-px // NODE_PX) * NODE_PX
-        left, top = max(x - more, 0), max(y - more, 0)
-        right = min(x + width + more, self.columns * NODE_PX)
-        return left, top, right - left, min(y + height + more, self.rows * NODE_PX) - top
-
-    def strips_around(self, px: Array, margin_px: int) -> list[Box]:
-        """Rectangles that do not overlap, along something long and thin that may lie askew.
-
-        Args:
-            px: (2, n, 2) of its two sides.
-            margin_px: around it.
-        """
-        points = px.reshape(-1, 2)
-        whole = self.box_around(points, margin_px)
-        if whole is None:
-            return []
-        way = 1 if whole[3] > whole[2] else 0
-        margin = margin_px + float(np.abs(np.diff(px[..., way], axis=1)).max(initial=0.0))
-        out = []
-        for start in range(whole[way], whole[way] + whole[way + 2], STRIP_PX):
-            end = min(start + STRIP_PX, whole[way] + whole[way + 2])
-            beside = (points[:, way] > start - margin) & (points[:, way] < end + margin)
-            box = self.box_around(points[beside], margin_px)
-            if box is None:
-                continue
-            low, high = max(start, box[way]), min(end, box[way] + box[way + 2])
-            if low < high:
-                out.append((box[0], low, box[2], high - low) if way else (low, box[1], high - low, box[3]))
-        return out
-
-
-def box_around_all(boxes: Sequence[Box]) -> Box:
-    """The rectangle around one or more."""
-    x, y = min(box[0] for box in boxes), min(box[1] for box in boxes)
-    right, bottom = max(box[0] + box[2] for box in boxes), max(box[1] + box[3] for box in boxes)
-    return x, y, right - x, bottom - y
 
 
 def resized(image: Image32, width: int, height: int) -> Image32:
@@ -126,7 +80,9 @@ def spread(nodes: Image32, samples: int) -> Image32:
     return np.asarray(wide[finer:-finer, finer:-finer], dtype=np.float32)
 
 
-def looked_up(image: npt.NDArray[Value], at: Image32, beyond: float = 0.0) -> npt.NDArray[Value]:
-    """The image's values, linear between its pixels, at columns and rows (h, w, 2); another one beyond it."""
-    out = cv2.remap(image, at, None, cv2.INTER_LINEAR, borderValue=beyond)  # type: ignore[call-overload]  # its stub lacks None, and an empty map gives nonsense
+def looked_up(
+    image: npt.NDArray[Value], column: Pixels, row: Pixels, beyond: float = 0.0
+) -> npt.NDArray[Value]:
+    """The image's values, linear between its pixels, at these places (h, w); another value beyond it."""
+    out = cv2.remap(image, column, row, cv2.INTER_LINEAR, borderValue=beyond)
     return np.asarray(out, dtype=image.dtype)

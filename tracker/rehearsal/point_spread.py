@@ -19,6 +19,8 @@ SLANT_PX2 = 0.01
 NEGLIGIBLE_RATIO = 0.02
 # OpenCV counts the taps of a filter from 8 bit to 8 bit in 1/256; they must add up to 1 in these.
 FIXED_POINT = 256.0
+# More taps are too small for that.
+MOST_FIXED_TAPS = 15
 
 # A Gaussian that is sampled once a pixel has less variance than its formula says: the formula's sigma by the
 # variance of the samples.
@@ -47,7 +49,7 @@ class PointSpread:
 
     def of(self, layer: Image8) -> Image8:
         """What it makes of a layer (h, w, channels); beyond its borders the layer goes on as it ends."""
-        if len(self.along_x) == 1:
+        if len(self.along_x) == 1 and self.along_x.shape[1] <= MOST_FIXED_TAPS:
             soft = cv2.sepFilter2D(
                 layer, -1, self.along_x[0], self.along_y[0], borderType=cv2.BORDER_REPLICATE
             )
@@ -80,7 +82,8 @@ def point_spread(blur: float, speed_px_s: Array, drawn_px2: float = 0.0) -> Poin
     if left_px2 < SHARP_PX**2 and length < SHARP_PX:
         return None
     sigma = float(np.interp(left_px2, _VARIANCES_PX2, _SIGMAS_PX, right=np.sqrt(max(left_px2, 0.0))))
-    steps = np.linspace(-0.5, 0.5, max(1, int(np.ceil(length * STEPS_PER_PX))) + 1)[:, None] * path
+    count = max(1, int(np.ceil(length * STEPS_PER_PX)))
+    steps = ((np.arange(count)[:, None] + 0.5) / count - 0.5) * path
     reach = int(np.ceil(3.0 * sigma + length / 2.0)) + 1
     at = np.arange(-reach, reach + 1)
     along_x = np.exp(-0.5 * ((at[None, :] - steps[:, :1]) / sigma) ** 2)
@@ -102,7 +105,9 @@ def _even_or_odd(taps: Array) -> Array:
 
 
 def _in_256ths(taps: Array) -> Array:
-    """The taps (k,) as multiples of 1/256 (1, k) that add up to 1; the middle one takes what is left over."""
+    """The taps (k,) as (1, k), few ones in 1/256, that add up to 1; the middle one takes what is over."""
+    if len(taps) > MOST_FIXED_TAPS:
+        return np.asarray(taps[None] / taps.sum(), dtype=np.float64)
     out = np.rint(taps / taps.sum() * FIXED_POINT)
     out[len(out) // 2] += FIXED_POINT - out.sum()
     return np.asarray(out[None] / FIXED_POINT, dtype=np.float64)

@@ -69,15 +69,13 @@ class PrintedPlane:
         three[:, :2] = (middle + np.array([[0, 0], [1, 0], [0, 1]])) / self._per_mm
         px = camera.px_from_camera(camera_from_plane.move_points(three))
         largest, smallest = np.linalg.svd(px[1:] - px[0], compute_uv=False)
-        samples = fewest
-        while samples < MOST_SAMPLES:
+        for samples in range(fewest, MOST_SAMPLES):
             level = int(np.ceil(np.log(SOFT_PER_SAMPLE / samples / smallest) / np.log(SOFTER)))
             # A sample between pixels of the face softens it, too: by 1/6 in the mean.
             face_px2 = SOFTER ** (2 * level) + 1.0 / 6.0
             drawn_px2 = float(largest * smallest * face_px2 - 1.0 / (12.0 * samples**2))
             if drawn_px2 <= blur_px2:
                 return Sampled(face=self._softened_at(level), samples=samples, drawn_px2=drawn_px2)
-            samples *= 2
         return Sampled(face=self._face, samples=MOST_SAMPLES, drawn_px2=0.0)
 
     def outline_px(self, camera: CameraModel, camera_from_plane: Rigid[Camera, Frame]) -> Array:
@@ -107,9 +105,10 @@ class PrintedPlane:
             ]
         )
         on_face = cv2.transform(rays.block(*box), face_from_plane @ np.linalg.inv(plane))
-        nodes = np.asarray(on_face[..., :2] / on_face[..., 2:], dtype=np.float32)
+        x, y, scale = cv2.split(on_face)
+        column, row = (spread(np.divide(one, scale, dtype=np.float32), sampled.samples) for one in (x, y))
         # Its border is one grey all around.
-        grey = looked_up(sampled.face, spread(nodes, sampled.samples), float(sampled.face[0, 0]))
+        grey = looked_up(sampled.face, column, row, float(sampled.face[0, 0]))
         if sampled.samples == 1:
             return grey
         return np.asarray(cv2.resize(grey, box[2:], interpolation=cv2.INTER_AREA), dtype=np.uint8)

@@ -1,5 +1,6 @@
 """Images of the theatre: the still scenery, and the moving drill drawn into it."""
 
+from dataclasses import replace
 from typing import TypeVar
 
 import cv2
@@ -25,13 +26,13 @@ from tracker.rehearsal.drill import (
 from tracker.rehearsal.events import EventKind
 from tracker.rehearsal.exposure import Exposure
 from tracker.rehearsal.lamp import TO_LAMP, lit, rod_shadow
-from tracker.rehearsal.lens import NODE_PX, Box, RayGrid, box_around_all, looked_up, nodes_of
-from tracker.rehearsal.lens import spread as spread_nodes
+from tracker.rehearsal.lens import NODE_PX, looked_up
 from tracker.rehearsal.placement import Room
 from tracker.rehearsal.point_spread import DEFOCUS_PX, PointSpread, point_spread
 from tracker.rehearsal.printed import PrintedPlane, Sampled
 from tracker.rehearsal.reference import REFERENCE_HALF_MM
 from tracker.rehearsal.reference_picture import board_layer, cloth_px, draw_cloth
+from tracker.rehearsal.strips import Strips, strips_around
 from tracker.rehearsal.theatre import Theatre
 
 Image8 = npt.NDArray[np.uint8]
@@ -40,12 +41,11 @@ Square = TypeVar("Square")
 
 MARGIN_PX = 2
 STATION_MM = 8.0
-# The marker is measured: two samples to a pixel's side leave little of its blur to softening before.
-MARKER_SAMPLES = 2
+# The marker is measured: with fewer samples its edges are off by twice as much, 0.004 px.
+MARKER_SAMPLES = 3
 SPEED_OVER_S = 0.002
 # Only this much of the drill ever comes near the bone.
 NEAR_BONE_MM = 78.0
-PORTRAIT_ROWS = 2.0 * PORTRAIT_HALF_MM * PORTRAIT_PER_MM
 NEAR_BONE_PX = (NEAR_BONE_MM - PORTRAIT_START_MM) * PORTRAIT_PER_MM
 SHADOW_GROUND_MM, SHADOW_REACH_MM = 14.0, 260.0
 # The board is wider than the body and throws most of its shadow.
@@ -116,7 +116,7 @@ class Renderer:
         if box is not None:
             layer = np.zeros((box[3], box[2], 4), dtype=np.uint8)
             draw_cloth(layer, cloth - box[:2])
-            exposure.lay_over(box, layer, spread)
+            exposure.lay_over(Strips.of_box(box), layer, spread)
 
     def _outline_px(self, camera_from_tool: Rigid[Camera, Tool]) -> Array:
         """Both sides (2, n, 2) of all of the drill's body that can be in the image."""
@@ -144,34 +144,25 @@ class Renderer:
         still_mm: Image32,
         spread: PointSpread | None,
     ) -> None:
-        """Lays the drill's body over the image, strip by strip, without what is in or behind the bone."""
-        reach_px = 0 if spread is None else spread.reach_px
-        strips = self._rays.strips_around(self._outline_px(camera_from_tool), _reach_px(spread))
-        if not strips:
+        """Lays the drill's body over the image, without what is in or behind the bone."""
+        outline_px = self._outline_px(camera_from_tool)
+        strips = strips_around(outline_px, _reach_px(spread), self._rays)
+        if strips is None:
             return
-        whole = self._rays.grown(box_around_all(strips), reach_px)
-        on_portrait, depth = _on_portrait(self._rays, whole, camera_from_tool)
-        for strip in strips:
-            drawn = self._rays.grown(strip, reach_px)
-            x, y, width, height = drawn
-            nodes = nodes_of((x - whole[0], y - whole[1], width, height), margin=0)
-            at = spread_nodes(on_portrait[nodes], 1)
-            layer = looked_up(self._portrait, at)
-            near = _near_bone(on_portrait[nodes])
-            if near is not None:
-                still = still_mm[y : y + height, x : x + width][near]
-                self._hide_behind(layer[near], still, at[near], spread_nodes(depth[nodes], 1)[near])
-            exposure.lay_over(strip, layer, spread, drawn=drawn)
-
-    def _hide_behind(self, layer: Image8, still_mm: Image32, at: Image32, axis_mm: Image32) -> None:
-        """Take from a layer (h, w, 4) what still things hide, where the axis has this depth."""
-        rows, columns = still_mm.shape
-        part = layer[:rows, :columns]
-        bulge = looked_up(self._bulge_mm, at[:rows, :columns])
-        before_mm = cv2.add(cv2.subtract(still_mm, axis_mm[:rows, :columns]), bulge)
-        # From a third of a millimetre behind to a third before.
-        seen = np.clip(before_mm * np.float32(1.5 * 255.0) + np.float32(127.5), 0.0, 255.0).astype(np.uint8)
-        cv2.multiply(part, cv2.merge([seen] * 4), dst=part, scale=1.0 / 255.0)
+        margin_px = 0 if spread is None else -(-spread.reach_px // NODE_PX) * NODE_PX
+        drawn = strips.grown(margin_px)
+        nodes = drawn.nodes(self._rays)
+        on_portrait = _on_portrait(self._rays.nodes[nodes], self._rays.squares[nodes], camera_from_tool)
+        column, row, axis_mm = cv2.split(drawn.from_nodes(on_portrait))
+        layer = looked_up(self._portrait, column, row)
+        # The bone is near in the first strips or in the last ones.
+        near = np.flatnonzero(on_portrait[..., 0].min(axis=(1, 2)) < NEAR_BONE_PX)
+        if len(near) > 0:
+            some = replace(drawn, places=drawn.places[near[0] : near[-1] + 1])
+            at = np.s_[near[0] * drawn.height : (near[-1] + 1) * drawn.height]
+            bulge_mm = looked_up(self._bulge_mm, column[at], row[at])
+            _hide_behind(layer[at], some.taken_from(still_mm, np.inf), axis_mm[at] - bulge_mm)
+        exposure.lay_over(strips, layer, spread, margin_px=margin_px)
 
     def _lay_board(
         self,
@@ -201,7 +192,7 @@ class Renderer:
             back_px=back_px,
             brightness=float(lit(facing[None])[0]),
         )
-        exposure.lay_over(box, layer, spread)
+        exposure.lay_over(Strips.of_box(box), layer, spread)
 
     def _cast_shadow(
         self,
@@ -239,33 +230,25 @@ def _board_corners(z_mm: float) -> Array:
     return np.array([[-1, 1, 0], [1, 1, 0], [1, -1, 0], [-1, -1, 0]]) * BOARD_HALF_MM + [0.0, 0.0, z_mm]
 
 
-def _near_bone(on_portrait: Image32) -> tuple[slice, slice] | None:
-    """Rows and columns of the pixels whose nodes may show what is near the bone; None if there are none."""
-    column, row = on_portrait[..., 0], on_portrait[..., 1]
-    near = (column < NEAR_BONE_PX) & (row > -NODE_PX) & (row < PORTRAIT_ROWS + NODE_PX)
-    rows, columns = np.flatnonzero(near.any(axis=1)), np.flatnonzero(near.any(axis=0))
-    if len(rows) == 0:
-        return None
-    # A node further on each side, without the one around the pixels.
-    return _pixels(rows), _pixels(columns)
+def _hide_behind(layer: Image8, still_mm: Image32, surface_mm: Image32) -> None:
+    """Take from a layer (h, w, 4) whose surface has this depth what still things hide."""
+    # From a third of a millimetre behind them to a third before.
+    seen = np.clip((still_mm - surface_mm) * np.float32(382.5) + np.float32(127.5), 0.0, 255.0)
+    cv2.multiply(layer, cv2.merge([seen.astype(np.uint8)] * 4), dst=layer, scale=1.0 / 255.0)
 
 
-def _pixels(nodes: npt.NDArray[np.int64]) -> slice:
-    return slice(max(int(nodes[0]) - 2, 0) * NODE_PX, (int(nodes[-1]) + 1) * NODE_PX)
-
-
-def _on_portrait(rays: RayGrid, box: Box, camera_from_tool: Rigid[Camera, Tool]) -> tuple[Image32, Image32]:
-    """Where the nodes of a rectangle pass the drill's axis.
+def _on_portrait(rays: Image32, squares: Image32, camera_from_tool: Rigid[Camera, Tool]) -> Image32:
+    """Where rays (n, r, c, 3) of squared lengths (n, r, c) pass the drill's axis.
 
     Returns:
-        Column and row (rows, columns, 2) of the portrait, and the depth (rows, columns) of the axis in mm.
+        Column and row of the portrait, and the depth of the axis in mm (n, r, c, 3).
     """
     tip, back = camera_from_tool.translation_mm, -camera_from_tool.rotation[:, 2]
     slant = float(back @ tip)
     functions = np.stack([back, tip, skew(back) @ tip])
-    toward, reach, beside = cv2.split(cv2.transform(rays.block(*box), functions))
-    lean = np.maximum(rays.squares[nodes_of(box)] - toward * toward, np.float32(1e-6))
+    toward, reach, beside = cv2.split(cv2.transform(rays.reshape(-1, rays.shape[2], 3), functions))
+    lean = np.maximum(squares.reshape(toward.shape) - toward * toward, np.float32(1e-6))
     depth = (reach - toward * slant) / lean
     column = (depth * toward - (slant + PORTRAIT_START_MM)) * PORTRAIT_PER_MM - 0.5
     row = (beside / np.sqrt(lean) + PORTRAIT_HALF_MM) * PORTRAIT_PER_MM - 0.5
-    return np.asarray(cv2.merge([column, row]), dtype=np.float32), np.asarray(depth, dtype=np.float32)
+    return np.asarray(cv2.merge([column, row, depth]), dtype=np.float32).reshape(rays.shape)

@@ -1,43 +1,27 @@
 """From light to 8 bit: how the lamp and the sensor spoil the picture."""
 
-from dataclasses import dataclass
-from typing import Any
-
 import cv2
 import numpy as np
 import numpy.typing as npt
 
+from tracker.rehearsal.lens import Pixels
 from tracker.rehearsal.settings import TheatreSettings
 
 Image8 = npt.NDArray[np.uint8]
-# As OpenCV's functions answer.
-Pixels = npt.NDArray[np.integer[Any] | np.floating[Any]]
 Image16 = npt.NDArray[np.int16]
 Image32 = npt.NDArray[np.float32]
 
 READ_NOISE, SHOT_NOISE_PER_LEVEL = 0.6, 0.012
 BANK_MARGIN = 256
+# What is drawn may reach beyond the image by so much.
+BEYOND_PX = 64
 BANK_SCALE, SIGMA_SCALE = 64, 16
-FLICKER_HZ = (0.17, 0.41)
+COARSE_GAIN = 128
+FLICKER_HZ, FLICKER_RATIO = (0.17, 0.41), 0.008
 # Half a grey level of the brightest: as long as it does not step, the still scenery stays as it is.
 FLICKER_STEP = 1.0 / 512.0
 # The noise of what stands still is made once, and moved by up to this much from image to image.
 STILL_SHIFT_PX = 8
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StillNoise:
-    """Noise for a picture of which only small parts change.
-
-    A sum of two images of 8 bit takes a fifth of the time that noise made for the picture's levels does.
-
-    Attributes:
-        above: (h + 8, w + 8, 3) what is to be added.
-        below: (h + 8, w + 8, 3) what is to be taken away.
-    """
-
-    above: Image8
-    below: Image8
 
 
 class Sensor:
@@ -45,6 +29,7 @@ class Sensor:
 
     Attributes:
         gain: (h, w) of the light, by place.
+        coarse_gain: (h, w) the same in 1/128, for what nobody measures.
         is_noisy: whether there is any noise.
     """
 
@@ -54,8 +39,10 @@ class Sensor:
         self._settings = settings
         self._flicker_rad = random.uniform(0.0, 2.0 * np.pi, 2)
         self.gain = _gain(settings, random)
+        self.coarse_gain = np.rint(self.gain * COARSE_GAIN).astype(np.uint8)
         self.is_noisy = settings.noise > 0.0
-        bank = random.standard_normal((height + BANK_MARGIN, width + BANK_MARGIN, 3), dtype=np.float32)
+        size = (height + BANK_MARGIN + BEYOND_PX, width + BANK_MARGIN + BEYOND_PX, 3)
+        bank = random.standard_normal(size, dtype=np.float32)
         self._bank = np.rint(bank * BANK_SCALE).astype(np.int16)
         levels = np.arange(256)
         sigma = settings.noise * np.sqrt(READ_NOISE**2 + SHOT_NOISE_PER_LEVEL * levels)
@@ -70,7 +57,7 @@ class Sensor:
         if self._settings.light == 0.0:
             return 1.0
         waves = np.sin(2.0 * np.pi * np.array(FLICKER_HZ) * at_s + self._flicker_rad)
-        gain = 1.0 + 0.008 * self._settings.light * float(waves.mean())
+        gain = 1.0 + FLICKER_RATIO * self._settings.light * float(waves.mean())
         return round(gain / FLICKER_STEP) * FLICKER_STEP
 
     def noise(self, levels: Pixels, row: int, column: int, where: Pixels | None = None) -> Image16:
@@ -87,14 +74,20 @@ class Sensor:
         noise = cv2.multiply(sigmas, grains, scale=1.0 / (BANK_SCALE * SIGMA_SCALE))
         return np.asarray(noise, dtype=np.int16)
 
-    def still_noise(self, picture: Image8) -> StillNoise:
-        """Noise for this picture (h, w, 3), wherever it is moved within its margin."""
+    def still_noise(self, picture: Image8) -> Image8:
+        """Noise (h + 8, w + 8, 3) for this picture (h, w, 3), wherever it is moved within its margin.
+
+        A picture of 8 bit and this add up modulo 256, which takes a tenth of the time of noise made for the
+        picture's levels: what is below 0 is 256 more. No sum leaves 0 to 255, in any light.
+        """
         half = STILL_SHIFT_PX // 2
         wide = cv2.copyMakeBorder(picture, half, half, half, half, cv2.BORDER_REPLICATE)
-        noise = self.noise(wide, 0, 0)
-        return StillNoise(
-            above=np.clip(noise, 0, 255).astype(np.uint8), below=np.clip(-noise, 0, 255).astype(np.uint8)
-        )
+        around = np.ones((STILL_SHIFT_PX + 1, STILL_SHIFT_PX + 1), dtype=np.uint8)
+        change = FLICKER_RATIO * self._settings.light + FLICKER_STEP
+        darkest = np.floor(cv2.erode(wide, around) * np.float32(1.0 - change)).astype(np.int16)
+        brightest = np.ceil(cv2.dilate(wide, around) * np.float32(1.0 + change)).astype(np.int16)
+        noise = np.clip(self.noise(wide, 0, 0), -darkest, 255 - np.minimum(brightest, 255))
+        return noise.astype(np.uint8)
 
 
 def _gain(settings: TheatreSettings, random: np.random.Generator) -> Image32:
