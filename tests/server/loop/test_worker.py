@@ -8,16 +8,20 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from server.capture.address import source_from_text
+from server.capture.local_camera import LocalCameraSource
 from server.capture.shot import Shot
-from server.config import Config
+from server.config import CameraConfig, Config
 from server.live import SourceState
 from server.logs import LogSettings
 from server.loop.report import Report, ReportUnpacker
 from server.loop.ring import ImageRing
 from server.loop.tracking import Tracking
 from server.loop.worker import NewestCase, WorkerLink, WorkerOrder, work
-from server.setup import Preparation
-from tests.server.loop.made import made_image, made_setup
+from server.setup import CaseSetup, Preparation, build_setup, nominal_camera
+from tests.server.capture.fake_camera import FakeCamera, FakeDevices, FakeVideo, modes
+from tests.server.loop.made import SIZE, made_image, made_setup
+from tracker.camera import CameraControl
 from tracker.errors import InvalidInput
 from tracker.marker import ScoreSettings
 from tracker.navigation import Setup
@@ -159,3 +163,28 @@ def test_a_fault_in_the_tracker_ends_the_loop_and_is_not_swallowed(
     tracking = Tracking(Prepared(Failing(11, ZeroDivisionError("a bug"))))
     with pytest.raises(ZeroDivisionError):
         work(ORDER, link[0], threading.Event(), Counting(), tracking, newest=NewestCase())
+
+
+def test_a_case_that_is_opened_sets_the_camera_to_its_calibration(
+    link: tuple[WorkerLink, KeptRing],
+) -> None:
+    small = tuple(modes("YUYV", SIZE, 30.0))
+    video = FakeVideo(FakeCamera(offered=small))
+    source = LocalCameraSource(
+        source_from_text("0"), devices=FakeDevices(video.camera), open_video=video, clock=video.clock
+    )
+    newest, stop = NewestCase(), threading.Event()
+    controls = {CameraControl.FOCUS: 45, CameraControl.AUTOFOCUS: 0}
+    newest.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls=controls))
+    tracking = Tracking(build_setup(Config(camera=CameraConfig(source="0"))))
+    thread = threading.Thread(
+        target=work, args=(ORDER, link[0], stop, source, tracking), kwargs={"newest": newest}
+    )
+    thread.start()
+    deadline_s = time.monotonic() + 30.0
+    while video.camera.controls[CameraControl.FOCUS] != 45:
+        assert time.monotonic() < deadline_s
+        threading.Event().wait(0.002)
+    stop.set()
+    thread.join(30)
+    assert video.camera.was_set == [(CameraControl.AUTOFOCUS, 0), (CameraControl.FOCUS, 45)]
