@@ -81,8 +81,8 @@ class CameraConfig(Section):
     """Images of all sizes with one ratio of width to height show the same area of the sensor, so that a
     calibration may be scaled."""
     lock_controls: bool = True
-    """Of a local camera: automatic focus is switched off at the start, and focus, zoom, pan and tilt are set
-    to what they were at the calibration."""
+    """Of a local camera: focus, zoom, pan and tilt are set to what they were at the calibration, and
+    automatic focus is switched off; without a calibration, once it has settled."""
     lock_light: bool = False
     """Automatic exposure and white balance are switched off once they have settled."""
     readout_ms: Annotated[float, Field(ge=0.0, le=200.0)] = 0.0

@@ -9,8 +9,8 @@ from server.capture.v4l2.structs import EXPOSURE_MANUAL
 from tracker.camera import GEOMETRIC, CameraControl
 
 READ_EVERY_S = 1.0
-# Automatic exposure and white balance need this long to find what suits the room.
-LIGHT_SETTLES_S = 3.0
+# Automatic focus, exposure and white balance need this long to find what suits the room.
+SETTLES_S = 3.0
 # What automatic control sets, and the value that switches it off.
 LIGHT_LOCKS = (
     (CameraControl.AUTO_EXPOSURE, EXPOSURE_MANUAL, CameraControl.EXPOSURE),
@@ -28,7 +28,8 @@ class ControlKeeper:
     Args:
         device: the camera.
         name: of the camera.
-        lock_focus: switch automatic focus off, and set what the calibration has.
+        lock_focus: switch automatic focus off: at once where the calibration has a focus, which is then set
+            together with its zoom, pan and tilt; else once it has settled.
         lock_light: switch automatic exposure and white balance off once they have settled.
         calibrated: the values at the calibration in use; empty where none is known.
         at_s: the time now.
@@ -47,6 +48,7 @@ class ControlKeeper:
         self._device = device
         self._name = name
         self._lock_focus = lock_focus
+        self._focus_locked = not lock_focus
         self._light_locked = not lock_light
         self._began_s = at_s
         self._read_at_s = at_s
@@ -60,39 +62,51 @@ class ControlKeeper:
         return self._values
 
     def restore(self, calibrated: Mapping[CameraControl, int]) -> None:
-        """Lock the focus where the calibration has it, else where it is; likewise zoom, pan and tilt."""
+        """Set focus, zoom, pan and tilt to what they were at a calibration, as far as that is known."""
         if not self._lock_focus:
             return
-        if self._values.get(CameraControl.AUTOFOCUS):
-            self._set(CameraControl.AUTOFOCUS, 0)
         for control in GEOMETRIC:
-            if control is CameraControl.AUTOFOCUS or control not in self._values:
-                continue
-            # The focus is set even to what it is: while it was automatic the lens may have stood elsewhere
-            # than the value says, and what is kept with a calibration must be where the lens stands.
-            is_focus = control is CameraControl.FOCUS
-            value = calibrated.get(control, self._values[control] if is_focus else None)
-            if value is not None and (is_focus or value != self._values[control]):
-                self._set(control, value)
+            if control is CameraControl.FOCUS and control in calibrated:
+                self._fix_focus(calibrated[control])
+            elif control is not CameraControl.AUTOFOCUS and control in calibrated and control in self._values:
+                self._set(control, calibrated[control])
         self._values = self._read(self._values)
 
+    def _fix_focus(self, value: int) -> None:
+        """Switch automatic focus off, and set the focus."""
+        self._focus_locked = True
+        if self._values.get(CameraControl.AUTOFOCUS):
+            self._set(CameraControl.AUTOFOCUS, 0)
+        if CameraControl.FOCUS in self._values:
+            self._set(CameraControl.FOCUS, value)
+
     def poll(self, at_s: float) -> None:
-        """Read the values, if it is time to; and lock exposure and white balance, once, when it is."""
-        if not self._light_locked and at_s - self._began_s >= LIGHT_SETTLES_S:
-            self._light_locked = True
-            self._lock_light()
+        """Read the values, if it is time to; and lock what has settled, once, when it is."""
+        if at_s - self._began_s >= SETTLES_S:
+            self._lock_settled()
         if at_s - self._read_at_s >= READ_EVERY_S:
             self._read_at_s = at_s
             self._values = self._read(self._values)
 
-    def _lock_light(self) -> None:
-        values = self._read(self._values)
+    def _lock_settled(self) -> None:
+        if self._focus_locked and self._light_locked:
+            return
+        self._values = self._read(self._values)
+        if not self._focus_locked:
+            # Set also to what it is: the lens may stand elsewhere than the value says, and what is kept with
+            # a calibration must be where the lens stands.
+            self._fix_focus(self._values.get(CameraControl.FOCUS, 0))
+        if not self._light_locked:
+            self._light_locked = True
+            self._lock_light(self._values)
+        self._values = self._read(self._values)
+
+    def _lock_light(self, values: Mapping[CameraControl, int]) -> None:
         for switch, off, setting in LIGHT_LOCKS:
             if values.get(switch, off) != off:
                 self._set(switch, off)
                 if setting in values:
                     self._set(setting, values[setting])
-        self._values = self._read(self._values)
 
     def _read(self, controls: Iterable[CameraControl]) -> dict[CameraControl, int]:
         """The values of those that the camera has; of a camera that is gone, those that were known."""

@@ -23,9 +23,6 @@ DEFAULT_PORTS = {"rtsp": 554, "rtsps": 322, "rtmp": 1935, "http": 80, "https": 4
 KNOCK_TIMEOUT_S = 0.5
 MAX_OLD_S = 2.0
 MAX_TORN = 30
-JPEG_END = b"\xff\xd9"
-# Some cameras fill up what they send.
-JPEG_PADDING = 4096
 
 
 class StreamSource:
@@ -140,9 +137,6 @@ class StreamSource:
             raise self._stopped()
         if not self._is_jpeg:
             return np.asarray(content)
-        # Without its end the rest of the image would be grey, or the one before.
-        if JPEG_END not in content[..., -JPEG_PADDING:].tobytes():
-            return None
         image = cv2.imdecode(content, cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
         return None if image is None else np.asarray(image)
 

@@ -6,10 +6,11 @@ from collections.abc import Mapping
 import pytest
 from structlog.testing import capture_logs
 
-from server.capture.controls import LIGHT_SETTLES_S, ControlKeeper
+from server.capture.controls import SETTLES_S, ControlKeeper
 from tests.server.capture.fake_camera import WEBCAM_CONTROLS, FakeCamera
 from tracker.camera import CameraControl
 
+BEGIN_S = 100.0
 FOCUS, AUTOFOCUS = CameraControl.FOCUS, CameraControl.AUTOFOCUS
 AUTO_EXPOSURE, EXPOSURE = CameraControl.AUTO_EXPOSURE, CameraControl.EXPOSURE
 AUTO_WHITE, WHITE = CameraControl.AUTO_WHITE_BALANCE, CameraControl.WHITE_BALANCE
@@ -28,24 +29,42 @@ def keeper_of(
         lock_focus=lock_focus,
         lock_light=lock_light,
         calibrated=calibrated or {},
-        at_s=100.0,
+        at_s=BEGIN_S,
     )
 
 
-def test_automatic_focus_is_switched_off_and_the_lens_is_where_the_value_says() -> None:
+def test_automatic_focus_is_switched_off_once_it_has_found_the_scene() -> None:
     camera = FakeCamera()
     keeper = keeper_of(camera)
+    keeper.poll(BEGIN_S + SETTLES_S - 0.1)
+    assert camera.was_set == []
+    camera.controls[FOCUS] = 38
+    keeper.poll(BEGIN_S + SETTLES_S)
     # Set also to what it is: while it was automatic, the value may not have followed the lens.
-    assert camera.was_set == [(AUTOFOCUS, 0), (FOCUS, 30)]
-    assert keeper.values == {**WEBCAM_CONTROLS, AUTOFOCUS: 0}
+    assert camera.was_set == [(AUTOFOCUS, 0), (FOCUS, 38)]
+    assert keeper.values == {**WEBCAM_CONTROLS, AUTOFOCUS: 0, FOCUS: 38}
+    keeper.poll(BEGIN_S + 60.0)
+    assert len(camera.was_set) == 2, "once"
 
 
-def test_the_focus_of_the_calibration_is_set() -> None:
+def test_the_focus_of_the_calibration_is_set_at_once() -> None:
     camera = FakeCamera()
     keeper = keeper_of(camera, calibrated={FOCUS: 45, CameraControl.GAIN: 99, CameraControl.ZOOM: 7})
     # Not the gain, which voids nothing, and not the zoom that it does not have.
     assert camera.was_set == [(AUTOFOCUS, 0), (FOCUS, 45)]
     assert keeper.values[FOCUS] == 45
+    keeper.poll(BEGIN_S + SETTLES_S)
+    assert len(camera.was_set) == 2
+
+
+def test_zoom_pan_and_tilt_of_the_calibration_are_set_and_without_one_left_alone() -> None:
+    placed = {CameraControl.ZOOM: 100, CameraControl.PAN: 5, CameraControl.TILT: 6}
+    camera = FakeCamera(controls={**WEBCAM_CONTROLS, **placed})
+    keeper_of(camera, calibrated={CameraControl.ZOOM: 120, CameraControl.TILT: 0})
+    assert camera.was_set == [(CameraControl.ZOOM, 120), (CameraControl.TILT, 0)]
+    other = FakeCamera(controls={**WEBCAM_CONTROLS, **placed})
+    keeper_of(other).poll(BEGIN_S + SETTLES_S)
+    assert other.was_set == [(AUTOFOCUS, 0), (FOCUS, 30)]
 
 
 def test_nothing_is_set_where_the_settings_say_so() -> None:
@@ -58,7 +77,7 @@ def test_nothing_is_set_where_the_settings_say_so() -> None:
 
 def test_values_are_read_once_a_second_and_what_a_person_changes_stays() -> None:
     camera = FakeCamera()
-    keeper = keeper_of(camera)
+    keeper = keeper_of(camera, calibrated={FOCUS: 30})
     camera.was_set.clear()
     camera.controls[FOCUS] = 60
     keeper.poll(100.9)
@@ -70,12 +89,12 @@ def test_values_are_read_once_a_second_and_what_a_person_changes_stays() -> None
 
 def test_exposure_and_white_balance_are_locked_as_they_have_settled() -> None:
     camera = FakeCamera()
-    keeper = keeper_of(camera, lock_light=True)
+    keeper = keeper_of(camera, lock_light=True, calibrated={FOCUS: 30})
     camera.was_set.clear()
     camera.controls |= {EXPOSURE: 180, WHITE: 3600}
-    keeper.poll(100.0 + LIGHT_SETTLES_S - 0.1)
+    keeper.poll(100.0 + SETTLES_S - 0.1)
     assert camera.was_set == []
-    keeper.poll(100.0 + LIGHT_SETTLES_S)
+    keeper.poll(100.0 + SETTLES_S)
     assert camera.was_set == [(AUTO_EXPOSURE, 1), (EXPOSURE, 180), (AUTO_WHITE, 0), (WHITE, 3600)]
     assert keeper.values[AUTO_EXPOSURE] == 1
     camera.was_set.clear()
@@ -106,6 +125,7 @@ def test_a_control_that_cannot_be_set_is_told_and_the_rest_goes_on(monkeypatch: 
     monkeypatch.setattr(camera, "set_control", refused)
     with capture_logs() as logs:
         keeper = keeper_of(camera)
+        keeper.poll(BEGIN_S + SETTLES_S)
     assert [(line["code"], line["control"], line["reason"]) for line in logs] == [
         ("CAMERA_CONTROL_REFUSED", "autofocus", "permission denied"),
         ("CAMERA_CONTROL_REFUSED", "focus", "permission denied"),

@@ -157,6 +157,8 @@ def test_a_device_that_cannot_be_opened_is_told(video: FakeVideo) -> None:
 def test_the_controls_are_in_the_status_and_are_read_again(video: FakeVideo) -> None:
     source = source_of(video)
     source.open()
+    assert source.camera.controls[CameraControl.AUTOFOCUS] == 1
+    read(source, video, after_s=4.0)
     assert source.camera.controls[CameraControl.AUTOFOCUS] == 0
     video.camera.controls[CameraControl.FOCUS] = 99
     read(source, video, after_s=1.1)

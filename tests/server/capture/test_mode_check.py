@@ -98,9 +98,10 @@ def test_the_sentence_names_what_was_asked_granted_and_measured_and_what_to_do()
 
 def test_nothing_is_measured_while_the_camera_settles() -> None:
     checked = check(mode(30), mode(30))
-    for number in range(20):
-        checked.take(FULL_HD, number * 0.1)
-    assert checked.problem is None
+    times_s = [*(number / 5 for number in range(int(5 * SETTLE_S))), *(SETTLE_S + n / 30 for n in range(150))]
+    for at_s in times_s:
+        checked.take(FULL_HD, at_s)
+        assert checked.problem is None
 
 
 def test_a_rate_that_comes_back_ends_it_and_one_that_wavers_is_not_told_anew() -> None:

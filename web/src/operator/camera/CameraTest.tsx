@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
 import { shownNumber } from "../../live/rounding";
+import { cameraFacts } from "../../panes/cameraFacts";
 import { searchTimeMs } from "../../panes/searchTime";
 import { troublesOf } from "../../panes/troubles";
 import { useWords } from "../../words/WordsContext";
@@ -22,6 +23,7 @@ export function CameraTest(): ReactNode {
       words.details.size,
       snapshot === null ? "—" : `${String(snapshot.width_px)} × ${String(snapshot.height_px)} px`,
     ],
+    ...cameraFacts(newest?.source.camera ?? null, words).map(([name, value]) => [name, value] as const),
     [words.header.rate, rateHz === null ? "—" : `${shownNumber(rateHz)} Hz`],
     [
       words.camera.age,
