@@ -12,6 +12,7 @@ from server.theatre import theatre_of
 
 if TYPE_CHECKING:
     from tracker.rehearsal import Renderer
+    from tracker.rehearsal.backdrop import StillStore
     from tracker.rehearsal.board_renderer import BoardRenderer
 
 log = structlog.get_logger(__name__)
@@ -43,11 +44,18 @@ class Staging:
     Args:
         source: what plays.
         renderer: that it plays with now; what stands still is kept for the next one.
+        store: what keeps it over starts, if anything does.
     """
 
-    def __init__(self, source: RehearsalSource, renderer: "Renderer | BoardRenderer") -> None:
+    def __init__(
+        self,
+        source: RehearsalSource,
+        renderer: "Renderer | BoardRenderer",
+        store: "StillStore | None" = None,
+    ) -> None:
         self._source = source
         self._renderer = renderer
+        self._store = store
         self._lock = threading.Lock()
         self._ordered: SceneOrder | None = None
         self._working = False
@@ -81,7 +89,7 @@ class Staging:
 
     def _play(self, order: SceneOrder) -> None:
         theatre = theatre_of(order.rehearsal)
-        renderer = theatre.renderer(after=self._renderer)
+        renderer = theatre.renderer(after=self._renderer, store=self._store)
         renderer.prepare()
         self._renderer = renderer
         self._source.play(renderer, scene_number=order.number, silences=theatre.settings.events)

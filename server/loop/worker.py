@@ -29,8 +29,10 @@ from server.loop.parent import die_with_parent
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
 from server.loop.staging import SceneOrder, Staging
+from server.loop.still_files import StillFiles
 from server.loop.tracking import Tracking
 from server.setup import CaseSetup, Preparation, build_setup
+from server.store.home import home_folder
 from tracker.errors import NavigationError
 
 # A sign of life when no image comes.
@@ -154,7 +156,8 @@ def _staged(
             order.config, stop=stop, first_number=order.first_number, calibration=calibration
         )
         return source, None
-    renderer = theatre.renderer()
+    store = StillFiles(home_folder())
+    renderer = theatre.renderer(store=store)
     if theatre.settings.events:
         renderer.prepare()
     source = source_from_config(
@@ -165,7 +168,7 @@ def _staged(
         begun=None if order.scene is None else order.scene.begun(order.first_number),
         silences=theatre.settings.events,
     )
-    return source, Staging(source, renderer) if isinstance(source, RehearsalSource) else None
+    return source, Staging(source, renderer, store) if isinstance(source, RehearsalSource) else None
 
 
 def work(

@@ -1,6 +1,7 @@
 """The still scenery as the camera sees it."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 import cv2
 import numpy as np
@@ -23,29 +24,53 @@ Image32 = npt.NDArray[np.float32]
 REFERENCE_MARGIN_PX = 8
 
 
-class Backdrop:
-    """The theatre without what moves; building it takes about a second.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Still:
+    """The theatre without what moves, in the light that it has in the mean.
 
     Attributes:
-        rays: of the camera.
+        picture: (h, w, 3) uint8, BGR.
         depth_mm: (h, w) float32 along the optical axis, of the nearest still thing.
         points_mm: (h/4, w/4, 3) float32, where the middle of each 4x4 block lies, in the room's frame.
     """
 
-    def __init__(self, theatre: Theatre, placement: Placement, rays: RayGrid, sensor: Sensor) -> None:
-        self.rays = rays
+    picture: Image8
+    depth_mm: Image32
+    points_mm: Image32
+
+    @property
+    def size_wh_px(self) -> tuple[int, int]:
+        """Width and height of the picture."""
+        height, width = self.picture.shape[:2]
+        return width, height
+
+
+class StillStore(Protocol):
+    """Keeps what was rendered over starts. It may forget or fail, and never answers with something else."""
+
+    def load(self, key: bytes) -> Still | None:
+        """What was saved under this key; None if there is nothing, or nothing that can be read."""
+
+    def save(self, key: bytes, still: Still) -> None:
+        """Keep it, or do not."""
+
+
+class Backdrop:
+    """The theatre without what moves, as a camera's sensor sees it.
+
+    Attributes:
+        depth_mm: as in `Still`.
+        points_mm: as in `Still`.
+    """
+
+    def __init__(self, still: Still, sensor: Sensor, reference_box: Box | None) -> None:
         self._sensor = sensor
-        scenery = still_scenery(theatre, rays, placement)
-        self.depth_mm, self.points_mm = scenery.depth_mm, scenery.points_mm
-        picture = scenery.picture * self._sensor.gain[..., None]
-        sigma = DEFOCUS_PX * theatre.settings.blur
-        if sigma > 0.05:
-            picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
-        self._picture: Image8 = np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
+        self.depth_mm, self.points_mm = still.depth_mm, still.points_mm
+        self._picture = still.picture
         # The light changes every few images.
         self._lit: tuple[float, Image8] = (1.0, self._picture)
         self._still_noise = self._sensor.still_noise(self._picture)
-        self._reference_box = _reference_box(theatre, placement, rays)
+        self._reference_box = reference_box
 
     def expose(self, at_s: float) -> Exposure:
         """The image of this time, for now without what moves."""
@@ -65,20 +90,52 @@ class Backdrop:
 
 
 class Backdrops:
-    """The still scenery of each place that camera and patient are in, rendered when it is first needed."""
+    """The still scenery of each place that camera and patient are in, rendered when it is first needed.
 
-    def __init__(self, theatre: Theatre) -> None:
+    Args:
+        theatre: whose scenery it is.
+        store: what keeps it over starts; rendering one takes about a second.
+
+    Attributes:
+        rays: of the camera.
+    """
+
+    def __init__(self, theatre: Theatre, store: StillStore | None = None) -> None:
         self._theatre = theatre
+        self._store = store
         self._stage = _stage(theatre.settings)
-        self._rays = RayGrid(theatre.camera)
+        self.rays = RayGrid(theatre.camera)
         self._sensor = Sensor(theatre.settings)
         self._kept: dict[bytes, Backdrop] = {}
 
     def at(self, placement: Placement) -> Backdrop:
         """The scenery there."""
         if placement.key not in self._kept:
-            self._kept[placement.key] = Backdrop(self._theatre, placement, self._rays, self._sensor)
+            box = _reference_box(self._theatre, placement, self.rays)
+            self._kept[placement.key] = Backdrop(self._still(placement), self._sensor, box)
         return self._kept[placement.key]
+
+    def _still(self, placement: Placement) -> Still:
+        if self._store is None:
+            return self._rendered(placement)
+        key = repr(self._stage).encode() + placement.key
+        still = self._store.load(key)
+        if still is None or still.size_wh_px != self._stage.size_wh_px:
+            still = self._rendered(placement)
+            self._store.save(key, still)
+        return still
+
+    def _rendered(self, placement: Placement) -> Still:
+        scenery = still_scenery(self._theatre, self.rays, placement)
+        picture = scenery.picture * self._sensor.gain[..., None]
+        sigma = DEFOCUS_PX * self._stage.blur
+        if sigma > 0.05:
+            picture = np.asarray(cv2.GaussianBlur(picture, (0, 0), sigma), dtype=np.float32)
+        return Still(
+            picture=np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8),
+            depth_mm=scenery.depth_mm,
+            points_mm=scenery.points_mm,
+        )
 
     def show(self, theatre: Theatre) -> bool:
         """Whether they are of this theatre, whatever is played in it."""

@@ -5,7 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array, Camera, Pattern, Rigid
-from tracker.rehearsal.backdrop import Backdrops
+from tracker.rehearsal.backdrop import Backdrops, StillStore
 from tracker.rehearsal.boards import BOARD_FROM_KIND, BoardHand, printed
 from tracker.rehearsal.point_spread import DEFOCUS_PX, point_spread
 from tracker.rehearsal.printed import covered_px
@@ -25,13 +25,15 @@ FACE_FROM_PATTERN = np.diag([1.0, -1.0, -1.0])
 class BoardRenderer:
     """Renders a board that a hand holds still in one place after the other. Same time, same image."""
 
-    def __init__(self, theatre: Theatre, kept: Backdrops | None = None) -> None:
+    def __init__(
+        self, theatre: Theatre, kept: Backdrops | None = None, store: StillStore | None = None
+    ) -> None:
         self._theatre = theatre
         self._camera = theatre.camera
         self._blur = theatre.settings.blur
-        self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre)
+        self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre, store)
         self.prepare()
-        self._rays = self.backdrops.at(theatre.placement_at(0.0)).rays
+        self._rays = self.backdrops.rays
         self._printed = printed(BOARD_FROM_KIND[theatre.settings.board])
         self._plane = self._printed.plane
         self._hand = BoardHand(self._printed, theatre.camera, theatre.settings.seed)

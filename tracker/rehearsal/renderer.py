@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array, Camera, Marker, Rigid, Tool, skew
-from tracker.rehearsal.backdrop import Backdrops
+from tracker.rehearsal.backdrop import Backdrops, StillStore
 from tracker.rehearsal.drill import (
     BOARD_HALF_MM,
     BOARD_PER_MM,
@@ -60,10 +60,13 @@ class Renderer:
     state between images, so that they may be asked for in any order.
     """
 
-    def __init__(self, theatre: Theatre, kept: Backdrops | None = None) -> None:
+    def __init__(
+        self, theatre: Theatre, kept: Backdrops | None = None, store: StillStore | None = None
+    ) -> None:
         self._theatre = theatre
-        self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre)
-        self._rays = self.backdrops.at(theatre.placement_at(0.0)).rays
+        self.backdrops = kept if kept is not None and kept.show(theatre) else Backdrops(theatre, store)
+        self._rays = self.backdrops.rays
+        self.backdrops.at(theatre.placement_at(0.0))
         self._portrait = drill_portrait()
         self._bulge_mm = drill_bulge_mm(NEAR_BONE_MM)
         self._marker_board = PrintedPlane(

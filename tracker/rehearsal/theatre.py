@@ -29,6 +29,7 @@ from tracker.rehearsal.settings import Scene, TheatreSettings
 Square = TypeVar("Square")
 
 if TYPE_CHECKING:
+    from tracker.rehearsal.backdrop import StillStore
     from tracker.rehearsal.board_renderer import BoardRenderer
     from tracker.rehearsal.renderer import Renderer
 
@@ -188,16 +189,20 @@ class Theatre:
         """Whether such an event is there at this time."""
         return any(event.kind is kind and event.is_on(at_s) for event in self.settings.events)
 
-    def renderer(self, after: "Renderer | BoardRenderer | None" = None) -> "Renderer | BoardRenderer":
+    def renderer(
+        self, after: "Renderer | BoardRenderer | None" = None, store: "StillStore | None" = None
+    ) -> "Renderer | BoardRenderer":
         """What makes the images of its scene; rendering what stands still takes about a second.
 
-        `after` is what rendered another scene of the same theatre before: what stands still is taken from it.
+        `after` is what rendered another scene of the same theatre before: what stands still is taken from it,
+        else from the store, if it was there once.
         """
         from tracker.rehearsal.board_renderer import BoardRenderer  # noqa: PLC0415  they need the theatre first
         from tracker.rehearsal.renderer import Renderer  # noqa: PLC0415
 
         kept = None if after is None else after.backdrops
-        return BoardRenderer(self, kept) if self.settings.scene is Scene.BOARD else Renderer(self, kept)
+        kind = BoardRenderer if self.settings.scene is Scene.BOARD else Renderer
+        return kind(self, kept, store)
 
     def camera_from_marker_at(self, at_s: float, *, late_s: float = 0.0) -> Rigid[Camera, Marker]:
         """Where the drill's marker is at this time; the hand follows the patient.
