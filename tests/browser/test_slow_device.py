@@ -1,7 +1,7 @@
 """A device that is too slow for everything: what gives way first, and what the page says is slow.
 
-The slowness is forced: each image takes a fixed time more than it needs here, so that the order does not hang on
-how busy the machine is.
+The slowness is forced: each image takes a fixed time more than it needs here, so that the order does not
+hang on how busy the machine is.
 """
 
 import re

@@ -33,12 +33,13 @@ export class Live {
   private readonly hold = new ReturnHold();
   private readonly sceneAge = new SceneAge();
   /** What this page can carry, and what is slow. */
-  readonly load = new Load();
+  readonly load: Load;
   private onChoice: (choice: PictureChoice) => void = () => undefined;
   private readonly painters = new Set<(view: View) => void>();
 
   constructor(private readonly now: () => number) {
     this.is = situationAtLoad(now());
+    this.load = new Load(now);
   }
 
   /** Called with every look; must only touch the page where something changed. */
@@ -129,23 +130,22 @@ export class Live {
     const taken = this.takenFrom(message, receivedAtMs);
     if (taken) this.sceneAge.image(taken.snapshot.image_number, taken.capturedAtMs);
     // Numbers and picture change together, when the picture is ready: both are of one image.
-    const onDecoded = (): void => {
-      showing.decoded(this.now());
-    };
+    const onDecoded = showing.decoded;
     const drawn = taken !== null && jpeg.byteLength > 0 && (await this.draw(jpeg, isCurrent, onDecoded));
     // Not before its picture stands: to say that there is none would be a false alarm.
     this.is.everHeard = true;
     if (!isCurrent()) return { stands: false, showingMs: 0 };
     this.is.numbers = taken;
-    showing.stands(this.now());
+    showing.stands();
+    const sentAtMs = this.clock.pageMs(message.sent_at_s);
     if (drawn) {
       this.is.picture = taken;
       this.is.canvasSinceMs = null;
-      const times = showing.times(this.clock.pageMs(message.sent_at_s), taken.capturedAtMs);
+      const times = showing.times(sentAtMs, taken.capturedAtMs);
       this.load.shown(times, taken.snapshot, message.shown_scale_ratio);
     }
     this.look();
-    return { stands: true, showingMs: showing.pageMs };
+    return { stands: true, showingMs: showing.deviceMs(sentAtMs, this.load.sharesMachine) };
   }
 
   /** The answer to a question that was asked because the line was quiet, or to compare clocks. */

@@ -19,6 +19,8 @@ export class Load {
   private staleAfterMs = 0;
   private current = 0;
 
+  constructor(private readonly now: () => number) {}
+
   set choice(choice: PictureChoice) {
     this.carrying.choice = choice;
   }
@@ -42,7 +44,7 @@ export class Load {
 
   /** An image was received just now. */
   begin(receivedAtMs: number): Showing {
-    return new Showing(this.stall, receivedAtMs);
+    return new Showing(this.now, this.stall, receivedAtMs);
   }
 
   sceneDrawn(byProcessor: boolean, nowMs: number): void {

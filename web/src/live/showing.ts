@@ -1,4 +1,4 @@
-// One image on its way from the socket to the page, and where its time goes. Pure: times go in as numbers.
+// One image on its way from the socket to the page, and where its time goes.
 import type { ImageTimes, Stall } from "./timings";
 
 export class Showing {
@@ -9,6 +9,7 @@ export class Showing {
 
   /** It was received just now; what the page was too busy to hear before that is the page's time, too. */
   constructor(
+    private readonly now: () => number,
     private readonly stall: Stall,
     private readonly receivedAtMs: number,
   ) {
@@ -16,18 +17,26 @@ export class Showing {
     this.stallMs = stall.overdueMs(receivedAtMs);
   }
 
-  decoded(atMs: number): void {
-    this.decodedAtMs = atMs;
-    this.decodedStallMs = Math.min(this.stall.overdueMs(atMs), atMs - this.receivedAtMs);
+  readonly decoded = (): void => {
+    this.decodedAtMs = this.now();
+    this.decodedStallMs = Math.min(
+      this.stall.overdueMs(this.decodedAtMs),
+      this.decodedAtMs - this.receivedAtMs,
+    );
+  };
+
+  stands(): void {
+    this.shownAtMs = this.now();
   }
 
-  stands(atMs: number): void {
-    this.shownAtMs = atMs;
-  }
-
-  /** What the page, and not the network, took for it: the server must not think its line thin for that. */
-  get pageMs(): number {
-    return Math.max(0, this.shownAtMs - this.receivedAtMs + this.stallMs);
+  /**
+   * What this device, and not the network, took for it: the server must not think its line thin for that. Where the
+   * server runs on this very machine nothing lies between, and all since its sending is the machine's.
+   */
+  deviceMs(sentAtMs: number | null, sharesMachine: boolean): number {
+    const heardAtMs = this.receivedAtMs - this.stallMs;
+    const fromMs = sharesMachine && sentAtMs !== null ? Math.min(sentAtMs, heardAtMs) : heardAtMs;
+    return Math.max(0, this.shownAtMs - fromMs);
   }
 
   times(sentAtMs: number | null, capturedAtMs: number): ImageTimes {

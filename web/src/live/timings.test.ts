@@ -2,10 +2,20 @@ import { expect, test } from "vitest";
 import { Showing } from "./showing";
 import { drawingWithScreenMs, Stall, TimingWindow } from "./timings";
 
+/** Received at one time, decoded and standing at others. */
+function shownAt(stall: Stall, receivedAtMs: number, decodedAtMs: number, standsAtMs: number): Showing {
+  let nowMs = receivedAtMs;
+  const showing = new Showing(() => nowMs, stall, receivedAtMs);
+  stall.tick(receivedAtMs);
+  nowMs = decodedAtMs;
+  showing.decoded();
+  nowMs = standsAtMs;
+  showing.stands();
+  return showing;
+}
+
 test("an image's time is split into network, decoding and drawing", () => {
-  const showing = new Showing(new Stall(50), 1000);
-  showing.decoded(1030);
-  showing.stands(1035);
+  const showing = shownAt(new Stall(50), 1000, 1030, 1035);
   expect(showing.times(990, 950)).toEqual({
     atMs: 1035,
     networkMs: 10,
@@ -13,22 +23,21 @@ test("an image's time is split into network, decoding and drawing", () => {
     drawingMs: 5,
     ageMs: 85,
   });
-  expect(showing.pageMs).toBe(35);
+  expect(showing.deviceMs(990, false)).toBe(35);
+  expect(showing.deviceMs(null, true)).toBe(35);
+  expect(showing.deviceMs(990, true)).toBe(45);
 });
 
 test("what the page was too busy to hear is drawing, not network nor decoding", () => {
   const stall = new Stall(50);
   stall.tick(900);
-  const showing = new Showing(stall, 1010);
-  stall.tick(1010);
-  showing.decoded(1100);
-  showing.stands(1100);
+  const showing = shownAt(stall, 1010, 1100, 1100);
   expect(showing.times(930, 900)).toMatchObject({ networkMs: 20, decodingMs: 50, drawingMs: 100 });
-  expect(showing.pageMs).toBe(150);
+  expect(showing.deviceMs(930, false)).toBe(150);
 });
 
 test("before the clocks are compared nobody knows the time on the network", () => {
-  expect(new Showing(new Stall(50), 1000).times(null, 950).networkMs).toBeNull();
+  expect(shownAt(new Stall(50), 1000, 1010, 1011).times(null, 950).networkMs).toBeNull();
 });
 
 test("means are of the last seconds, and of what came since a change", () => {
