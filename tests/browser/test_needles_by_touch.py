@@ -81,26 +81,27 @@ def test_the_slice_is_dragged_pinched_and_turned_over_the_live_picture(
         gesture(page, [[at(middle, one) for one in path] for path in paths])
         page.evaluate(AT_REST)
 
+    def until_changed(field: str, *paths: tuple[tuple[float, float], tuple[float, float]]) -> None:
+        # A page that is short of time takes two fingers that come late for one; a person does it again.
+        for _ in range(3):
+            before = overlay_of(page)
+            fingers(*paths)
+            with contextlib.suppress(PlaywrightTimeout):
+                page.wait_for_function(f"was => ({OVERLAY}).{field} !== was", arg=before[field])
+                page.evaluate(AT_REST)
+                return
+
     fingers(((0, 0), (60, -20)))
     dragged = overlay_of(page)
     moved = np.subtract(dragged["shift_px"], first["shift_px"])
     np.testing.assert_allclose(moved, [60 * per_px, -20 * per_px], atol=4 * per_px)
     assert dragged["turn_deg"] == first["turn_deg"]
 
-    # A page that is short of time takes two fingers that come late for one; a person does it again.
-    for _ in range(3):
-        before = overlay_of(page)
-        fingers(((-40, 0), (-80, 0)), ((40, 0), (80, 0)))
-        with contextlib.suppress(PlaywrightTimeout):
-            page.wait_for_function(
-                f"scale => ({OVERLAY}).scale_px_per_mm !== scale", arg=before["scale_px_per_mm"]
-            )
-            page.evaluate(AT_REST)
-            break
+    until_changed("scale_px_per_mm", ((-40, 0), (-80, 0)), ((40, 0), (80, 0)))
     pinched = overlay_of(page)
     assert pinched["scale_px_per_mm"] / dragged["scale_px_per_mm"] == pytest.approx(2.0, rel=0.3)
 
-    fingers(((-60, 0), (-60, -30)), ((60, 0), (60, 30)))
+    until_changed("turn_deg", ((-60, 0), (-60, -30)), ((60, 0), (60, 30)))
     turned = overlay_of(page)
     clockwise = np.degrees(np.arctan2(30, 60))
     assert turned["turn_deg"] - pinched["turn_deg"] == pytest.approx(clockwise, abs=8.0)
