@@ -21,6 +21,7 @@ from server.api.errors import install_errors, refusals
 from server.api.gates import gates_router
 from server.api.health import health_router
 from server.api.jobs import jobs_router
+from server.api.latency import latency_router
 from server.api.live import live_router
 from server.api.markers import markers_router
 from server.api.metrics import Metrics, metrics_router
@@ -216,6 +217,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(jobs_router(parts.jobs))
     if parts.steps is not None and parts.store is not None:
         app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(latency_router(parts.steps.latency))
         app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))
         app.include_router(ct_router(parts.steps.ct, parts.steps.opened_ct, parts.store.home))

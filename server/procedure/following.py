@@ -27,14 +27,22 @@ class Follower:
         look: what is done with each; called from one thread alone.
         name: of the thread, for the log.
         rest_s: least pause between two looks, so that the video keeps its share of the machine.
+        rest_ratio: least pause, in the time that the look before it took.
     """
 
     def __init__(
-        self, hub: LiveHub, look: Callable[[Instant], None], *, name: str, rest_s: float = 0.0
+        self,
+        hub: LiveHub,
+        look: Callable[[Instant], None],
+        *,
+        name: str,
+        rest_s: float = 0.0,
+        rest_ratio: float = REST_BY_LOOK,
     ) -> None:
         self._hub = hub
         self._look = look
         self._rest_s = rest_s
+        self._rest_ratio = rest_ratio
         self._stop = threading.Event()
         self._trouble: Trouble | None = None
         newest = hub.newest
@@ -80,4 +88,4 @@ class Follower:
                 )
                 return
             took_s = time.monotonic() - began_s
-            self._stop.wait(max(self._rest_s - took_s, REST_BY_LOOK * took_s))
+            self._stop.wait(max(self._rest_s - took_s, self._rest_ratio * took_s))

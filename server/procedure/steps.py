@@ -15,6 +15,7 @@ from server.procedure.confirm import ConfirmStep
 from server.procedure.ct import CtStep, OpenedCt
 from server.procedure.guiding import Guiding
 from server.procedure.in_use import CaseInUse
+from server.procedure.latency import LatencyStep
 from server.procedure.markers import MarkerStep
 from server.procedure.plan import PlanStep
 from server.procedure.registration import RegistrationSteps
@@ -23,6 +24,7 @@ from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
 from server.store import CaseStore
+from server.store.latency_file import LatencyFile
 from tracker.marker import MarkerModel
 from tracker.pose.tool import ToolGate
 
@@ -36,6 +38,7 @@ class Steps:
 
     Attributes:
         camera: calibrates the camera.
+        latency: measures the latency from light to page.
         markers: takes pictures of markers in.
         tool: calibrates tools.
         ct: takes a CT in.
@@ -48,6 +51,7 @@ class Steps:
     """
 
     camera: CameraStep
+    latency: LatencyStep
     markers: MarkerStep
     tool: ToolStep
     ct: CtStep
@@ -101,6 +105,7 @@ class Steps:
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
             camera=_camera_step(hub, store, jobs, config, brought),
+            latency=_latency_step(hub, store, brought),
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
@@ -115,6 +120,7 @@ class Steps:
     def close(self) -> None:
         """Collect no more."""
         self.camera.end()
+        self.latency.end()
         self.tool.end()
         self.registration.close()
 
@@ -162,6 +168,10 @@ def _camera_step(hub: LiveHub, store: CaseStore, jobs: Jobs, config: Config, bro
         source=brought.source,
         same_sensor_area=config.camera.same_sensor_area,
     )
+
+
+def _latency_step(hub: LiveHub, store: CaseStore, brought: Brought) -> LatencyStep:
+    return LatencyStep(hub=hub, store=store, file=LatencyFile(store.home.folder), camera=brought.source)
 
 
 def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:

@@ -32,6 +32,7 @@ GET     /api/live
 GET     /api/alarms
 GET     /api/alarms/sound/{priority}.wav
 GET     /api/procedure
+GET     /api/latency
 GET     /video/{camera}.mjpg
 GET     /api/supervision/room
 GET     /api/supervision/signatures
@@ -68,6 +69,7 @@ GET     /api/gates
 GET     /api/camera
 GET     /api/camera/collection
 GET     /api/camera/calibration
+GET     /api/latency/measurement
 GET     /api/markers
 GET     /api/markers/{name}/picture
 GET     /api/tools
@@ -132,6 +134,9 @@ POST    /api/camera/collection/images
 POST    /api/camera/calibration
 POST    /api/camera/accuracy
 POST    /api/camera/board
+POST    /api/latency/measurement
+DELETE  /api/latency/measurement
+POST    /api/latency/measurement/conclusion
 POST    /api/markers
 DELETE  /api/markers/{name}
 POST    /api/tools/collection

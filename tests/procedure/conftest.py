@@ -64,6 +64,7 @@ class Server:
         beside: Mapping[str, Seen] | None = None,
         moved: AbsentReason | None = None,
         camera: CameraStatus | None = None,
+        rate_hz: float = 0.0,
     ) -> NavigationSnapshot:
         """Publish an image, or markers seen in it, as the tracking process would; what it says."""
         self.number += 1
@@ -84,7 +85,9 @@ class Server:
         self.hub.publish(
             Instant(
                 sequence=self.number,
-                source=SourceStatus(name="rehearsal", state=SourceState.RUNNING, camera=camera),
+                source=SourceStatus(
+                    name="rehearsal", state=SourceState.RUNNING, rate_hz=rate_hz, camera=camera
+                ),
                 process=ProcessStatus(state=ProcessState.RUNNING),
                 snapshot=snapshot,
                 image=image,

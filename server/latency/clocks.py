@@ -1,0 +1,74 @@
+"""The server's monotonic clock on the page's time axis."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+# Answers that took longer than the fastest one by more than this say less of the clocks than of the line.
+MAX_EXTRA_MS = 2.0
+# Below this span a drift cannot be told from the noise of the line.
+MIN_SPAN_MS = 5000.0
+# Quartz clocks differ by less; a steeper slope is noise of the line.
+MAX_DRIFT_RATIO = 500e-6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClockComparison:
+    """A question of the page with the server's time in the answer.
+
+    Attributes:
+        asked_at_ms, answered_at_ms: by the page's clock.
+        server_s: monotonic clock of the server, in between.
+    """
+
+    asked_at_ms: float
+    answered_at_ms: float
+    server_s: float
+
+    @property
+    def round_trip_ms(self) -> float:
+        """How long the answer took."""
+        return self.answered_at_ms - self.asked_at_ms
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ServerClock:
+    """A line through the comparisons: page_ms = zero_ms + (server_s - zero_s) * ms_per_s.
+
+    Attributes:
+        zero_s, zero_ms: a moment by both clocks.
+        ms_per_s: 1000, but for the drift of the clocks.
+        error_ms: by how much the comparison may be off: half of the longest round trip that was used.
+    """
+
+    zero_s: float
+    zero_ms: float
+    ms_per_s: float
+    error_ms: float
+
+    @classmethod
+    def of(cls, comparisons: Sequence[ClockComparison]) -> "ServerClock":
+        """From the comparisons with the shortest round trips; at least one is needed."""
+        fastest_ms = min(one.round_trip_ms for one in comparisons)
+        used = [one for one in comparisons if one.round_trip_ms <= fastest_ms + MAX_EXTRA_MS]
+        server_ms = np.array([one.server_s for one in used]) * 1000.0
+        page_ms = np.array([0.5 * (one.asked_at_ms + one.answered_at_ms) for one in used])
+        ahead_ms = page_ms - server_ms
+        zero_ms = float(server_ms.mean())
+        drift = 0.0
+        if np.ptp(server_ms) >= MIN_SPAN_MS:
+            since_ms = server_ms - zero_ms
+            drift = float(since_ms @ (ahead_ms - ahead_ms.mean()) / (since_ms @ since_ms))
+        if abs(drift) > MAX_DRIFT_RATIO:
+            drift = 0.0
+        return cls(
+            zero_s=zero_ms / 1000.0,
+            zero_ms=zero_ms + float(ahead_ms.mean() if drift else np.median(ahead_ms)),
+            ms_per_s=1000.0 * (1.0 + drift),
+            error_ms=0.5 * max(one.round_trip_ms for one in used),
+        )
+
+    def page_ms(self, server_s: float) -> float:
+        """A moment of the server's clock by the page's."""
+        return self.zero_ms + (server_s - self.zero_s) * self.ms_per_s

@@ -1,0 +1,297 @@
+"""Measuring the latency from light to page: codes read in the live images, then timed and kept."""
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from server.clock import Clock, utc_now, utc_text
+from server.errors import CaptureError, SetupOrderError
+from server.latency import (
+    ClockComparison,
+    CodePlan,
+    CodeReader,
+    LatencyResult,
+    PaintedCode,
+    ReadImage,
+    Screen,
+    ShownImage,
+    latency_report,
+    plan_codes,
+)
+from server.live import Instant, LiveHub, Trouble
+from server.procedure.following import Follower
+from server.procedure.held import Held
+from server.store import CaseStore
+from server.store.latency_file import LatencyFile
+from tracker.errors import InvalidInput, NavigationError
+
+# A page that measures asks twice a second; one that was closed does not say so.
+LEFT_AFTER_S = 5.0
+# Of 60 images/s for two minutes.
+MAX_IMAGES = 7200
+# Of the time of one look: images come faster than a step of the set-up needs them, and each must be read.
+REST_RATIO = 0.25
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PageTimes:
+    """What the page saw, by its own clock.
+
+    Attributes:
+        painted: codes in the order in which they were painted.
+        shown: images in the order in which they were shown.
+        comparisons: of its clock with the server's.
+        screen: on which this was.
+    """
+
+    painted: Sequence[PaintedCode]
+    shown: Sequence[ShownImage]
+    comparisons: Sequence[ClockComparison]
+    screen: Screen
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReadingStatus:
+    """How reading goes.
+
+    Attributes:
+        running: whether images are still read.
+        looked_images: how many were looked at.
+        read_images: in how many of them a code was read.
+        trouble: why none is looked at any more.
+    """
+
+    running: bool
+    looked_images: int
+    read_images: int
+    trouble: Trouble | None
+
+
+class LatencyMeasurement:
+    """Reads the code in every live image until it is stopped, nobody asks after it, or the case changes.
+
+    Args:
+        hub: the live images.
+        plan: of the codes that the page shows.
+        clock: monotonic, for how long nobody asked.
+    """
+
+    def __init__(self, hub: LiveHub, plan: CodePlan, *, clock: Callable[[], float] = time.monotonic) -> None:
+        self.plan = plan
+        self._clock = clock
+        self._asked_at_s = clock()
+        self._lock = threading.Lock()
+        self._reader = CodeReader()
+        self._read: dict[int, ReadImage] = {}
+        self._size_wh_px = (0, 0)
+        self._ended: NavigationError | None = None
+        self._follower = Follower(
+            hub, self._look, name="reading codes for the latency", rest_ratio=REST_RATIO
+        )
+
+    @property
+    def read(self) -> tuple[ReadImage, ...]:
+        """What was read, image by image."""
+        with self._lock:
+            return tuple(self._read.values())
+
+    @property
+    def size_wh_px(self) -> tuple[int, int]:
+        """Of the images; zeros before the first."""
+        with self._lock:
+            return self._size_wh_px
+
+    def status(self) -> ReadingStatus:
+        """How reading goes; whoever asks is still there."""
+        with self._lock:
+            self._asked_at_s = self._clock()
+            return ReadingStatus(
+                running=self._follower.running,
+                looked_images=len(self._read),
+                read_images=sum(one.code is not None for one in self._read.values()),
+                trouble=self._follower.trouble,
+            )
+
+    def end_for(self, error: NavigationError) -> None:
+        """End with the next image, for this reason."""
+        with self._lock:
+            self._ended = error
+
+    def stop(self) -> None:
+        """Read no more."""
+        self._follower.stop()
+
+    def _look(self, instant: Instant) -> None:
+        self._refuse_to_go_on()
+        snapshot = instant.snapshot
+        if instant.image is None or snapshot is None:
+            return
+        code = self._reader.read(instant.image)
+        tracked_s = sum(snapshot.stage_ms.values()) / 1000.0
+        one = ReadImage(
+            image_number=snapshot.image_number,
+            captured_at_s=snapshot.captured_at_s,
+            concluded_at_s=snapshot.captured_at_s + tracked_s,
+            code=code,
+        )
+        with self._lock:
+            if self._size_wh_px not in {(0, 0), snapshot.size_wh_px}:
+                raise InvalidInput(
+                    "IMAGE_SIZE_CHANGED",
+                    f"images are {snapshot.size_wh_px[0]}x{snapshot.size_wh_px[1]} px now, and were "
+                    f"{self._size_wh_px[0]}x{self._size_wh_px[1]} px",
+                    "Set the camera to the size that it works with, and measure again.",
+                    {"size_wh_px": list(snapshot.size_wh_px), "before_wh_px": list(self._size_wh_px)},
+                )
+            self._size_wh_px = snapshot.size_wh_px
+            self._read.setdefault(one.image_number, one)
+
+    def _refuse_to_go_on(self) -> None:
+        with self._lock:
+            silent_s, images, ended = self._clock() - self._asked_at_s, len(self._read), self._ended
+        if ended is not None:
+            raise ended
+        if silent_s > LEFT_AFTER_S:
+            raise SetupOrderError(
+                "LATENCY_PAGE_LEFT",
+                f"the page that shows the codes was silent for {silent_s:.1f} s, allowed {LEFT_AFTER_S:g} s",
+                "Leave that page open and in view, and measure again.",
+                {"silent_s": silent_s, "max_silent_s": LEFT_AFTER_S},
+            )
+        if images >= MAX_IMAGES:
+            raise SetupOrderError(
+                "LATENCY_TOO_LONG",
+                f"the code was looked for in {images} images, which is the most that are kept",
+                "Measure again, with the camera at the screen before you begin.",
+                {"images": images},
+            )
+
+
+class LatencyStep:
+    """Measures the latency of the camera and a page; one measurement at a time. Safe to use from any thread.
+
+    Args:
+        hub: the live images.
+        store: whose open case ends a measurement when it is closed or another is opened.
+        file: where results are kept.
+        camera: the source in words, as its results name it.
+        clock: monotonic.
+        wall: the wall clock, for the date of a result.
+    """
+
+    def __init__(
+        self,
+        *,
+        hub: LiveHub,
+        store: CaseStore,
+        file: LatencyFile,
+        camera: str,
+        clock: Callable[[], float] = time.monotonic,
+        wall: Clock = utc_now,
+    ) -> None:
+        self._hub = hub
+        self._store = store
+        self._file = file
+        self._camera = camera
+        self._clock = clock
+        self._wall = wall
+        self._case_id: str | None = None
+        self._held: Held[LatencyMeasurement] = Held(
+            "codes for the latency are", remedy="Begin a measurement on the camera's page."
+        )
+        store.call_after_writing(self._follow_case)
+
+    def begin(self, codes: int) -> LatencyMeasurement:
+        """Read codes in the live images from now on; a measurement that was there is thrown away.
+
+        Raises:
+            CaptureError: NO_PICTURE.
+        """
+        newest = self._hub.newest
+        rate_hz = 0.0 if newest is None else newest.source.rate_hz
+        if newest is None or newest.is_stopped or rate_hz <= 0.0:
+            raise CaptureError(
+                "NO_PICTURE",
+                "the camera gives no images, so nothing can be timed",
+                "Wait until the video runs, and try again.",
+            )
+        self._case_id = self._opened_id()
+        plan = plan_codes(codes, rate_hz=rate_hz)
+        return self._held.begin(lambda: LatencyMeasurement(self._hub, plan, clock=self._clock))
+
+    @property
+    def measurement(self) -> LatencyMeasurement:
+        """The one that runs.
+
+        Raises:
+            SetupOrderError: COLLECTION_MISSING.
+        """
+        return self._held.get()
+
+    @property
+    def is_measuring(self) -> bool:
+        """Whether one runs."""
+        return self._held.is_there
+
+    def end(self) -> None:
+        """Read no more, and throw away what was read."""
+        self._held.end()
+
+    def conclude(self, times: PageTimes, *, made_by: str) -> LatencyResult:
+        """Time the codes, and keep the result; the measurement ends, also where it is refused.
+
+        Raises:
+            SetupOrderError: COLLECTION_MISSING, or why reading had ended before.
+            CalibrationError: as `latency_report`.
+            StoreError: it cannot be kept.
+        """
+        measurement = self.measurement
+        self.end()
+        trouble = measurement.status().trouble
+        if trouble is not None:
+            raise SetupOrderError(trouble.code, trouble.message, trouble.remedy, trouble.context)
+        report = latency_report(
+            painted=times.painted,
+            read=measurement.read,
+            shown=times.shown,
+            comparisons=times.comparisons,
+            min_timed=measurement.plan.min_timed,
+        )
+        width_px, height_px = measurement.size_wh_px
+        result = LatencyResult(
+            at=utc_text(self._wall(), timespec="seconds"),
+            made_by=made_by,
+            camera=self._camera,
+            width_px=width_px,
+            height_px=height_px,
+            rate_hz=round(1000.0 / report.image_period_ms, 1) if report.image_period_ms > 0.0 else 0.0,
+            screen=times.screen,
+            report=report,
+        )
+        self._file.put(result)
+        return result
+
+    def newest(self) -> LatencyResult | None:
+        """What was measured last with this camera; None where nothing was.
+
+        Raises:
+            StoreError: it cannot be read.
+        """
+        return self._file.of(self._camera)
+
+    def _opened_id(self) -> str | None:
+        case = self._store.opened()
+        return None if case is None else case.id
+
+    def _follow_case(self) -> None:
+        """After each change of the store: a measurement does not outlast its case."""
+        if not self.is_measuring or self._opened_id() == self._case_id:
+            return
+        self.measurement.end_for(
+            SetupOrderError(
+                "LATENCY_CASE_CHANGED",
+                "the open case was closed, or another one opened, while the latency was measured",
+                "Measure again in the case that is open now.",
+            )
+        )

@@ -1,0 +1,89 @@
+"""Measured latencies, in a small file of the home: they belong to a camera and a screen, not to a case."""
+
+import json
+import os
+import secrets
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+
+import structlog
+from pydantic import TypeAdapter, ValidationError
+
+from server.latency import LatencyResult
+from server.store.errors import told
+from server.store.home import sync_file, sync_folder
+
+FORM = 1
+LATENCY_FILE = "latency.json"
+# One a camera; of the cameras that were used before, so many are remembered.
+MAX_CAMERAS = 20
+OWNER_ALONE = 0o600
+
+_RESULTS = TypeAdapter(tuple[LatencyResult, ...])
+_log = structlog.get_logger(__name__)
+
+
+class LatencyFile:
+    """The newest result of each camera.
+
+    Args:
+        folder: of the home.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._file = folder / LATENCY_FILE
+
+    def results(self) -> tuple[LatencyResult, ...]:
+        """One a camera, the newest first; none where the file is damaged, which the log says.
+
+        Raises:
+            StoreError: the file cannot be read.
+        """
+        with told(self._folder):
+            if not self._file.exists():
+                return ()
+            content = self._file.read_bytes()
+        try:
+            stored = json.loads(content)
+            if stored["form"] != FORM:
+                raise ValueError(f"its form is {stored['form']!r}")  # noqa: TRY301  logged below with all others
+            return _RESULTS.validate_python(stored["results"])
+        except (ValueError, KeyError, TypeError, ValidationError) as error:
+            _log.error(
+                "the file of latencies is damaged: measure again", file=str(self._file), why=str(error)
+            )
+            return ()
+
+    def of(self, camera: str) -> LatencyResult | None:
+        """The newest result of this camera; None where there is none.
+
+        Raises:
+            StoreError: the file cannot be read.
+        """
+        return next((one for one in self.results() if one.camera == camera), None)
+
+    def put(self, result: LatencyResult) -> None:
+        """Store this in place of what was measured with the same camera; it is on the disk when this returns.
+
+        Raises:
+            StoreError: STORE_FULL and others; what was stored before stays.
+        """
+        others = [one for one in self.results() if one.camera != result.camera]
+        self._write([result, *others][:MAX_CAMERAS])
+
+    def _write(self, results: Iterable[LatencyResult]) -> None:
+        content = json.dumps({"form": FORM, "results": [asdict(one) for one in results]}, indent=1)
+        part = self._file.with_name(f".{LATENCY_FILE}.{secrets.token_hex(4)}")
+        with told(self._folder):
+            descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ALONE)
+            try:
+                with os.fdopen(descriptor, "wb") as file:
+                    file.write(content.encode())
+                    file.flush()
+                    sync_file(file.fileno())
+                part.replace(self._file)
+                sync_folder(self._folder)
+            finally:
+                part.unlink(missing_ok=True)
