@@ -42,7 +42,7 @@ def schema(tmp_path_factory: pytest.TempPathFactory) -> Iterator[schemathesis.Ba
     with serving(tmp_path_factory.mktemp("lived_in")) as server:
         case = server.ask("POST", "/api/cases", 201, json={"name": "somebody"})
         server.ask("POST", f"/api/cases/{case['id']}/open", 200)
-        server.show(at_s=1.0, image=np.zeros((720, 1280, 3), dtype=np.uint8))
+        server.show(at_s=1.0, image=np.zeros((720, 1280, 3), dtype=np.uint8), rate_hz=30.0)
         described = server.ask("GET", "/api/openapi.json", 200)
         with served(server.door.app, begun=True) as port:  # type: ignore[arg-type]  # a FastAPI app
             schema = schemathesis.openapi.from_dict(described)
