@@ -42,6 +42,7 @@ import "./theme/registration.css";
 import "./theme/supervisor.css";
 import "./theme/people.css";
 import "./theme/line.css";
+import "./theme/latency.css";
 
 import { MantineProvider } from "@mantine/core";
 import { StrictMode } from "react";

@@ -155,3 +155,15 @@ test("a server that says nothing any more is gone within a second", async () => 
   nowMs = 1801;
   expect(live.look().video).toMatchObject({ live: false, cause: "server-gone" });
 });
+
+test("who measures is told of each picture that was drawn, with its message and when it came", async () => {
+  const shown: [number, number][] = [];
+  live.onShown = ({ message: told, receivedAtMs }) => {
+    shown.push([told.sequence, receivedAtMs]);
+  };
+  await live.take(frame(1));
+  live.setDraw(() => Promise.resolve(false));
+  nowMs = 1030;
+  await live.take(frame(2));
+  expect(shown).toEqual([[1, 1000]]);
+});

@@ -19,7 +19,7 @@ import { Load } from "./load";
 import type { LiveMessage } from "./messages";
 import { ReturnHold } from "./returnHold";
 import { SceneAge, type SceneNote } from "./sceneAge";
-import { agesOf, type View } from "./view";
+import { agesOf, type ShownImage, type View } from "./view";
 
 export type { Ages, View } from "./view";
 
@@ -35,6 +35,7 @@ export class Live {
   /** What this page can carry, and what is slow. */
   readonly load: Load;
   private onChoice: (choice: PictureChoice) => void = () => undefined;
+  onShown: ((image: ShownImage) => void) | null = null;
   private readonly painters = new Set<(view: View) => void>();
 
   constructor(private readonly now: () => number) {
@@ -143,6 +144,7 @@ export class Live {
       this.is.canvasSinceMs = null;
       const times = showing.times(sentAtMs, taken.capturedAtMs);
       this.load.shown(times, taken.snapshot, message.shown_scale_ratio);
+      this.onShown?.({ message, receivedAtMs });
     }
     this.look();
     return { stands: true, showingMs: showing.deviceMs(sentAtMs, this.load.sharesMachine) };

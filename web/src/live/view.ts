@@ -37,6 +37,12 @@ export interface View {
   budget: DrawingBudget;
 }
 
+/** A picture that was drawn; it is seen with the next image of the screen. */
+export interface ShownImage {
+  message: LiveMessage;
+  receivedAtMs: number;
+}
+
 export function agesOf(
   video: VideoVerdict,
   numbers: NumbersVerdict,

@@ -1,8 +1,10 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { shownNumber } from "../live/rounding";
+import { useLatency } from "../rest/useLatency";
 import { useWords } from "../words/WordsContext";
 import { cameraFacts } from "./cameraFacts";
+import { latencyText } from "./latencyText";
 import { heardOf } from "./heard";
 import { Pane } from "./Pane";
 import { searchTimeMs } from "./searchTime";
@@ -14,6 +16,7 @@ export function DetailsPane(): ReactNode {
   const words = useWords();
   const { view, dashboard } = useLive();
   const { source, snapshot } = heardOf(view);
+  const latency = useLatency().data;
   const d = words.details;
   const h = words.header;
   const searchMs = snapshot === null ? null : searchTimeMs(snapshot.stage_ms);
@@ -21,6 +24,11 @@ export function DetailsPane(): ReactNode {
     [h.source, source?.name ?? NONE, "source"],
     [h.rate, source ? `${shownNumber(source.rate_hz, 0)} /s` : NONE],
     [h.searchTime, searchMs === null ? NONE : `${shownNumber(searchMs)} ms`, "search-time"],
+    [
+      words.latency.lightToPage,
+      latency === null ? NONE : latencyText(latency, words.latency),
+      "light-to-page",
+    ],
     [d.images, String(source?.images ?? NONE)],
     [d.skipped, String(snapshot?.skipped_images ?? source?.skipped_images ?? NONE)],
     [d.restarts, source === null ? NONE : String(view.newest?.process.restarts ?? NONE)],

@@ -4,6 +4,7 @@ import { cameraDe } from "./camera/de";
 import { caseDe } from "./case/de";
 import { checkDe } from "./check/de";
 import { enterDe } from "./enter/de";
+import { latencyDe } from "./latency/de";
 import { lineDe } from "./line/de";
 import { navigateDe } from "./navigate/de";
 import { marksDe } from "./marks/de";
@@ -149,6 +150,7 @@ export const de: Words = {
   theatre: theatreDe,
   case: caseDe,
   camera: cameraDe,
+  latency: latencyDe,
   tool: toolDe,
   people: peopleDe,
   audit: auditDe,

@@ -4,6 +4,7 @@ import { cameraEn } from "./camera/en";
 import { caseEn } from "./case/en";
 import { checkEn } from "./check/en";
 import { enterEn } from "./enter/en";
+import { latencyEn } from "./latency/en";
 import { lineEn } from "./line/en";
 import { navigateEn } from "./navigate/en";
 import { marksEn } from "./marks/en";
@@ -151,6 +152,7 @@ export const en: Words = {
   theatre: theatreEn,
   case: caseEn,
   camera: cameraEn,
+  latency: latencyEn,
   tool: toolEn,
   people: peopleEn,
   audit: auditEn,

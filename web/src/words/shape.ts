@@ -7,6 +7,7 @@ import type { CameraWords } from "./camera/en";
 import type { CaseWords } from "./case/en";
 import type { CheckWords } from "./check/en";
 import type { EnterWords } from "./enter/en";
+import type { LatencyWords } from "./latency/en";
 import type { LineWords } from "./line/en";
 import type { MarksWords } from "./marks/en";
 import type { NavigateWords } from "./navigate/en";
@@ -115,6 +116,7 @@ export interface Words {
   theatre: TheatreWords;
   case: CaseWords;
   camera: CameraWords;
+  latency: LatencyWords;
   tool: ToolWords;
   people: PeopleWords;
   audit: AuditWords;

@@ -6,6 +6,7 @@ import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { useGates } from "../parts/useGates";
 import { useProcedure } from "../../app/procedure";
+import { LatencyCard } from "../latency/LatencyCard";
 import { Accuracy } from "./Accuracy";
 import { startingBoard, type Board } from "./board";
 import { BoardCard } from "./BoardCard";
@@ -83,6 +84,7 @@ export function CameraPage(): ReactNode {
             )}
           </>
         )}
+        <LatencyCard />
       </div>
       <VideoPane />
     </div>

@@ -1,0 +1,61 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, Refusal, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import { useLatency } from "../../rest/useLatency";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { LatencyReport } from "./LatencyReport";
+import { LatencyScreen } from "./LatencyScreen";
+import type { Plan, Result } from "./measure";
+
+/** The latency from light to page, measured with this screen and the camera before it. */
+export function LatencyCard(): ReactNode {
+  const words = useWords().latency;
+  const { data, again } = useLatency();
+  const beginning = useDo();
+  const [plan, setPlan] = useState<Plan | null>(null);
+  const [refusal, setRefusal] = useState<Refusal | null>(null);
+  const [madeHere, setMadeHere] = useState<string | null>(null);
+  const begin = (): void => {
+    setRefusal(null);
+    void beginning.run(async () => {
+      setPlan(await answered(server.POST("/api/latency/measurement", { body: { codes: CODES } })));
+    });
+  };
+  const onOver = (result: Result | null, refused: Refusal | null): void => {
+    setPlan(null);
+    setRefusal(refused);
+    if (result === null) return;
+    setMadeHere(result.at);
+    again();
+  };
+  const result = data?.result ?? null;
+  return (
+    <Card title={words.title} testId="latency" fresh={result?.at === madeHere ? madeHere : null}>
+      <p>{words.lead}</p>
+      {result === null ? (
+        data !== null && <p className="soft">{words.never}</p>
+      ) : (
+        <LatencyReport result={result} />
+      )}
+      <div>
+        <Button
+          size="lg"
+          variant="default"
+          loading={beginning.busy}
+          data-testid="latency-begin"
+          onClick={begin}
+        >
+          {result === null ? words.begin : words.beginAgain}
+        </Button>
+      </div>
+      <RefusalNote refusal={refusal ?? beginning.refusal} />
+      {plan !== null && <LatencyScreen plan={plan} onOver={onOver} />}
+    </Card>
+  );
+}
+
+/** Some 20 s at 30 images a second. */
+const CODES = 160;

@@ -1,0 +1,93 @@
+import { Button, Progress as Bar } from "@mantine/core";
+import { useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
+import { useLive } from "../../live/LiveContext";
+import { Refusal, server } from "../../rest/client";
+import { filled } from "../../words/filled";
+import { useWords } from "../../words/WordsContext";
+import { useMaker } from "../parts/useMaker";
+import { measure, type Plan, type Progress, type Result } from "./measure";
+
+interface LatencyScreenProps {
+  plan: Plan;
+  /** Called once, with neither where it was stopped. */
+  onOver: (result: Result | null, refusal: Refusal | null) => void;
+}
+
+/** The codes over the whole page, under the alarms; it ends by itself, by a touch, and when the page is left. */
+export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
+  const words = useWords().latency;
+  const { live } = useLive();
+  const madeBy = useMaker();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const stop = useRef<HTMLButtonElement>(null);
+  const [progress, setProgress] = useState<Progress>({ lookedImages: 0, readImages: 0, doneRatio: 0 });
+  const [left] = useState(() => new AbortController());
+  const onEnd = useEffectEvent(onOver);
+  const onRun = useEffectEvent((drawnOn: HTMLCanvasElement, signal: AbortSignal) =>
+    measure({ live, plan, canvas: drawnOn, madeBy, signal, onProgress: setProgress }),
+  );
+
+  useEffect(() => {
+    if (canvas.current === null) return;
+    const leaving = new AbortController();
+    const { signal } = leaving;
+    const end = (): void => {
+      if (signal.aborted) return;
+      leaving.abort();
+      void server.DELETE("/api/latency/measurement", { keepalive: true }).catch(() => undefined);
+    };
+    const leave = (): void => {
+      if (signal.aborted) return;
+      end();
+      onEnd(null, null);
+    };
+    // A page that is not in view paints nothing.
+    const onVisibility = (): void => {
+      if (document.visibilityState === "hidden") leave();
+    };
+    const onKey = (event: KeyboardEvent): void => {
+      if (event.key === "Escape") leave();
+    };
+    addEventListener("pagehide", leave, { signal });
+    addEventListener("keydown", onKey, { signal });
+    document.addEventListener("visibilitychange", onVisibility, { signal });
+    left.signal.addEventListener("abort", leave, { signal });
+    stop.current?.focus();
+    onRun(canvas.current, signal)
+      .then((result) => {
+        if (!signal.aborted) onEnd(result, null);
+      })
+      .catch((error: unknown) => {
+        if (signal.aborted) return;
+        if (!(error instanceof Refusal)) throw error;
+        onEnd(null, error);
+      })
+      .finally(() => {
+        leaving.abort();
+      });
+    return end;
+  }, [left]);
+
+  return (
+    <div className="latency-screen" role="dialog" aria-modal="true" aria-label={words.title}>
+      <canvas ref={canvas} role="img" aria-label={words.codeAlt} data-testid="latency-code" />
+      <div className="latency-words">
+        <p role="status" data-testid="latency-read">
+          {progress.readImages === 0 ? words.aim : words.measuring}{" "}
+          {filled(words.read, { read: progress.readImages, looked: progress.lookedImages })}
+        </p>
+        <Bar value={100 * progress.doneRatio} size="lg" aria-label={words.measuring} />
+        <Button
+          size="lg"
+          ref={stop}
+          data-testid="latency-stop"
+          onClick={() => {
+            left.abort();
+          }}
+        >
+          {words.stop}
+        </Button>
+      </div>
+    </div>
+  );
+}

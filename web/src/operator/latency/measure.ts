@@ -1,0 +1,103 @@
+// Measures: paints codes, notes what the live page shows meanwhile, and has the server time them.
+import type { Live } from "../../live/live";
+import { answered, Refusal, server } from "../../rest/client";
+import type { components } from "../../schema";
+import { CodeSequence } from "./codes";
+import { drawCode } from "./drawCode";
+import { LatencyNotes } from "./notes";
+
+export type Plan = components["schemas"]["LatencyCodesMessage"];
+export type Result = components["schemas"]["LatencyResultMessage"];
+type Reading = components["schemas"]["LatencyReadingMessage"];
+
+export interface Progress {
+  lookedImages: number;
+  readImages: number;
+  doneRatio: number;
+}
+
+interface Measured {
+  live: Live;
+  plan: Plan;
+  canvas: HTMLCanvasElement;
+  madeBy: string;
+  signal: AbortSignal;
+  onProgress: (progress: Progress) => void;
+}
+
+const ASK_EVERY_MS = 500;
+/** To take the camera in hand; then the server says in how many images it read nothing. */
+const AIM_WITHIN_MS = 60_000;
+/** For the images that show the last code to come. */
+const LINGER_MS = 1500;
+
+/**
+ * The result, or null where it was stopped by `signal`.
+ *
+ * @throws Refusal
+ */
+export async function measure(measured: Measured): Promise<Result | null> {
+  const { live, plan, madeBy, signal, onProgress } = measured;
+  const sequence = new CodeSequence(plan, Math.random);
+  const notes = new LatencyNotes();
+  const beganAtMs = performance.now();
+  live.onShown = (image) => {
+    notes.draw(image);
+  };
+  const stopPainting = paintEachFrame(measured, sequence, notes);
+  try {
+    let overAtMs = Infinity;
+    while (performance.now() < overAtMs) {
+      await later(ASK_EVERY_MS);
+      if (signal.aborted) return null;
+      const reading = await asked(notes);
+      if (reading.trouble !== null) throw new Refusal(reading.trouble);
+      if (reading.read_images > 0 && !sequence.isCounting) {
+        notes.begin();
+        sequence.begin();
+      }
+      const gaveUp = !sequence.isCounting && performance.now() - beganAtMs > AIM_WITHIN_MS;
+      if (sequence.isOver) overAtMs = Math.min(overAtMs, performance.now() + LINGER_MS);
+      if (gaveUp) overAtMs = 0;
+      const { looked_images: lookedImages, read_images: readImages } = reading;
+      onProgress({ lookedImages, readImages, doneRatio: sequence.doneRatio });
+    }
+    const body = notes.conclusion(madeBy, innerWidth, innerHeight);
+    return await answered(server.POST("/api/latency/measurement/conclusion", { body }));
+  } finally {
+    live.onShown = null;
+    stopPainting();
+  }
+}
+
+function paintEachFrame({ plan, canvas }: Measured, sequence: CodeSequence, notes: LatencyNotes): () => void {
+  let frame = 0;
+  const onFrame = (): void => {
+    // One moment for code and picture: what the browser and the screen need after it is the same for both.
+    const nowMs = performance.now();
+    notes.frame(nowMs);
+    const code = sequence.next(nowMs);
+    if (code !== null) {
+      drawCode(canvas, plan.patterns[code] ?? "", plan.cells);
+      notes.paint(code, nowMs);
+    }
+    frame = requestAnimationFrame(onFrame);
+  };
+  frame = requestAnimationFrame(onFrame);
+  return () => {
+    cancelAnimationFrame(frame);
+  };
+}
+
+async function asked(notes: LatencyNotes): Promise<Reading> {
+  const askedAtMs = performance.now();
+  const reading = await answered(server.GET("/api/latency/measurement"));
+  notes.compare(askedAtMs, performance.now(), reading.server_s);
+  return reading;
+}
+
+function later(waitMs: number): Promise<void> {
+  return new Promise((done) => {
+    setTimeout(done, waitMs);
+  });
+}

@@ -1,0 +1,39 @@
+import { expect, test } from "vitest";
+import type { Latency } from "../rest/useLatency";
+import { latencyDe } from "../words/latency/de";
+import { latencyEn } from "../words/latency/en";
+import { latencyText } from "./latencyText";
+
+const measured: Latency = {
+  measuring: false,
+  result: {
+    at: "2026-11-24T11:05:00Z",
+    made_by: "ito",
+    camera: "camera 0",
+    width_px: 1280,
+    height_px: 720,
+    rate_hz: 30,
+    screen: { width_px: 1280, height_px: 800, period_ms: 16.7 },
+    report: {
+      samples: 152,
+      median_ms: 84.4,
+      p99_ms: 130.6,
+      stage_ms: {},
+      image_period_ms: 33.3,
+      late_on_average_ms: 16.7,
+      clock_error_ms: 0.6,
+      images: 610,
+      read_images: 598,
+      skipped_images: 2,
+    },
+  },
+};
+
+test("the latency stands in one line with its day", () => {
+  expect(latencyText(measured, latencyEn)).toBe("84 ms median, 131 ms p99, measured 2026-11-24");
+  expect(latencyText(measured, latencyDe)).toBe("84 ms Median, 131 ms p99, gemessen 2026-11-24");
+});
+
+test("what was not measured is said", () => {
+  expect(latencyText({ measuring: true, result: null }, latencyEn)).toBe("not measured");
+});
