@@ -19,7 +19,7 @@ import { Load } from "./load";
 import type { LiveMessage } from "./messages";
 import { ReturnHold } from "./returnHold";
 import { SceneAge, type SceneNote } from "./sceneAge";
-import { agesOf, type ShownImage, type View } from "./view";
+import { agesOf, type PaintedImage, type View } from "./view";
 
 export type { Ages, View } from "./view";
 
@@ -35,7 +35,7 @@ export class Live {
   /** What this page can carry, and what is slow. */
   readonly load: Load;
   private onChoice: (choice: PictureChoice) => void = () => undefined;
-  onShown: ((image: ShownImage) => void) | null = null;
+  onShown: ((image: PaintedImage) => void) | null = null;
   private readonly painters = new Set<(view: View) => void>();
 
   constructor(private readonly now: () => number) {
@@ -173,8 +173,7 @@ export class Live {
   }
 
   private heard(): number {
-    this.is.heardAtMs = this.now();
-    return this.is.heardAtMs;
+    return (this.is.heardAtMs = this.now());
   }
 
   private forget(): void {
@@ -188,8 +187,7 @@ export class Live {
   private takenFrom(message: LiveMessage, receivedAtMs: number): Taken | null {
     const { snapshot, headline, alarms } = message;
     if (snapshot === null) return null;
-    const { age_ms, captured_at_s } = snapshot;
-    const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, age_ms, captured_at_s);
+    const capturedAtMs = this.clock.capturedAtMs(receivedAtMs, snapshot.age_ms, snapshot.captured_at_s);
     return { snapshot, headline, alarms, capturedAtMs, receivedAtMs };
   }
 

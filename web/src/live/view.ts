@@ -38,7 +38,7 @@ export interface View {
 }
 
 /** A picture that was drawn; it is seen with the next image of the screen. */
-export interface ShownImage {
+export interface PaintedImage {
   message: LiveMessage;
   receivedAtMs: number;
 }

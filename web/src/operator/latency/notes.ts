@@ -1,6 +1,6 @@
 // What the page saw while the latency was measured, by its own clock. Pure: times go in as numbers.
 import type { components } from "../../schema";
-import type { ShownImage } from "../../live/view";
+import type { PaintedImage } from "../../live/view";
 
 export type Conclusion = components["schemas"]["LatencyConclusionRequest"];
 type Painted = Conclusion["painted"][number];
@@ -18,11 +18,11 @@ export class LatencyNotes {
   private shown: ShownImage[] = [];
   private readonly comparisons: Comparison[] = [];
   private readonly periodsMs: number[] = [];
-  private drawn: ShownImage[] = [];
+  private drawn: PaintedImage[] = [];
   private frameAtMs: number | null = null;
 
   /** A picture was drawn; it is seen with the next screen image. */
-  draw(image: ShownImage): void {
+  draw(image: PaintedImage): void {
     this.drawn.push(image);
   }
 
