@@ -69,6 +69,7 @@ export class LatencyNotes {
   /** Of the screen: the median, because a busy page leaves images of the screen out. */
   private get periodMs(): number {
     const sorted = this.periodsMs.filter((one) => one > 0 && one <= 1000).sort((a, b) => a - b);
-    return sorted[Math.floor(sorted.length / 2)] ?? USUAL_PERIOD_MS;
+    const median = sorted[Math.floor(sorted.length / 2)] ?? USUAL_PERIOD_MS;
+    return Math.round(median * 10) / 10;
   }
 }

@@ -1,0 +1,103 @@
+"""A camera that looks at a page's screen: pictures of the page as MJPEG over HTTP, with a known delay."""
+
+import base64
+import contextlib
+import threading
+import time
+from collections import deque
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+
+import cv2
+import numpy as np
+from playwright.sync_api import Error as PlaywrightError
+from playwright.sync_api import Page
+
+SIZE_WH_PX = (640, 400)
+# Slow enough for a busy machine to show every image.
+RATE_HZ = 6.0
+HEAD = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
+# So many pictures of the screen are remembered; at 60 Hz, more than any delay of a test.
+REMEMBERED = 240
+
+
+class ScreenCamera(ThreadingHTTPServer):
+    """Gives at its rate what the screen showed `delay_s` ago; grey before somebody looks at a page.
+
+    Attributes:
+        delay_s: from the screen to the stream; may be changed while it runs.
+        covered: whether a hand is before the lens.
+    """
+
+    daemon_threads = True
+
+    def __init__(self) -> None:
+        super().__init__(("127.0.0.1", 0), _Stream)
+        self.delay_s = 0.0
+        self.covered = False
+        self.ended = threading.Event()
+        self._seen: deque[tuple[float, bytes]] = deque(maxlen=REMEMBERED)
+        self._thread = threading.Thread(target=self.serve_forever, args=(0.02,), daemon=True)
+        self._thread.start()
+
+    @property
+    def address(self) -> str:
+        """For `camera.source`."""
+        return f"http://127.0.0.1:{self.server_address[1]}/screen.mjpg"
+
+    def look_at(self, page: Page) -> None:
+        """Take a picture of the page with each image of its screen, as the browser composes it."""
+        line = page.context.new_cdp_session(page)
+
+        def take(shown: dict[str, Any]) -> None:
+            ago_s = time.time() - float(shown["metadata"]["timestamp"])
+            self._seen.append((time.monotonic() - ago_s, base64.b64decode(shown["data"])))
+            # The last one may come while the page is closed.
+            with contextlib.suppress(PlaywrightError):
+                line.send("Page.screencastFrameAck", {"sessionId": shown["sessionId"]})
+
+        line.on("Page.screencastFrame", take)
+        width, height = SIZE_WH_PX
+        line.send(
+            "Page.startScreencast", {"format": "jpeg", "quality": 80, "maxWidth": width, "maxHeight": height}
+        )
+
+    def image(self, number: int) -> bytes:
+        """A JPEG of what the camera sees now; no two are equal, as of a sensor."""
+        seen_s = time.monotonic() - self.delay_s
+        picture = next((jpeg for at_s, jpeg in reversed(self._seen.copy()) if at_s <= seen_s), None)
+        image = np.full((SIZE_WH_PX[1], SIZE_WH_PX[0], 3), 90, np.uint8)
+        if picture is not None and not self.covered:
+            decoded = cv2.imdecode(np.frombuffer(picture, np.uint8), cv2.IMREAD_COLOR)
+            if decoded is not None:
+                image = np.ascontiguousarray(cv2.resize(decoded, SIZE_WH_PX), np.uint8)
+        image[:8, :8] = 16 * (number % 16)
+        return cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes()
+
+    def end(self) -> None:
+        """Show nothing more."""
+        self.ended.set()
+        self.shutdown()
+        self.server_close()
+        self._thread.join()
+
+
+class _Stream(BaseHTTPRequestHandler):
+    def log_message(self, *args: object) -> None:
+        del args
+
+    def do_GET(self) -> None:
+        camera = self.server
+        assert isinstance(camera, ScreenCamera)
+        self.send_response(200)
+        self.send_header("Content-Type", "multipart/x-mixed-replace; boundary=x")
+        self.end_headers()
+        number, due_s = 0, time.monotonic()
+        try:
+            while not camera.ended.wait(max(0.0, due_s - time.monotonic())):
+                content = camera.image(number)
+                self.wfile.write(HEAD % len(content) + content + b"\r\n")
+                number += 1
+                due_s = max(due_s + 1.0 / RATE_HZ, time.monotonic())
+        except OSError:
+            pass
