@@ -1,5 +1,5 @@
 import { beforeEach, expect, test } from "vitest";
-import { BudgetControl, budgetSteps, strainOf } from "./budget";
+import { BudgetControl, budgetSteps, strainIn, strainOf } from "./budget";
 import type { Timings } from "./timings";
 
 const STEPS = budgetSteps(500);
@@ -20,7 +20,9 @@ let step: number;
 /** So many seconds of this. */
 function pass(seconds: number, timings: Timings, ageLimitMs: number | null = null): void {
   for (const until = nowMs + 1000 * seconds; nowMs < until; nowMs += 50) {
-    step = control.look(nowMs, STEPS, timings, strainOf(timings, ageLimitMs));
+    const current = STEPS[step];
+    if (current === undefined) throw new Error("no such step");
+    step = control.look(nowMs, STEPS, timings, strainIn(current, timings, ageLimitMs));
   }
 }
 
@@ -78,6 +80,18 @@ test("a scene that is drawn by the processor begins at its slowest rate, and nev
 
 test("the picture is not made smaller where showing it is not what takes the time", () => {
   pass(60, { ...IDLE, ageMs: 140 }, 150);
+  expect(STEPS[step]).toMatchObject({ sceneScale: 0.35, largestPicture: "full" });
+});
+
+test("the picture waits longer than the scene before it gets smaller, as while a page is loading", () => {
+  pass(12, SLOW);
+  expect(STEPS[step]).toMatchObject({ sceneScale: 0.35, largestPicture: "full" });
+});
+
+test("the picture comes back when showing it is quick, however old the images of this machine are", () => {
+  pass(30, SLOW);
+  expect(STEPS[step]).toMatchObject({ largestPicture: "half" });
+  pass(12, { ...IDLE, ageMs: 140 }, 150);
   expect(STEPS[step]).toMatchObject({ sceneScale: 0.35, largestPicture: "full" });
 });
 

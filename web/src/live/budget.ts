@@ -21,6 +21,8 @@ const MAX_INTERVAL_RATIO = 0.4;
 
 /** A change needs so long to be felt. */
 const LOOK_AFTER_MS = 1500;
+/** A page that is still loading is slow for a while: the picture waits longer than the scene. */
+const PICTURE_AFTER_MS = 6000;
 /** With fewer images than this there is nothing to judge. */
 const MIN_IMAGES = 4;
 const WAIT_MS = 10_000;
@@ -44,6 +46,14 @@ export function budgetSteps(sceneStaleAfterMs: number): DrawingBudget[] {
   ]
     .map((step): DrawingBudget => ({ ...step, largestPicture: "full" }))
     .concat({ sceneIntervalMs: lastMs, sceneScale: SCENE_SCALES.at(-1) ?? 1, largestPicture: "half" });
+}
+
+/**
+ * How hard this device works in a step. The size of the picture is a matter of showing it alone: how old images are on a
+ * machine that the server shares tells of it no more.
+ */
+export function strainIn(step: DrawingBudget, timings: Timings, ageLimitMs: number | null): Strain {
+  return strainOf(timings, step.largestPicture === "half" ? null : ageLimitMs);
 }
 
 /** How hard this device works. `ageLimitMs` where the server runs on this very machine and suffers with it, else null. */
@@ -84,16 +94,18 @@ export class BudgetControl {
     this.step = Math.min(this.step, steps.length - 1);
     if (strain !== "idle") this.idleSinceMs = null;
     if (timings.images < MIN_IMAGES || nowMs - this.changedAtMs < LOOK_AFTER_MS) return this.step;
-    if (strain === "strained" && this.mayFall(steps, timings)) this.fall(nowMs);
+    if (strain === "strained" && this.mayFall(steps, timings, nowMs)) this.fall(nowMs);
     else if (strain === "idle") this.rise(nowMs);
     return this.step;
   }
 
-  private mayFall(steps: readonly DrawingBudget[], { decodingMs, drawingMs }: Timings): boolean {
+  private mayFall(steps: readonly DrawingBudget[], timings: Timings, nowMs: number): boolean {
     const next = steps[this.step + 1];
     if (next === undefined) return false;
+    if (next.largestPicture === "full") return true;
     // A smaller picture helps only where showing it is what takes the time.
-    return next.largestPicture === "full" || decodingMs + drawingMs > 1000 / MIN_IMAGES_PER_S;
+    const isShowing = timings.decodingMs + timings.drawingMs > 1000 / MIN_IMAGES_PER_S;
+    return isShowing && nowMs - this.changedAtMs >= PICTURE_AFTER_MS;
   }
 
   private fall(nowMs: number): void {

@@ -1,6 +1,6 @@
 // What this page can carry: measured with each image, told as what is slow, and kept within by what gives way.
 import type { Limits } from "./assess";
-import { BudgetControl, budgetSteps, strainOf, type DrawingBudget } from "./budget";
+import { BudgetControl, budgetSteps, strainIn, type DrawingBudget } from "./budget";
 import { Carrying, type Carried, type PictureChoice } from "./carried";
 import { Showing } from "./showing";
 import { Stall, TimingWindow, type ImageTimes } from "./timings";
@@ -67,7 +67,7 @@ export class Load {
       this.steps = budgetSteps(this.staleAfterMs);
     }
     const timings = this.window.means(nowMs, this.control.sinceMs);
-    const strain = strainOf(timings, this.sharesMachine ? limits.pose_stale_after_ms : null);
+    const strain = strainIn(this.budget, timings, this.sharesMachine ? limits.pose_stale_after_ms : null);
     this.current = this.control.look(nowMs, this.steps, timings, strain);
     const { largestPicture } = this.budget;
     return this.carrying.look(nowMs, cameraHz, this.window.means(nowMs), {
