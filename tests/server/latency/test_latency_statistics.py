@@ -139,6 +139,24 @@ def test_slow_answers_say_nothing_of_the_clocks() -> None:
     assert clock.error_ms == 1.0
 
 
+@pytest.mark.parametrize("drift_ratio", [2e-4, -2e-4])
+def test_a_moment_of_a_drifting_clock_is_right_at_both_ends(drift_ratio: float) -> None:
+    run = Run(drift_ratio=drift_ratio)
+    clock = ServerClock.of(run.comparisons)
+    for page_ms in (1000.0, 20_000.0):
+        assert clock.page_ms(run.server_s(page_ms)) == pytest.approx(page_ms, abs=0.01)
+
+
+def test_a_slope_that_no_quartz_has_is_noise_of_the_line() -> None:
+    compared = [
+        ClockComparison(asked_at_ms=at, answered_at_ms=at + 20.0, server_s=(at + late) / 1e3)
+        for at, late in ((0.0, 0.0), (3000.0, 10.0), (6000.0, 20.0))
+    ]
+    clock = ServerClock.of(compared)
+    assert clock.ms_per_s == 1000.0
+    assert clock.page_ms(6.0) == pytest.approx(6000.0, abs=clock.error_ms)
+
+
 def test_numbers_that_begin_again_are_told_apart() -> None:
     long, short = Run(codes=160), Run(codes=160, cycle=60)
     assert short.report() == long.report()
