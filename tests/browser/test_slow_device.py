@@ -86,7 +86,7 @@ def test_a_slow_device_keeps_its_picture_longest_and_says_what_is_slow(
     # The whole size is no step.
     given = [one for one in page.evaluate("given") if one != ["scale", 1]]
     assert [ORDER.index(what) for what, _ in given] == sorted(ORDER.index(what) for what, _ in given)
-    assert [scale for what, scale in given if what == "scale"] == [0.7, 0.5, 0.35]
+    assert [scale for what, scale in given if what == "scale"] == [0.7, 0.5]
     intervals_ms = [interval_ms for what, interval_ms in given if what == "interval_ms"]
     assert intervals_ms == sorted(intervals_ms)
     assert intervals_ms[-1] == 200
@@ -99,7 +99,7 @@ def test_the_scene_stays_live_at_its_slowest_and_coarsest(theatre: Theatre, watc
     is_live(page, "scene")
     frame = page.locator(".scene-stage iframe")
     assert frame.evaluate("e => [e.clientWidth / e.parentElement.clientWidth]")[0] == pytest.approx(
-        0.35, abs=0.02
+        0.5, abs=0.02
     )
     # It is shown as large as before, and nothing stands out.
     shown = frame.evaluate("e => e.getBoundingClientRect().width / e.parentElement.clientWidth")

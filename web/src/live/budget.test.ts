@@ -45,8 +45,7 @@ test("gives way in this order: the scene's rate, its size, the picture's size", 
     { sceneIntervalMs: 200, sceneScale: 1, ...full },
     { sceneIntervalMs: 200, sceneScale: 0.7, ...full },
     { sceneIntervalMs: 200, sceneScale: 0.5, ...full },
-    { sceneIntervalMs: 200, sceneScale: 0.35, ...full },
-    { sceneIntervalMs: 200, sceneScale: 0.35, largestPicture: "half" },
+    { sceneIntervalMs: 200, sceneScale: 0.5, largestPicture: "half" },
   ]);
 });
 
@@ -80,19 +79,19 @@ test("a scene that is drawn by the processor begins at its slowest rate, and nev
 
 test("the picture is not made smaller where showing it is not what takes the time", () => {
   pass(60, { ...IDLE, ageMs: 140 }, 150);
-  expect(STEPS[step]).toMatchObject({ sceneScale: 0.35, largestPicture: "full" });
+  expect(STEPS[step]).toMatchObject({ sceneScale: 0.5, largestPicture: "full" });
 });
 
 test("the picture waits longer than the scene before it gets smaller, as while a page is loading", () => {
-  pass(12, SLOW);
-  expect(STEPS[step]).toMatchObject({ sceneScale: 0.35, largestPicture: "full" });
+  pass(11, SLOW);
+  expect(STEPS[step]).toMatchObject({ sceneScale: 0.5, largestPicture: "full" });
 });
 
 test("the picture comes back when showing it is quick, however old the images of this machine are", () => {
   pass(30, SLOW);
   expect(STEPS[step]).toMatchObject({ largestPicture: "half" });
   pass(12, { ...IDLE, ageMs: 140 }, 150);
-  expect(STEPS[step]).toMatchObject({ sceneScale: 0.35, largestPicture: "full" });
+  expect(STEPS[step]).toMatchObject({ sceneScale: 0.5, largestPicture: "full" });
 });
 
 test("comes back step by step, and later after each mistake", () => {

@@ -15,7 +15,8 @@ export interface DrawingBudget {
 export type Strain = "strained" | "normal" | "idle";
 
 const SCENE_INTERVALS_MS = [0, 80, 125, 200];
-const SCENE_SCALES = [0.7, 0.5, 0.35];
+/** Letters in the scene keep their pixels: in fewer of them than half they would cover it. */
+const SCENE_SCALES = [0.7, 0.5];
 /** A scene that is drawn more seldom than this share of its limit would be stale in between. */
 const MAX_INTERVAL_RATIO = 0.4;
 
