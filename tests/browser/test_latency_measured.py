@@ -1,6 +1,7 @@
 """The latency is measured end to end: the camera sees the page's own screen, later by a known delay."""
 
 import json
+import os
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -75,6 +76,10 @@ def measured(page: Page, filming: RealServer) -> dict[str, Any]:
     pytest.fail(f"{TRIES} times in a row: {refusals.inner_text()}")
 
 
+@pytest.mark.skipif(
+    "COAXIAL_MEASURE_LATENCY" not in os.environ,
+    reason="measures real time, for which a machine must be quiet: COAXIAL_MEASURE_LATENCY=1 runs it",
+)
 def test_a_known_delay_before_the_camera_is_in_the_latency(
     camera: ScreenCamera, filming: RealServer, page: Page
 ) -> None:
