@@ -157,3 +157,11 @@ def test_fewer_samples_are_taken_only_where_blur_hides_their_softness() -> None:
         sampled = plane.sampled(theatre.camera, pose, blur_px2=blur_px2)
         assert sampled.samples == samples
         assert sampled.drawn_px2 <= max(blur_px2, 0.0)
+
+
+def test_a_drill_that_leaves_the_image_is_drawn_at_every_place() -> None:
+    theatre = Theatre(TheatreSettings(seed=1))
+    renderer = theatre.renderer()
+    for number in range(285, 316):
+        image = renderer.image_at(number / 10.0)
+        assert image.shape == (720, 1280, 3)
