@@ -72,7 +72,8 @@ class Sensor:
             sigmas = cv2.merge([sigmas] * 3)
         # A strip that reaches out of the image would reach out of the bank, too.
         height, width = levels.shape[:2]
-        row, column = min(row, len(self._bank) - height), min(column, self._bank.shape[1] - width)
+        row = max(0, min(row, len(self._bank) - height))
+        column = max(0, min(column, self._bank.shape[1] - width))
         grains = self._bank[row : row + height, column : column + width]
         noise = cv2.multiply(sigmas, grains, scale=1.0 / (BANK_SCALE * SIGMA_SCALE))
         return np.asarray(noise, dtype=np.int16)
