@@ -51,14 +51,20 @@ def compile_tracker(tell: Callable[[Progress], None] = lambda _: None) -> None:
     Args:
         tell: is told about twice a second how far it is.
     """
-    with filelock.FileLock(_folder() / "coaxial-compiling.lock"):
-        if not progress().is_complete:
-            children = [_child(share) for share in SHARES]
-            while any(child.poll() is None for child in children):
-                tell(progress())
-                time.sleep(LOOK_EVERY_S)
+    if not progress().is_complete:
+        with filelock.FileLock(_folder() / "coaxial-compiling.lock"):
+            _compile(tell)
     # What two processes wrote to the same index at once may have lost an entry; a fault is raised here.
     warm_up()
+
+
+def _compile(tell: Callable[[Progress], None]) -> None:
+    """Compile side by side; nothing is left where somebody else did it meanwhile."""
+    if not progress().is_complete:
+        children = [_child(share) for share in SHARES]
+        while any(child.poll() is None for child in children):
+            tell(progress())
+            time.sleep(LOOK_EVERY_S)
     tell(progress())
 
 

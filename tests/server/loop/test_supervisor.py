@@ -192,5 +192,6 @@ def test_compiling_that_is_stuck_is_not_waited_for() -> None:
     stage.append(Stage(steady_worker, Watch(look_every_s=0.01, compiles_within_s=5.0), stuck))
     try:
         stage[0].hub.until(shows_image)
+        assert stage[0].now_s > 5.0, "it was waited for as long as that"
     finally:
         stage[0].end()
