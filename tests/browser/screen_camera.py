@@ -2,16 +2,17 @@
 
 import base64
 import contextlib
-import threading
 import time
 from collections import deque
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from http.server import BaseHTTPRequestHandler
 from typing import Any
 
 import cv2
 import numpy as np
 from playwright.sync_api import Error as PlaywrightError
 from playwright.sync_api import Page
+
+from tests.server.capture.served_images import ImageServer
 
 SIZE_WH_PX = (640, 400)
 # Slow enough for a busy machine to show every image.
@@ -21,7 +22,7 @@ HEAD = b"--x\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n"
 REMEMBERED = 240
 
 
-class ScreenCamera(ThreadingHTTPServer):
+class ScreenCamera(ImageServer):
     """Gives at its rate what the screen showed `delay_s` ago; grey before somebody looks at a page.
 
     Attributes:
@@ -29,16 +30,11 @@ class ScreenCamera(ThreadingHTTPServer):
         covered: whether a hand is before the lens.
     """
 
-    daemon_threads = True
-
     def __init__(self) -> None:
-        super().__init__(("127.0.0.1", 0), _Stream)
         self.delay_s = 0.0
         self.covered = False
-        self.ended = threading.Event()
         self._seen: deque[tuple[float, bytes]] = deque(maxlen=REMEMBERED)
-        self._thread = threading.Thread(target=self.serve_forever, args=(0.02,), daemon=True)
-        self._thread.start()
+        super().__init__(_Stream)
 
     @property
     def address(self) -> str:
@@ -73,13 +69,6 @@ class ScreenCamera(ThreadingHTTPServer):
                 image = np.ascontiguousarray(cv2.resize(decoded, SIZE_WH_PX), np.uint8)
         image[:8, :8] = 16 * (number % 16)
         return cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes()
-
-    def end(self) -> None:
-        """Show nothing more."""
-        self.ended.set()
-        self.shutdown()
-        self.server_close()
-        self._thread.join()
 
 
 class _Stream(BaseHTTPRequestHandler):

@@ -6,7 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from http.server import BaseHTTPRequestHandler
 
 import cv2
 import numpy as np
@@ -19,6 +19,7 @@ from server.capture.stream import MAX_TORN, StreamSource
 from server.errors import CaptureError
 from server.live import ImageClock, SourceState
 from tests.server.capture.filmed import grey_image
+from tests.server.capture.served_images import ImageServer
 
 VGA, QVGA, WIDE = (640, 480), (320, 240), (640, 360)
 PERIOD_S = 1 / 30
@@ -43,23 +44,12 @@ class Sent:
         return head % int(len(content) * self.claimed_ratio) + content + b"\r\n"
 
 
-class LyingServer(ThreadingHTTPServer):
+class LyingServer(ImageServer):
     """Sends its images at once to whoever asks, and then nothing."""
 
-    daemon_threads = True
-
     def __init__(self, images: Sequence[Sent]) -> None:
-        super().__init__(("127.0.0.1", 0), _Handler)
         self.parts = [image.part for image in images]
-        self.ended = threading.Event()
-        self._thread = threading.Thread(target=self.serve_forever, args=(0.02,), daemon=True)
-        self._thread.start()
-
-    def end(self) -> None:
-        self.ended.set()
-        self.shutdown()
-        self.server_close()
-        self._thread.join()
+        super().__init__(_Handler)
 
 
 class _Handler(BaseHTTPRequestHandler):

@@ -4,7 +4,7 @@ import itertools
 import socket
 import threading
 from collections.abc import Iterator
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from http.server import BaseHTTPRequestHandler
 from pathlib import Path
 
 import cv2
@@ -17,6 +17,7 @@ from server.capture.video_file import VideoFileSource
 from server.errors import CaptureError
 from server.live import SourceState
 from tests.server.capture.filmed import grey_image, write_video
+from tests.server.capture.served_images import ImageServer
 
 
 @pytest.fixture
@@ -26,21 +27,9 @@ def stop() -> Iterator[threading.Event]:
     event.set()
 
 
-class MjpegServer(ThreadingHTTPServer):
-    daemon_threads = True
-    allow_reuse_address = True
-
+class MjpegServer(ImageServer):
     def __init__(self, port: int = 0) -> None:
-        super().__init__(("127.0.0.1", port), _Handler)
-        self.ended = threading.Event()
-        self._thread = threading.Thread(target=self.serve_forever, args=(0.02,), daemon=True)
-        self._thread.start()
-
-    def end(self) -> None:
-        self.ended.set()
-        self.shutdown()
-        self.server_close()
-        self._thread.join()
+        super().__init__(_Handler, port)
 
 
 class _Handler(BaseHTTPRequestHandler):
