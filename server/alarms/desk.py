@@ -98,6 +98,7 @@ class AlarmDesk:
         self._memory = Memory()
         self._snapshot: NavigationSnapshot | None = None
         self._camera_works = True
+        self._tracker_works = True
         self._facts = ProcedureFacts()
         self._hold_asked_by = ""
         self._unix_offset_s = inf
@@ -119,14 +120,15 @@ class AlarmDesk:
         self, snapshot: NavigationSnapshot | None, source: SourceStatus, process: ProcessStatus
     ) -> AlarmPicture:
         """One more moment of the live images: a new image, or None when none came."""
-        running = process.state is ProcessState.RUNNING and source.state is SourceState.RUNNING
         with self._lock:
             at_s = self._clock()
             if snapshot is not None:
                 self._snapshot = snapshot
                 fresh_s = self._limits.camera_silent_after_s
                 self._memory = remembered(self._memory, snapshot, now_s=at_s, fresh_s=fresh_s)
-            self._camera_works = running
+            self._tracker_works = process.state is ProcessState.RUNNING
+            # Without the process that reads the camera, nobody knows whether it works.
+            self._camera_works = source.state is SourceState.RUNNING or not self._tracker_works
             return self._stepped(at_s)
 
     def know(self, facts: ProcedureFacts) -> None:
@@ -206,18 +208,20 @@ class AlarmDesk:
 
     def _observed(self, at_s: float) -> Observed:
         facts, free_mb = self._facts, self._log.free_mb
+        works = self._camera_works and self._tracker_works
         seen = observed_of(
             self._snapshot,
             self._memory,
             now_s=at_s,
             # Of a camera or a tracker that is known not to work no number is of now.
-            fresh_s=self._limits.camera_silent_after_s if self._camera_works else -inf,
+            fresh_s=self._limits.camera_silent_after_s if works else -inf,
             put_away_after_s=self._put_away_after_s,
             navigating=facts.navigating,
         )
         return replace(
             seen,
             camera_works=self._camera_works,
+            tracker_works=self._tracker_works,
             registration_current=facts.registration_current,
             calibration_current=facts.calibration_current,
             check_age_s=NOT_KNOWN if facts.checked_at_s is None else at_s - facts.checked_at_s,

@@ -62,12 +62,11 @@ def _alarm(alarm: Alarm, *, unix_offset_s: float) -> Line:
     if alarm.measure is not None:
         measure = alarm.measure
         line["value"], line["limit"], line["unit"] = measure.value, measure.limit, measure.unit
-    if alarm.worst is not None:
-        line["worst"] = alarm.worst.value
-    if alarm.worst_site is not None:
-        site = alarm.worst_site
-        line["worst_depth_mm"] = site.depth_mm
-        line["worst_wall"] = None if site.wall is None else site.wall.value
+    if alarm.peak is not None:
+        line["worst"] = alarm.peak.measure.value
+        if (site := alarm.peak.site) is not None:
+            line["worst_depth_mm"] = site.depth_mm
+            line["worst_wall"] = None if site.wall is None else site.wall.value
     return line
 
 

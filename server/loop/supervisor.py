@@ -133,7 +133,7 @@ class Supervisor:
             trouble = self._run_once()
             if self._stop.is_set():
                 return
-            log.error(trouble.message, code=trouble.code, restarts=self._restarts)
+            log.error(trouble.message, code=trouble.code, restarts=self._restarts, **trouble.context)
             self._post(ProcessState.RESTARTING, trouble)
             self._wait_until_allowed(trouble)
             self._restarts += 1
@@ -193,13 +193,13 @@ class Supervisor:
             ready = wait([process.sentinel, self._asleep], timeout=self._watch.look_every_s)
             if process.sentinel in ready:
                 process.join(STOP_TIMEOUT_S)
-                return _trouble(f"(pid {process.pid}) ended {ending_words(process.exitcode)}")
+                return _trouble("ended", pid=process.pid, how=ending_words(process.exitcode))
             if self._asleep in ready:
                 return _trouble("was stopped")
             limit_s = self._watch.silent_after_s if ring.images else self._watch.first_image_after_s
             silent_s = time.monotonic() - max(ring.written_at_s, began_s)
             if silent_s > limit_s:
-                return _trouble(f"(pid {process.pid}) said nothing for {silent_s:.1f} s, limit {limit_s:g} s")
+                return _trouble(f"sent nothing for {silent_s:.1f} s, limit {limit_s:g} s", pid=process.pid)
 
     def _end(self, process: ForkServerProcess) -> None:
         if self._stop.is_set():
@@ -256,11 +256,13 @@ def _compiling(now: Progress) -> Trouble:
     )
 
 
-def _trouble(what: str) -> Trouble:
+def _trouble(what: str, **details: object) -> Trouble:
+    """What everybody reads; pid and exit status are for the log."""
     return Trouble(
         code="TRACKING_PROCESS_ENDED",
         message=f"the tracking process {what}",
         remedy="It is started again by itself; if this repeats, look at the log.",
+        context=details,
     )
 
 

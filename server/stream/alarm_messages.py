@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 from server.clock import utc_text
 from server.stream.assessment_messages import TextMessage, text_message
 from server.stream.message import Message
-from server.texts import alarm_text
+from server.texts import alarm_text, without_live_figures
 from tracker.navigation.alarms import (
     Alarm,
     AlarmPicture,
@@ -64,6 +64,9 @@ class AlarmMessage(Message):
     """Since it was raised."""
     worst_at: str | None
     worst_site: SiteMessage | None
+    earlier_worst: MeasureMessage | None
+    """Of the occurrences before it that nobody has acknowledged."""
+    earlier_worst_at: str | None
     acknowledged_by: str
     by: str
     """Who asks, where somebody does."""
@@ -73,6 +76,9 @@ class AlarmMessage(Message):
     """What is, or was, in numbers."""
     remedy: TextMessage
     """Empty where nothing is to be done but to acknowledge."""
+    sentence_without_figures: TextMessage
+    remedy_without_figures: TextMessage
+    """How both read beside figures that are too old to be shown: what figures show is not known then."""
     known: TextMessage
     """Who has acknowledged it; empty where nobody has."""
 
@@ -105,6 +111,8 @@ def alarms_message(picture: AlarmPicture, *, now_s: float) -> AlarmsMessage:
 
 def _alarm(alarm: Alarm, *, now_s: float, unix_offset_s: float) -> AlarmMessage:
     words = alarm_text(alarm, unix_offset_s=unix_offset_s)
+    without_figures = alarm_text(without_live_figures(alarm), unix_offset_s=unix_offset_s)
+    peak, earlier = alarm.peak, alarm.earlier_peak
     return AlarmMessage(
         number=alarm.number,
         condition=alarm.condition,
@@ -116,14 +124,18 @@ def _alarm(alarm: Alarm, *, now_s: float, unix_offset_s: float) -> AlarmMessage:
         raised_s_ago=max(0.0, now_s - alarm.raised_at_s),
         measure=_measure(alarm.measure),
         site=_site(alarm.site),
-        worst=_measure(alarm.worst),
-        worst_at=None if alarm.worst is None else _utc(alarm.worst_at_s + unix_offset_s),
-        worst_site=_site(alarm.worst_site),
+        worst=None if peak is None else _measure(peak.measure),
+        worst_at=None if peak is None else _utc(peak.at_s + unix_offset_s),
+        worst_site=None if peak is None else _site(peak.site),
+        earlier_worst=None if earlier is None else _measure(earlier.measure),
+        earlier_worst_at=None if earlier is None else _utc(earlier.at_s + unix_offset_s),
         acknowledged_by=alarm.acknowledged_by,
         by=alarm.by,
         title=text_message(words.title),
         sentence=text_message(words.sentence),
         remedy=text_message(words.remedy),
+        sentence_without_figures=text_message(without_figures.sentence),
+        remedy_without_figures=text_message(without_figures.remedy),
         known=text_message(words.known),
     )
 

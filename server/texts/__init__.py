@@ -1,14 +1,14 @@
 """Headline and alarms in words: one catalogue in every language for video, page, wire, log and report.
 
 language.py     the languages, and a text in all of them
-alarms.py       an alarm: present, in the past tense, or not tracked
+alarms.py       an alarm: present, in the past tense, not tracked, or beside figures that are not live
 phrases.py      what is said of each alarm: the table
 headline.py     the verdict of an image, or why it has no figures, with the alarms that are not acknowledged
 states.py       why there are no figures
 places.py       walls and directions
 """
 
-from server.texts.alarms import AlarmText, alarm_text, alarm_title
+from server.texts.alarms import AlarmText, alarm_text, alarm_title, without_live_figures
 from server.texts.headline import Headline, Tone, headline_of
 from server.texts.language import LANGUAGES, Language, Text
 
@@ -22,4 +22,5 @@ __all__ = [
     "alarm_text",
     "alarm_title",
     "headline_of",
+    "without_live_figures",
 ]

@@ -5,14 +5,14 @@ is over and not acknowledged, is told in the past tense with its worst value, pl
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 
 from server.texts.controls import control_name, setting
 from server.texts.language import NO_TEXT, Language, Text, amount, clock_text, text_of
 from server.texts.phrases import PHRASES
 from server.texts.places import near_text, through_text
-from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Showing, Site
+from tracker.navigation.alarms import TRAITS, Alarm, AlarmState, Condition, Kind, Measure, Showing, Site
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +55,21 @@ def alarm_text(alarm: Alarm, *, unix_offset_s: float, of_now: bool = True) -> Al
     )
 
 
+def without_live_figures(alarm: Alarm) -> Alarm:
+    """The alarm beside figures that are too old to be shown: what figures show is not known then."""
+    trait = TRAITS[alarm.condition]
+    if trait.kind is Kind.PHYSIOLOGICAL or trait.of_newest_image:
+        return replace(alarm, presence=Showing.UNKNOWN)
+    return alarm
+
+
 def _sentence(alarm: Alarm, language: Language, unix_offset_s: float, *, of_now: bool) -> str:
+    # A line of the log is of one occurrence; those before it have lines of their own.
+    earlier = _earlier(alarm, language, unix_offset_s) if of_now else ""
+    return _own_sentence(alarm, language, unix_offset_s, of_now=of_now) + earlier
+
+
+def _own_sentence(alarm: Alarm, language: Language, unix_offset_s: float, *, of_now: bool) -> str:
     phrases = PHRASES[language][alarm.condition]
     fields = _fields(alarm, language, unix_offset_s)
     if alarm.presence is Showing.YES:
@@ -64,11 +78,21 @@ def _sentence(alarm: Alarm, language: Language, unix_offset_s: float, *, of_now:
         return phrases.present.format(**fields)
     if is_lost(alarm):
         return (phrases.lost or LOST[language]).format(**fields)
-    if alarm.worst is None and phrases.bare_past:
+    if alarm.peak is None and phrases.bare_past:
         return phrases.bare_past.format(**fields)
     # That it is over is said of what is measured now, and of nothing else.
     is_measured = of_now and alarm.presence is Showing.NO
     return phrases.past.format(**fields) + (phrases.over if is_measured else "")
+
+
+def _earlier(alarm: Alarm, language: Language, unix_offset_s: float) -> str:
+    """The worst of the occurrences before it that nobody has acknowledged."""
+    peak = alarm.earlier_peak
+    if peak is None:
+        return ""
+    return EARLIER[language].format(
+        value=_size(peak.measure, None), time=clock_text(peak.at_s + unix_offset_s)
+    )
 
 
 def is_lost(alarm: Alarm) -> bool:
@@ -86,23 +110,23 @@ def _remedy(alarm: Alarm, language: Language) -> str:
 def _fields(alarm: Alarm, language: Language, unix_offset_s: float) -> Mapping[str, str]:
     # As the figure that it is about: the 95 % error has two decimals.
     decimals = 2 if alarm.condition is Condition.POSE_UNCERTAIN else None
+    peak = alarm.peak
+    worst_site = None if peak is None else peak.site
     return {
         "value": _size(alarm.measure, decimals),
         "limit": ""
         if alarm.measure is None
         else amount(alarm.measure.limit, alarm.measure.unit, decimals=decimals),
-        "worst": _size(alarm.worst, decimals),
+        "worst": "" if peak is None else _size(peak.measure, decimals),
         "through": through_text(alarm.site, language),
-        "worst_through": through_text(alarm.worst_site, language),
+        "worst_through": through_text(worst_site, language),
         "near": near_text(alarm.site, language),
-        "worst_near": near_text(alarm.worst_site, language),
+        "worst_near": near_text(worst_site, language),
         "at": _depth(alarm.site, language),
-        "worst_at": _depth(alarm.worst_site, language),
+        "worst_at": _depth(worst_site, language),
         "tool": "" if alarm.site is None or not alarm.site.tool else f"{alarm.site.tool}: ",
-        "worst_tool": ""
-        if alarm.worst_site is None or not alarm.worst_site.tool
-        else f"{alarm.worst_site.tool}: ",
-        "time": clock_text(alarm.worst_at_s + unix_offset_s),
+        "worst_tool": "" if worst_site is None or not worst_site.tool else f"{worst_site.tool}: ",
+        "time": "" if peak is None else clock_text(peak.at_s + unix_offset_s),
         "by": alarm.by or SOMEBODY[language],
         "control": control_name(alarm.control, language),
         "calibrated": "" if alarm.measure is None else setting(alarm.control, alarm.measure.limit, language),
@@ -124,4 +148,5 @@ def _depth(site: Site | None, language: Language) -> str:
 
 KNOWN: Text = {"en": "Acknowledged by {by}.", "de": "Quittiert von {by}."}
 SOMEBODY: Text = {"en": "A colleague", "de": "Ein Kollege"}
-LOST: Text = {"en": "Not known at this moment.", "de": "Zurzeit nicht bekannt."}
+EARLIER: Text = {"en": " Earlier {value}, {time}.", "de": " Zuvor {value}, {time}."}
+LOST: Text = {"en": "Not known: no live figures.", "de": "Nicht bekannt: keine aktuellen Werte."}

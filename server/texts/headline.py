@@ -197,7 +197,8 @@ def _one_event(alarm: Alarm, unix_offset_s: float, language: Language) -> str:
     title = alarm_title(alarm.condition)[language]
     if is_lost(alarm):
         return EVENTS[language]["lost"].format(title=title)
-    time = clock_text(alarm.worst_at_s + unix_offset_s)
+    at_s = alarm.raised_at_s if alarm.peak is None else alarm.peak.at_s
+    time = clock_text(at_s + unix_offset_s)
     state = "latched" if alarm.state is AlarmState.LATCHED else "clearing"
     return EVENTS[language][state].format(title=title, time=time)
 

@@ -96,6 +96,12 @@ ENGLISH: Mapping[Condition, Phrases] = {
         past="The camera sent no images for a time.",
         remedy="Check the camera and its cable. Reconnecting.",
     ),
+    Condition.TRACKING_STOPPED: Phrases(
+        title="TRACKING STOPPED",
+        present="The tracking process does not run.",
+        past="The tracking process did not run for a time.",
+        remedy="Wait for its restart. If none comes, restart the server.",
+    ),
     Condition.POSE_UNCERTAIN: Phrases(
         title="POSE UNCERTAIN",
         present="95 % error ±{value}, limit {limit}.",
@@ -237,6 +243,12 @@ GERMAN: Mapping[Condition, Phrases] = {
         present="Keine Bilder von der Kamera.",
         past="Die Kamera sandte eine Zeit lang keine Bilder.",
         remedy="Kamera und Kabel prüfen. Neuer Versuch läuft.",
+    ),
+    Condition.TRACKING_STOPPED: Phrases(
+        title="TRACKING ANGEHALTEN",
+        present="Der Tracking-Prozess läuft nicht.",
+        past="Der Tracking-Prozess lief eine Zeit lang nicht.",
+        remedy="Neustart abwarten. Kommt keiner, den Server neu starten.",
     ),
     Condition.POSE_UNCERTAIN: Phrases(
         title="LAGE UNSICHER",

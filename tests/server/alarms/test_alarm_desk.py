@@ -137,7 +137,25 @@ def test_a_camera_that_stalls_and_one_that_is_gone_are_one_alarm_each(room: Room
     assert conditions(room.silence(10.0, source=gone)) == [Condition.CAMERA_GONE]
     assert room.images(2.0).alarms == ()
     dead = ProcessStatus(state=ProcessState.RESTARTING)
-    assert conditions(room.silence(1.0, process=dead)) == [Condition.CAMERA_GONE]
+    assert conditions(room.silence(1.0, process=dead)) == [Condition.TRACKING_STOPPED]
+
+
+@pytest.mark.parametrize(
+    ("loss", "alarm"),
+    [
+        ({"process": ProcessStatus(state=ProcessState.RESTARTING)}, Condition.TRACKING_STOPPED),
+        ({"source": replace(RUNS, state=SourceState.RECONNECTING)}, Condition.CAMERA_GONE),
+        ({}, Condition.CAMERA_STALLED),
+    ],
+    ids=["tracking stopped", "camera gone", "camera stalled"],
+)
+def test_a_drill_that_was_not_seen_is_not_missed_while_nothing_is_tracked(
+    room: Room, loss: dict[str, Any], alarm: Condition
+) -> None:
+    room.images(1.0)
+    assert conditions(room.images(2.0, seen=False)) == [Condition.DRILL_UNSEEN]
+    assert conditions(room.silence(3.0, **loss)) == [alarm]
+    assert conditions(room.images(2.0, seen=False)) == [Condition.DRILL_UNSEEN]
 
 
 def test_a_breach_of_depth_is_not_forgotten_when_the_camera_goes(room: Room) -> None:

@@ -98,7 +98,8 @@ def test_a_killed_process_is_told_at_once_and_replaced(staged: Callable[[Target,
     assert dead.snapshot is None
     assert dead.jpeg == b""
     assert dead.process.trouble is not None
-    assert "SIGKILL" in dead.process.trouble.message
+    assert dead.process.trouble.message == "the tracking process ended"
+    assert dead.process.trouble.context == {"pid": pid, "how": "by signal 9 (SIGKILL)"}
     again = stage.hub.until(shows_image, after=dead.sequence)
     assert again.process.restarts == 1
     assert again.process.trouble is None
@@ -132,7 +133,7 @@ def test_a_process_that_always_fails_is_given_up_and_tried_again_later(
     assert trouble is not None
     assert trouble.code == "TRACKING_GIVEN_UP"
     assert "2 times within 60 s" in trouble.message
-    assert "status 7" in trouble.message
+    assert trouble.message.endswith("the last time: the tracking process ended")
     assert trouble.remedy
     stage.now_s = 60.0
     later = stage.hub.until(lambda instant: instant.process.restarts > 2, after=given_up.sequence)

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Site
+from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Peak, Site
 from tracker.navigation.clearance import MeasuredAgainst
 from tracker.navigation.directions import Wall
 
@@ -14,6 +14,10 @@ def mm(value: float, limit: float = 0.0) -> Measure:
     return Measure(value=value, limit=limit, unit="mm")
 
 
+def peak(value: float, *, at_s: float = 3.0) -> Peak:
+    return Peak(measure=mm(value), severity=-value, at_s=at_s, site=MEDIAL)
+
+
 def alarm(condition: Condition, state: AlarmState = AlarmState.ACTIVE, **changes: object) -> Alarm:
     return replace(Alarm(number=1, condition=condition, state=state, raised_at_s=2.0), **changes)  # type: ignore[arg-type]  # any field of it
 
@@ -23,8 +27,6 @@ def breach(**changes: object) -> Alarm:
     values: dict[str, object] = {
         "measure": mm(-0.4),
         "site": MEDIAL,
-        "worst": mm(-0.8),
-        "worst_at_s": 3.0,
-        "worst_site": MEDIAL,
+        "peak": peak(-0.8),
     }
     return replace(alarm(Condition.BREACH), **{**values, **changes})  # type: ignore[arg-type]  # any field of it

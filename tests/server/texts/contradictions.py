@@ -38,11 +38,13 @@ class ContradictionCheck:
         through_images: how many images in a row have shown a breach without an alarm of it.
         deepest: by number of a breach's alarm, the least clearance that was shown while it stood.
         shown_before: the least clearance shown since the last moment without one.
+        again: how many alarms were raised while an earlier one of their kind was not acknowledged.
     """
 
     through_images: int = 0
     deepest: dict[int, float] = field(default_factory=dict)
     shown_before: float = inf
+    again: int = 0
 
     def check(self, moment: Moment) -> None:
         assessments = _assessments(moment.message.snapshot)
@@ -148,7 +150,12 @@ class ContradictionCheck:
             assert isinstance(sentence, dict)
             if change == "raised":
                 shown = by_number[_number(line)]
-                assert sentence == {"en": shown.sentence.en, "de": shown.sentence.de}
+                # The line is of this occurrence; the screen names those before it, too.
+                for language, word in (("en", "Earlier"), ("de", "Zuvor")):
+                    own, told = sentence[language], getattr(shown.sentence, language)
+                    is_again = shown.earlier_worst is not None
+                    assert told.startswith(f"{own} {word} ") if is_again else told == own
+                self.again += 1 if shown.earlier_worst is not None else 0
             if condition == Condition.BREACH and change == "latched":
                 assert line["presence"] != Showing.YES
                 assert "was " in sentence["en"].lower()

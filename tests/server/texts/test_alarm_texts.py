@@ -2,13 +2,13 @@
 
 import pytest
 
-from server.texts import LANGUAGES, Language, alarm_text, alarm_title
+from server.texts import LANGUAGES, Language, alarm_text, alarm_title, without_live_figures
 from server.texts.controls import CONTROLS
 from server.texts.language import clock_text
 from server.texts.phrases import PHRASES
-from tests.server.texts.breach import MEDIAL, NOON_S, alarm, breach, mm
+from tests.server.texts.breach import MEDIAL, NOON_S, alarm, breach, mm, peak
 from tracker.camera import CameraControl
-from tracker.navigation.alarms import Alarm, AlarmState, Condition, Measure, Showing, Site
+from tracker.navigation.alarms import TRAITS, Alarm, AlarmState, Condition, Kind, Measure, Peak, Showing, Site
 from tracker.navigation.clearance import MeasuredAgainst
 from tracker.navigation.directions import Wall
 
@@ -56,6 +56,20 @@ TIME = clock_text(NOON_S + 3.0)
             id="no bone is known",
         ),
         pytest.param(
+            breach(state=AlarmState.LATCHED, presence=Showing.NO, earlier_peak=peak(-1.2, at_s=1.0)),
+            f"Was 0.8 mm through the medial wall at 29.0 mm depth, {TIME}. Not through now. "
+            f"Earlier 1.2 mm, {clock_text(NOON_S + 1.0)}.",
+            "",
+            id="again, and over again",
+        ),
+        pytest.param(
+            breach(earlier_peak=peak(-1.2, at_s=1.0)),
+            "Drill 0.4 mm through the medial wall at 29.0 mm depth. "
+            f"Earlier 1.2 mm, {clock_text(NOON_S + 1.0)}.",
+            "Stop. Withdraw the drill.",
+            id="there again",
+        ),
+        pytest.param(
             alarm(Condition.CLEARANCE_LOW, measure=mm(0.6, 1.0), site=MEDIAL),
             "0.6 mm to the medial wall, limit 1.0 mm.",
             "Do not advance. Aim back to the channel's axis.",
@@ -88,7 +102,11 @@ TIME = clock_text(NOON_S + 3.0)
             id="a switch is on or off",
         ),
         pytest.param(
-            alarm(Condition.DRILL_UNSEEN, presence=Showing.NO, worst=Measure(value=3.2, limit=1.0, unit="s")),
+            alarm(
+                Condition.DRILL_UNSEEN,
+                presence=Showing.NO,
+                peak=Peak(measure=Measure(value=3.2, limit=1.0, unit="s"), severity=3.2, at_s=3.0),
+            ),
             "Drill marker was not seen for 3.2 s.",
             "",
             id="seen again",
@@ -103,8 +121,22 @@ def test_an_alarm_in_words(told: Alarm, sentence: str, remedy: str) -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("condition", Condition)
+def test_beside_figures_that_are_not_live_nothing_that_they_show_is_said_of_now(
+    condition: Condition, language: Language
+) -> None:
+    now = alarm(condition, measure=mm(-0.4), peak=peak(-0.8), presence=Showing.YES)
+    said = alarm_text(now, unix_offset_s=NOON_S)
+    without = alarm_text(without_live_figures(now), unix_offset_s=NOON_S)
+    is_of_figures = TRAITS[condition].kind is Kind.PHYSIOLOGICAL or TRAITS[condition].of_newest_image
+    assert (without.sentence[language] != said.sentence[language]) == is_of_figures
+    assert (without.remedy[language] != said.remedy[language]) == is_of_figures
+    assert without.title == said.title
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("condition", Condition)
 def test_every_condition_has_words_in_every_state(condition: Condition, language: Language) -> None:
-    values = {"measure": mm(0.3, 0.5), "worst": mm(0.2, 0.5)}
+    values = {"measure": mm(0.3, 0.5), "peak": peak(0.2)}
     has_number = "{value}" in PHRASES[language][condition].present
     for numbers in (values,) if has_number and not PHRASES[language][condition].bare else ({}, values):
         for presence in Showing:

@@ -19,6 +19,7 @@ def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
     verdicts: Counter[Verdict | None] = Counter()
     breaches: Counter[tuple[AlarmState, Showing]] = Counter()
     states = set()
+    again = 0
     for seed in SEEDS:
         check = ContradictionCheck()
         for moment in RandomDrilling(seed).moments(IMAGES):
@@ -30,6 +31,7 @@ def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
                 for alarm in moment.alarms.alarms
                 if alarm.condition is Condition.BREACH
             )
+        again += check.again
     # It is worth nothing where nothing happened.
     assert set(verdicts) == {None, *Verdict} - {Verdict.NOT_ASSESSED}
     assert set(breaches) >= {
@@ -40,6 +42,7 @@ def test_no_moment_of_a_random_drilling_contradicts_itself() -> None:
         (AlarmState.LATCHED, Showing.NO),
     }
     assert len(states) > 150
+    assert again > 0
 
 
 @pytest.mark.parametrize("wrong", [Verdict.ON_PATH, Verdict.CORRECT_ENTRY])

@@ -10,7 +10,7 @@ from tracker.navigation.alarms.evidence import Measure, Showing
 from tracker.navigation.alarms.limits import MOST_PAUSE_S, AlarmLimits
 from tracker.navigation.alarms.observed import NOT_KNOWN, NotKnown, Observed, Reading, Site
 from tracker.navigation.alarms.observing import Memory, observed_of, remembered
-from tracker.navigation.alarms.occurrence import AlarmState
+from tracker.navigation.alarms.occurrence import AlarmState, Peak
 from tracker.navigation.alarms.picture import QUIET, Alarm, AlarmEvent, AlarmPicture, Change, Sound
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "Memory",
     "NotKnown",
     "Observed",
+    "Peak",
     "Priority",
     "Reading",
     "Showing",

@@ -1,7 +1,7 @@
 """Which conditions raise an alarm, how urgent each is, and how it comes and goes: one table."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from types import MappingProxyType
 
@@ -40,7 +40,8 @@ class Condition(StrEnum):
     DRILL_UNSEEN = "DRILL_UNSEEN"  # the drill's marker is not seen for longer than its limit
     REFERENCE_UNSEEN = "REFERENCE_UNSEEN"  # the patient's marker is not seen for longer than its limit
     CAMERA_STALLED = "CAMERA_STALLED"  # no image came for longer than its limit
-    CAMERA_GONE = "CAMERA_GONE"  # camera or tracking are known not to work
+    CAMERA_GONE = "CAMERA_GONE"  # the camera is known to give no images
+    TRACKING_STOPPED = "TRACKING_STOPPED"  # the process that tracks is known not to run
     POSE_UNCERTAIN = "POSE_UNCERTAIN"  # the tip is less sure than this pedicle allows
     POSE_JUMPED = "POSE_JUMPED"  # two poses explain the image, or it moved faster than a hand
     CAMERA_MOVED = "CAMERA_MOVED"  # since the registration
@@ -72,6 +73,7 @@ class Trait:
         holds: what is not known is not good news: it goes on until it is seen to be gone. Otherwise what is
             not known counts as gone, because another alarm says so then.
         always: it matters outside navigation too.
+        of_newest_image: the newest image alone shows it; of an image that is old it is not known.
     """
 
     priority: Priority
@@ -82,6 +84,7 @@ class Trait:
     clear_s: float = 1.0
     holds: bool = False
     always: bool = False
+    of_newest_image: bool = False
 
 
 def _in_the_bone() -> Trait:
@@ -108,6 +111,12 @@ def _technical(
     return Trait(priority=priority, kind=Kind.TECHNICAL, confirm_s=confirm_s, clear_s=clear_s, always=always)
 
 
+def _of_newest_image(*, confirm_s: float = 0.0, clear_s: float = 1.0) -> Trait:
+    """Of the sight of a marker, or its pose: nothing is said of it while no new image is tracked."""
+    trait = _technical(Priority.MEDIUM, confirm_s=confirm_s, clear_s=clear_s)
+    return replace(trait, of_newest_image=True)
+
+
 TRAITS: Mapping[Condition, Trait] = MappingProxyType(
     {
         Condition.BREACH: _in_the_bone(),
@@ -115,12 +124,13 @@ TRAITS: Mapping[Condition, Trait] = MappingProxyType(
         Condition.BREACH_LIKELY: _nearly(),
         Condition.CLEARANCE_LOW: _nearly(),
         # Their confirmation is the time unseen, or silent, that is their limit.
-        Condition.DRILL_UNSEEN: _technical(Priority.MEDIUM),
-        Condition.REFERENCE_UNSEEN: _technical(Priority.MEDIUM),
+        Condition.DRILL_UNSEEN: _of_newest_image(),
+        Condition.REFERENCE_UNSEEN: _of_newest_image(),
         Condition.CAMERA_STALLED: _technical(Priority.MEDIUM),
         Condition.CAMERA_GONE: _technical(Priority.MEDIUM),
-        Condition.POSE_UNCERTAIN: _technical(Priority.MEDIUM, confirm_s=0.5, clear_s=2.0),
-        Condition.POSE_JUMPED: _technical(Priority.MEDIUM, clear_s=2.0),
+        Condition.TRACKING_STOPPED: _technical(Priority.MEDIUM),
+        Condition.POSE_UNCERTAIN: _of_newest_image(confirm_s=0.5, clear_s=2.0),
+        Condition.POSE_JUMPED: _of_newest_image(clear_s=2.0),
         Condition.CAMERA_MOVED: _technical(Priority.HIGH),
         Condition.REFERENCE_MOVED: _technical(Priority.HIGH),
         Condition.CAMERA_CHANGED: _technical(Priority.HIGH),

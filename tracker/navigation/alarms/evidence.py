@@ -73,6 +73,8 @@ def evidence_of(condition: Condition, observed: Observed, limits: AlarmLimits, *
     """What this moment says of a condition; one that is standing clears only past its hysteresis."""
     if not (observed.navigating or TRAITS[condition].always):
         return GONE
+    if TRAITS[condition].of_newest_image and not observed.image_current:
+        return UNKNOWN
     return _JUDGES[condition](observed, limits, standing)
 
 
@@ -153,7 +155,9 @@ def _camera_stalled(observed: Observed, limits: AlarmLimits, standing: bool) -> 
     del standing
     limit_s = limits.camera_silent_after_s
     measure = Measure(value=observed.camera_silent_s, limit=limit_s, unit="s")
-    shows = observed.camera_works and observed.camera_silent_s > limit_s
+    # Which of the two does not work is said by name.
+    works = observed.camera_works and observed.tracker_works
+    shows = works and observed.camera_silent_s > limit_s
     return Evidence(showing=_showing(shows), measure=measure, severity=measure.value)
 
 
@@ -223,6 +227,7 @@ _JUDGES: Mapping[Condition, Judge] = MappingProxyType(
         Condition.REFERENCE_UNSEEN: _reference_unseen,
         Condition.CAMERA_STALLED: _camera_stalled,
         Condition.CAMERA_GONE: lambda observed, _limits, _standing: _flag(not observed.camera_works),
+        Condition.TRACKING_STOPPED: lambda observed, _limits, _standing: _flag(not observed.tracker_works),
         Condition.POSE_UNCERTAIN: _pose_uncertain,
         Condition.POSE_JUMPED: lambda observed, _limits, _standing: _flag(not observed.pose_steady),
         Condition.CAMERA_MOVED: lambda observed, _limits, _standing: _flag(not observed.camera_in_place),

@@ -57,7 +57,9 @@ class Observed:
         drill_put_away: not seen for so long that it lies somewhere on purpose.
         reference_unseen_s: as for the drill; 0 when there is no patient reference.
         camera_silent_s: how old the newest image is.
-        camera_works: the source runs, and so does what tracks in its images.
+        image_current: the newest image is not older than its limit, and camera and tracker work.
+        camera_works: the source runs, or nobody knows while nothing tracks.
+        tracker_works: what tracks in its images runs.
         pose_certain: the tip's uncertainty is small enough to be shown.
         pose_steady: the pose did not jump, and no second one explains the image as well.
         camera_in_place: it did not move since the registration.
@@ -89,7 +91,9 @@ class Observed:
     drill_put_away: bool = False
     reference_unseen_s: float = 0.0
     camera_silent_s: float = 0.0
+    image_current: bool = True
     camera_works: bool = True
+    tracker_works: bool = True
     pose_certain: bool = True
     pose_steady: bool = True
     camera_in_place: bool = True

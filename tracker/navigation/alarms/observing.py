@@ -86,6 +86,7 @@ def observed_of(
         drill_unseen_s=unseen_s,
         drill_put_away=unseen_s > put_away_after_s,
         camera_silent_s=silent_s,
+        image_current=silent_s <= fresh_s,
         reference_unseen_s=reference_s if memory.navigating else 0.0,
         pose_certain=AbsentReason.POSE_UNCERTAIN not in reasons,
         pose_steady=AbsentReason.POSE_JUMPED not in reasons,
@@ -93,7 +94,7 @@ def observed_of(
         reference_in_place=AbsentReason.REFERENCE_MOVED not in reasons,
         camera_change=next(iter(snapshot.watched.camera_changes), None),
     )
-    return _with_figures(observed, snapshot) if silent_s <= fresh_s else observed
+    return _with_figures(observed, snapshot) if observed.image_current else observed
 
 
 def _with_figures(observed: Observed, snapshot: NavigationSnapshot) -> Observed:

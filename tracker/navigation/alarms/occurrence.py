@@ -27,6 +27,23 @@ class AlarmState(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Peak:
+    """The worst moment of an occurrence.
+
+    Attributes:
+        measure: its number and limit.
+        severity: how bad that was; larger is worse.
+        at_s: when.
+        site: where in the bone; None where it is no matter of a place.
+    """
+
+    measure: Measure
+    severity: float
+    at_s: float
+    site: Site | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Occurrence:
     """One condition at one moment.
 
@@ -37,10 +54,10 @@ class Occurrence:
         showing_images: how many images in a row show it since then.
         gone_since_s: from when on it is gone without a break, while it is not yet cleared; else infinite.
         measure: the last number that was known.
-        worst: the number when it was worst, since it was raised.
-        worst_severity: how bad that was; larger is worse.
-        worst_at_s, worst_site: when and where that was.
         site: where the last number was measured.
+        peak: the worst moment since it was raised; None where it is no matter of a number.
+        pending_peak: likewise since it shows, while it is not yet raised.
+        earlier_peak: the worst moment of the occurrences before this one that nobody has acknowledged.
         acknowledged_severity: how bad it was at worst when it was acknowledged.
         acknowledged_by: who did; empty when nobody did.
         by: who asks, where somebody does.
@@ -53,11 +70,10 @@ class Occurrence:
     showing_images: int = 0
     gone_since_s: float = inf
     measure: Measure | None = None
-    worst: Measure | None = None
     site: Site | None = None
-    worst_severity: float = -inf
-    worst_at_s: float = 0.0
-    worst_site: Site | None = None
+    peak: Peak | None = None
+    pending_peak: Peak | None = None
+    earlier_peak: Peak | None = None
     acknowledged_severity: float = inf
     acknowledged_by: str = ""
     by: str = ""
@@ -94,12 +110,12 @@ def advanced(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment) 
     is_open = (evidence.showing is Showing.UNKNOWN and trait.holds) or evidence.superseded
     waits = was.showing_since_s < inf and is_open
     if not (shows or waits):
-        return replace(was, showing_since_s=inf, showing_images=0)
+        return replace(was, showing_since_s=inf, showing_images=0, pending_peak=None)
     since_s = min(was.showing_since_s, moment.at_s)
     images = was.showing_images + (1 if shows and moment.new_image else 0)
     now = replace(was, showing_since_s=since_s, showing_images=images)
-    is_first = was.state is AlarmState.NORMAL and was.showing_since_s == inf
-    now = _with_measure(now, evidence, moment, is_first=is_first)
+    now = _with_measure(now, evidence)
+    now = replace(now, pending_peak=_worse(was.pending_peak, _peak(evidence, moment)))
     # What is superseded goes on being confirmed, and is raised when it shows itself.
     is_confirmed = _is_confirmed(now, trait, moment) and not evidence.superseded
     return _raised(now, moment) if is_confirmed else now
@@ -112,18 +128,11 @@ def acknowledged(was: Occurrence, *, by: str) -> Occurrence:
             was,
             state=AlarmState.ACKNOWLEDGED,
             acknowledged_by=by,
-            acknowledged_severity=was.worst_severity,
+            acknowledged_severity=-inf if was.peak is None else was.peak.severity,
         )
     if was.state is AlarmState.LATCHED:
-        # What shows again, and is not yet raised, goes on being confirmed; the worst is that of the last one.
-        return replace(
-            was,
-            state=AlarmState.NORMAL,
-            acknowledged_by="",
-            worst=None,
-            worst_site=None,
-            worst_severity=-inf,
-        )
+        # What shows again, and is not yet raised, goes on being confirmed.
+        return replace(was, state=AlarmState.NORMAL, acknowledged_by="", peak=None, earlier_peak=None)
     return was
 
 
@@ -142,16 +151,21 @@ def _standing(was: Occurrence, evidence: Evidence, trait: Trait, moment: Moment)
     gone = evidence.showing is Showing.NO or (evidence.showing is Showing.UNKNOWN and not trait.holds)
     if gone:
         gone_since_s = min(was.gone_since_s, moment.at_s)
-        now = replace(_with_measure(was, evidence, moment), gone_since_s=gone_since_s)
+        now = replace(_at_worst(was, evidence, moment), gone_since_s=gone_since_s)
         return _cleared(now, trait) if moment.at_s - gone_since_s >= trait.clear_s else now
-    now = replace(_with_measure(was, evidence, moment), gone_since_s=inf)
-    worse_by = now.worst_severity - was.acknowledged_severity
+    now = replace(_at_worst(was, evidence, moment), gone_since_s=inf)
+    worse_by = (-inf if now.peak is None else now.peak.severity) - was.acknowledged_severity
     if trait.latches and was.state is AlarmState.ACKNOWLEDGED and worse_by >= moment.again_after_mm:
         return _raised(now, moment)
     return now
 
 
 def _raised(was: Occurrence, moment: Moment) -> Occurrence:
+    if not was.is_standing:
+        # One that is over and not acknowledged keeps its own worst moment beside that of the new one.
+        is_latched = was.state is AlarmState.LATCHED
+        earlier = _worse(was.earlier_peak, was.peak) if is_latched else None
+        was = replace(was, peak=was.pending_peak, pending_peak=None, earlier_peak=earlier)
     return replace(
         was,
         state=AlarmState.ACTIVE,
@@ -170,34 +184,37 @@ def _cleared(was: Occurrence, trait: Trait) -> Occurrence:
         return Occurrence(
             measure=was.measure,
             site=was.site,
-            worst=was.worst,
-            worst_at_s=was.worst_at_s,
-            worst_site=was.worst_site,
+            peak=was.peak,
             raised_at_s=was.raised_at_s,
             control=was.control,
         )
     return replace(was, state=AlarmState.LATCHED, gone_since_s=inf)
 
 
-def _with_measure(
-    was: Occurrence, evidence: Evidence, moment: Moment, *, is_first: bool = False
-) -> Occurrence:
-    """With the number of this moment, and the worst one since the first; by whom it is asked."""
+def _at_worst(was: Occurrence, evidence: Evidence, moment: Moment) -> Occurrence:
+    """With the number of this moment, and the worst moment since it was raised."""
+    return replace(_with_measure(was, evidence), peak=_worse(was.peak, _peak(evidence, moment)))
+
+
+def _with_measure(was: Occurrence, evidence: Evidence) -> Occurrence:
+    """With the number of this moment, and by whom it is asked."""
     if evidence.showing is Showing.UNKNOWN:
         return was
     now = replace(was, by=evidence.by or was.by, control=evidence.control or was.control)
     if evidence.measure is None:
-        if is_first:
-            return replace(now, measure=None, site=None, worst=None, worst_site=None)
         # It shows and has no number any more: the last one is not of now.
         return replace(now, measure=None, site=None) if evidence.showing is Showing.YES else now
-    now = replace(now, measure=evidence.measure, site=evidence.site)
-    if not is_first and was.worst is not None and evidence.severity <= was.worst_severity:
-        return now
-    return replace(
-        now,
-        worst=evidence.measure,
-        worst_severity=evidence.severity,
-        worst_at_s=moment.at_s,
-        worst_site=evidence.site,
-    )
+    return replace(now, measure=evidence.measure, site=evidence.site)
+
+
+def _peak(evidence: Evidence, moment: Moment) -> Peak | None:
+    if evidence.showing is Showing.UNKNOWN or evidence.measure is None:
+        return None
+    return Peak(measure=evidence.measure, severity=evidence.severity, at_s=moment.at_s, site=evidence.site)
+
+
+def _worse(one: Peak | None, other: Peak | None) -> Peak | None:
+    """The worse of two; of two that are equally bad the first."""
+    if one is None or other is None:
+        return one or other
+    return other if other.severity > one.severity else one

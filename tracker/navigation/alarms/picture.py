@@ -7,7 +7,7 @@ from tracker.camera import CameraControl
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority
 from tracker.navigation.alarms.evidence import Measure, Showing
 from tracker.navigation.alarms.observed import Site
-from tracker.navigation.alarms.occurrence import AlarmState
+from tracker.navigation.alarms.occurrence import AlarmState, Peak
 
 
 class Sound(StrEnum):
@@ -46,8 +46,8 @@ class Alarm:
             is no longer present is described in the past tense.
         measure: the newest number and its limit; None where it is no matter of a number.
         site: where in the bone that was.
-        worst: the worst one since it was raised.
-        worst_at_s, worst_site: when and where that was.
+        peak: the worst moment since it was raised.
+        earlier_peak: the worst moment of the occurrences before it that nobody has acknowledged.
         acknowledged_by: who knows of it; empty when nobody does.
         by: who asks, where somebody does.
         control: of the camera that it is about, where it is about one.
@@ -60,9 +60,8 @@ class Alarm:
     presence: Showing = Showing.YES
     measure: Measure | None = None
     site: Site | None = None
-    worst: Measure | None = None
-    worst_at_s: float = 0.0
-    worst_site: Site | None = None
+    peak: Peak | None = None
+    earlier_peak: Peak | None = None
     acknowledged_by: str = ""
     by: str = ""
     control: CameraControl | None = None

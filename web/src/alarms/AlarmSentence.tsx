@@ -1,10 +1,11 @@
 import { useRef, type ReactNode } from "react";
 import { usePainter } from "../live/LiveContext";
-import type { AlarmMessage, AlarmsMessage, Priority } from "../live/messages";
+import type { AlarmMessage, Priority } from "../live/messages";
 import { setText } from "../panes/setText";
 import type { Words } from "../words/en";
 import { textOf } from "../words/text";
 import { useWords } from "../words/WordsContext";
+import { wordsBeside, type AlarmWords } from "./alarmWords";
 
 export const MARKS: Record<Priority, string> = { high: "▲▲▲", medium: "▲▲", low: "▲" };
 
@@ -14,8 +15,8 @@ export function AlarmSentence({ alarm }: { alarm: AlarmMessage }): ReactNode {
   const sentence = useRef<HTMLSpanElement>(null);
   const remedy = useRef<HTMLElement>(null);
   const known = useRef<HTMLSpanElement>(null);
-  usePainter(({ alarms }) => {
-    const now = ofNumber(alarms, alarm);
+  usePainter((view) => {
+    const now = wordsBeside(view, alarm);
     setText(sentence.current, textOf(now.sentence, words));
     setText(remedy.current, textOf(now.remedy, words));
     setText(known.current, textOf(now.known, words));
@@ -32,8 +33,8 @@ export function AlarmSentence({ alarm }: { alarm: AlarmMessage }): ReactNode {
 export function AlarmLine({ alarm }: { alarm: AlarmMessage }): ReactNode {
   const words = useWords();
   const line = useRef<HTMLSpanElement>(null);
-  usePainter(({ alarms }) => {
-    setText(line.current, lineText(ofNumber(alarms, alarm), words));
+  usePainter((view) => {
+    setText(line.current, lineText(wordsBeside(view, alarm), words));
   });
   return (
     <>
@@ -44,11 +45,6 @@ export function AlarmLine({ alarm }: { alarm: AlarmMessage }): ReactNode {
   );
 }
 
-function lineText({ sentence, known }: AlarmMessage, words: Words): string {
+function lineText({ sentence, known }: AlarmWords, words: Words): string {
   return [textOf(sentence, words), textOf(known, words)].filter((part) => part !== "").join(" ");
-}
-
-/** The same alarm as it was with the image whose figures are shown; itself where it was not yet raised then. */
-function ofNumber(alarms: AlarmsMessage | null, alarm: AlarmMessage): AlarmMessage {
-  return alarms?.alarms.find(({ number }) => number === alarm.number) ?? alarm;
 }

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { alarms, message } from "../live/builders";
+import { alarms } from "../live/alarmBuilders";
+import { message } from "../live/builders";
 import { alarmsVerdict, wantedSound, type AlarmsVerdict } from "./verdict";
 
 const ringing = alarms({ sound: "high", sound_number: 4 });

@@ -93,8 +93,14 @@ describe("age", () => {
 
   test("numbers without a picture stand, the picture does not", () => {
     expect(numbersVerdict(situation({ picture: null }), NOW).live).toBe(true);
-    expect(videoVerdict(situation({ picture: null }), NOW)).toMatchObject({ live: false, cause: "no-image" });
+    const none = situation({ picture: null, lastPictureAtMs: null });
+    expect(videoVerdict(none, NOW)).toMatchObject({ live: false, cause: "no-picture" });
   });
+});
+
+test("a picture that was taken away for its age is too old, and does not count as one that never came", () => {
+  const away = situation({ picture: null, lastPictureAtMs: NOW - 700 });
+  expect(videoVerdict(away, NOW)).toEqual({ live: false, cause: "old", ageMs: 700 });
 });
 
 describe("what the image says", () => {

@@ -30,6 +30,8 @@ export interface Situation extends FirstMessageWait {
   numbers: Taken | null;
   /** Whose picture stands on the canvas. */
   picture: Taken | null;
+  /** The capture time of the last picture that stood, taken away or not; null before the first of this line. */
+  lastPictureAtMs: number | null;
   /** Since when there is a canvas on which no picture has stood yet; null without one. */
   canvasSinceMs: number | null;
   limits: Limits;
@@ -53,6 +55,7 @@ export function situationAtLoad(nowMs: number): Situation {
     newest: null,
     numbers: null,
     picture: null,
+    lastPictureAtMs: null,
     canvasSinceMs: null,
     limits: DEFAULT_LIMITS,
   };
@@ -71,6 +74,7 @@ export type Cause =
   | "source-reconnecting"
   | "source-ended"
   | "no-image"
+  | "no-picture"
   | "old";
 
 export type VideoVerdict =
@@ -87,15 +91,18 @@ export const SILENT_AFTER_MS = 800;
 export const FIRST_PICTURE_WITHIN_MS = 2000;
 
 export function videoVerdict(situation: Situation, nowMs: number): VideoVerdict {
-  const { picture, canvasSinceMs, limits } = situation;
-  const ageMs = picture === null ? null : nowMs - picture.capturedAtMs;
+  const { picture, lastPictureAtMs, canvasSinceMs, limits } = situation;
+  const capturedAtMs = picture?.capturedAtMs ?? lastPictureAtMs;
+  const ageMs = capturedAtMs === null ? null : nowMs - capturedAtMs;
   const cause = commonCause(situation, nowMs);
   if (cause !== null) return { live: false, cause, ageMs };
-  if (picture === null || ageMs === null) {
-    const isNew = canvasSinceMs !== null && nowMs - canvasSinceMs <= FIRST_PICTURE_WITHIN_MS;
-    return { live: false, cause: isNew ? "connecting" : "no-image", ageMs: null };
+  const isNewCanvas = canvasSinceMs !== null && nowMs - canvasSinceMs <= FIRST_PICTURE_WITHIN_MS;
+  if (ageMs === null || (picture === null && isNewCanvas)) {
+    return { live: false, cause: isNewCanvas ? "connecting" : "no-picture", ageMs: null };
   }
-  if (!(ageMs <= limits.video_stale_after_ms)) return { live: false, cause: "old", ageMs };
+  // A picture that was taken away for its age stays too old until a new one stands.
+  if (picture === null || !(ageMs <= limits.video_stale_after_ms))
+    return { live: false, cause: "old", ageMs };
   return { live: true, imageNumber: picture.snapshot.image_number, ageMs };
 }
 
@@ -105,12 +112,17 @@ export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerd
   const cause = commonCause(situation, nowMs);
   if (cause !== null) return { live: false, cause, unread: null, ageMs };
   if (numbers === null || ageMs === null) {
-    return { live: false, cause: "no-image", unread: null, ageMs: null };
+    return { live: false, cause: "no-picture", unread: null, ageMs: null };
   }
   if (!(ageMs <= limits.pose_stale_after_ms)) return { live: false, cause: "old", unread: null, ageMs };
   const reading = readingOf(numbers.snapshot, numbers.headline);
   if (!reading.known) return { live: false, cause: "unread", unread: reading, ageMs };
   return { live: true, reading, imageNumber: numbers.snapshot.image_number, ageMs };
+}
+
+/** Whether the newest image is young enough: it has figures, or says why it has none. */
+export function isOfNow(numbers: NumbersVerdict): boolean {
+  return numbers.live || numbers.cause === "unread";
 }
 
 /** What takes everything away at once, or null. */

@@ -1,7 +1,8 @@
 // Truth for tests: messages as the server sends them.
 import type { Situation, Taken } from "./assess";
+import { alarms } from "./alarmBuilders";
 import { assessment, headline } from "./figureBuilders";
-import type { AlarmsMessage, AlongMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
+import type { AlongMessage, JudgementMessage, LiveMessage, SnapshotMessage } from "./messages";
 
 export function snapshot(changes: Partial<SnapshotMessage> = {}): SnapshotMessage {
   return {
@@ -117,10 +118,6 @@ export function along(changes: Partial<AlongMessage> = {}): AlongMessage {
   };
 }
 
-export function alarms(changes: Partial<AlarmsMessage> = {}): AlarmsMessage {
-  return { revision: 0, sound: "silent", sound_number: 0, pause_left_s: 0, alarms: [], ...changes };
-}
-
 export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
   return {
     sequence: 7,
@@ -160,6 +157,7 @@ export function situation(changes: Partial<Situation> = {}): Situation {
     hidden: false,
     everHeard: true,
     waitingSinceMs: 0,
+    lastPictureAtMs: 960,
     canvasSinceMs: null,
     heardAtMs: 980,
     newest: message(),

@@ -1,6 +1,7 @@
 // All that the page knows of now: one line in, one verdict for each pane out, looked at again with every
 // image of the screen and by a timer, so that what is old goes by itself.
 import {
+  isOfNow,
   numbersVerdict,
   situationAtLoad,
   videoVerdict,
@@ -63,8 +64,7 @@ export class Live {
       silentMs: this.is.heardAtMs === null ? 0 : nowMs - this.is.heardAtMs,
       firstMessage: firstMessageAt(this.is, nowMs),
       newest: this.is.newest,
-      // Beside live figures, what was said with their own image: no other number of the same thing.
-      alarms: (numbers.live ? this.is.numbers?.alarms : this.is.newest?.alarms) ?? null,
+      alarms: (isOfNow(numbers) ? this.is.numbers?.alarms : this.is.newest?.alarms) ?? null,
       video,
       numbers,
       untrackedMs: numbers.live || this.trackedAtMs === null ? null : nowMs - this.trackedAtMs,
@@ -141,6 +141,7 @@ export class Live {
     const sentAtMs = this.clock.pageMs(message.sent_at_s);
     if (drawn) {
       this.is.picture = taken;
+      this.is.lastPictureAtMs = taken.capturedAtMs;
       this.is.canvasSinceMs = null;
       const times = showing.times(sentAtMs, taken.capturedAtMs);
       this.load.shown(times, taken.snapshot, message.shown_scale_ratio);
@@ -179,6 +180,7 @@ export class Live {
   private forget(): void {
     this.generation += 1;
     this.is.newest = this.is.numbers = this.is.picture = null;
+    this.is.lastPictureAtMs = null;
     this.clock.forget();
     this.sceneAge.forget();
     this.load.forget();

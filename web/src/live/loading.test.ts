@@ -87,12 +87,15 @@ test("a canvas that comes with another page waits for its first picture, and not
   live.answered(null, (nowMs += FIRST_PICTURE_WITHIN_MS), live.currentGeneration);
   expect(live.look().video).toMatchObject({ cause: "connecting" });
   live.answered(null, (nowMs += 1), live.currentGeneration);
-  expect(live.look().video).toMatchObject({ cause: "no-image" });
+  expect(live.look().video).toMatchObject({ cause: "no-picture" });
 });
 
 test("a picture that was taken away for its age is no first one", async () => {
   await live.take({ message: message(), jpeg: new Uint8Array([1]) });
   live.answered(null, (nowMs += 600), live.currentGeneration);
   live.look();
-  expect(live.look().video).toMatchObject({ cause: "no-image" });
+  expect(live.look().video).toMatchObject({ cause: "old", ageMs: 620 });
+  live.setLink("lost");
+  live.setLink("open");
+  expect(live.look().video).toMatchObject({ ageMs: null });
 });

@@ -23,7 +23,7 @@ export interface View {
   /** Since the page was loaded; what it claims before that is nothing. */
   firstMessage: FirstMessage;
   newest: LiveMessage | null;
-  /** The words of the alarms: of the same image as the figures, where those are live. */
+  /** Of the same image as the figures, or as why there are none: no other number of the same thing. */
   alarms: AlarmsMessage | null;
   video: VideoVerdict;
   numbers: NumbersVerdict;

@@ -8,9 +8,10 @@ import { heardOf } from "./heard";
 export function LiveStatus({ withTracking = false }: { withTracking?: boolean }): ReactNode {
   const words = useWords();
   const { view } = useLive();
-  const { linkState, source } = heardOf(view);
+  const { linkState, source, isOfNow } = heardOf(view);
   const cameraState = source?.state ?? "unknown";
   const isLoading = view.firstMessage === "awaited";
+  const well = isOfNow ? "good" : "waiting";
   return (
     <dl className="facts facts-status" aria-label={words.shell.status}>
       {withTracking && (
@@ -24,7 +25,7 @@ export function LiveStatus({ withTracking = false }: { withTracking?: boolean })
       <Fact
         name={words.header.camera}
         value={isLoading ? words.rest.loading : words.cameraState[cameraState]}
-        mood={isLoading || cameraState === "opening" ? "waiting" : cameraState === "running" ? "good" : "bad"}
+        mood={isLoading || cameraState === "opening" ? "waiting" : cameraState === "running" ? well : "bad"}
         testid="camera-state"
       />
       <Fact

@@ -8,9 +8,13 @@ import { Pane } from "./Pane";
 import { Paced } from "./paced";
 import { setSize, tellRate, tellView, VIEWS, type ViewName } from "./sceneFrame";
 import { setData, setText } from "./setText";
+import { hasWebGl } from "./webgl";
 
 /** A scene that says nothing for this long, while the server is there, is loaded anew. */
 const RELOAD_AFTER_MS = 15_000;
+
+/** After this many loads without an image the scene counts as missing, not as loading. */
+const TRIES_WITHOUT_AN_IMAGE = 2;
 
 /** The 3-D scene in its frame, covered whenever what it has drawn is not live. */
 export function ScenePane(): ReactNode {
@@ -59,7 +63,12 @@ export function ScenePane(): ReactNode {
     };
   }, [lives, wanted, reachable, attempt]);
 
-  const loading = view.scene.state === "loading";
+  const loading = view.scene.state === "loading" && attempt < TRIES_WITHOUT_AN_IMAGE;
+  const [title, sentence] = !hasWebGl()
+    ? [words.scene.unsupported, words.scene.unsupportedHint]
+    : loading
+      ? [words.scene.loading, words.scene.loadingHint]
+      : [words.scene.stale, words.scene.staleHint];
   return (
     <Pane
       id="scene"
@@ -67,7 +76,7 @@ export function ScenePane(): ReactNode {
       aside={<p className="stamp" data-testid="scene-stamp" ref={stamp} />}
     >
       <div className="scene-stage" data-testid="scene" data-live="false" ref={stage}>
-        {wanted && (
+        {wanted && hasWebGl() && (
           <iframe
             key={attempt}
             ref={(element) => {
@@ -99,11 +108,7 @@ export function ScenePane(): ReactNode {
           ))}
         </div>
         <div className="when-stale" data-testid="scene-cover">
-          <Cover
-            urgency={loading ? "none" : "medium"}
-            title={loading ? words.scene.loading : words.scene.stale}
-            sentence={loading ? words.scene.loadingHint : words.scene.staleHint}
-          >
+          <Cover urgency={loading && hasWebGl() ? "none" : "medium"} title={title} sentence={sentence}>
             <span className="since" ref={age} />
           </Cover>
         </div>

@@ -4,19 +4,24 @@ import { useLive } from "../live/LiveContext";
 import { Fact } from "../panes/Fact";
 import { heardOf } from "../panes/heard";
 import { useWords } from "../words/WordsContext";
-import { checkText, registrationText } from "./standing";
+import { checkText, registrationText, type Said } from "./standing";
+
+/** What is well is not shown as well beside a picture and figures that are too old. */
+function dimmed(said: Said | null, isOfNow: boolean): Said | null {
+  return said?.mood === "good" && !isOfNow ? { ...said, mood: "waiting" } : said;
+}
 
 /** Which case, level and side are navigated, how it was registered, and how old that and its check are. */
 export function Navigated(): ReactNode {
   const words = useWords();
   const { view } = useLive();
-  const { linkState, snapshot } = heardOf(view);
+  const { linkState, snapshot, isOfNow } = heardOf(view);
   const isHeard = linkState === "open";
   const procedure = useProcedure();
   const known = isHeard ? procedure.data : null;
   const t = words.theatre;
-  const registration = registrationText(snapshot, known, t);
-  const check = checkText(snapshot, known, t);
+  const registration = dimmed(registrationText(snapshot, known, t), isOfNow);
+  const check = dimmed(checkText(snapshot, known, t), isOfNow);
   const unknown = isHeard && procedure.refusal !== null ? t.unknown : "—";
   const unseen = isHeard ? t.unknown : "—";
   return (

@@ -85,6 +85,8 @@ export const de: Words = {
     loadingHint: "Die Szene erscheint mit ihrem ersten Bild.",
     stale: "SZENE VERALTET",
     staleHint: "Die Szene folgt dem Bohrer nicht. Sie kommt von selbst wieder.",
+    unsupported: "KEIN 3-D",
+    unsupportedHint: "Dieser Browser hat kein WebGL 2. Video und Werte gehen ohne.",
     views: "Blick",
     view: { behind: "Von hinten", channel: "Kanalachse", camera: "Von der Kamera" },
   },

@@ -87,6 +87,8 @@ export const en: Words = {
     loadingHint: "The scene appears when its first image is drawn.",
     stale: "SCENE STALE",
     staleHint: "The scene does not follow the drill now. It comes back by itself.",
+    unsupported: "NO 3-D",
+    unsupportedHint: "This browser has no WebGL 2. Video and figures work without it.",
     views: "View",
     view: { behind: "From behind", channel: "Along channel", camera: "From camera" },
   },

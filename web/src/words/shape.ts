@@ -59,6 +59,8 @@ export interface Words {
     loadingHint: string;
     stale: string;
     staleHint: string;
+    unsupported: string;
+    unsupportedHint: string;
     views: string;
     view: Record<"behind" | "channel" | "camera", string>;
   };

@@ -13,6 +13,7 @@ from tracker.navigation.alarms import (
     Condition,
     Observed,
     Priority,
+    Showing,
     Sound,
 )
 
@@ -71,12 +72,50 @@ def test_a_breach_stays_in_sight_until_it_is_acknowledged_and_its_sound_stops_wh
     assert [(alarm.condition, alarm.state) for alarm in picture.alarms] == [
         (Condition.BREACH, AlarmState.LATCHED)
     ]
-    worst = picture.alarms[0].worst
-    assert worst is not None
-    assert worst.value == -0.8
+    peak = picture.alarms[0].peak
+    assert peak is not None
+    assert peak.measure.value == -0.8
     assert stream.images(600.0).alarms[0].state is AlarmState.LATCHED
     assert stream.acknowledge().alarms == ()
     assert stream.events[-1].by == "surgeon"
+
+
+def test_a_breach_that_comes_again_has_its_own_time_and_worst_value_and_the_one_before_stays_in_sight() -> (
+    None
+):
+    stream = Stream()
+    stream.images(0.2, clearance_mm=-1.2)
+    first_s = stream.at_s
+    stream.images(60.0)
+    stream.images(0.2, clearance_mm=-0.3)
+    second_s = stream.at_s
+    alarm = stream.images(2.0).alarms[0]
+    assert alarm.peak is not None
+    assert alarm.earlier_peak is not None
+    assert alarm.state is AlarmState.LATCHED
+    assert [alarm.peak.measure.value, alarm.earlier_peak.measure.value] == [-0.3, -1.2]
+    assert alarm.peak.at_s == pytest.approx(second_s, abs=0.2)
+    assert alarm.earlier_peak.at_s == pytest.approx(first_s, abs=0.2)
+    # Of several before it the worst stays.
+    stream.images(0.2, clearance_mm=-0.5)
+    alarm = stream.images(2.0).alarms[0]
+    assert alarm.peak is not None
+    assert alarm.earlier_peak is not None
+    assert [alarm.peak.measure.value, alarm.earlier_peak.measure.value] == [-0.5, -1.2]
+    assert stream.acknowledge().alarms == ()
+    stream.images(0.2, clearance_mm=-0.4)
+    assert stream.images(2.0).alarms[0].earlier_peak is None, "what was acknowledged is not told again"
+
+
+def test_one_image_that_shows_a_latched_breach_leaves_its_worst_value() -> None:
+    stream = Stream()
+    stream.images(0.2, clearance_mm=-0.4)
+    stream.images(2.0)
+    stream.image(clearance_mm=-2.0)
+    alarm = stream.images(2.0).alarms[0]
+    assert alarm.peak is not None
+    assert alarm.peak.measure.value == -0.4
+    assert alarm.earlier_peak is None
 
 
 def test_an_acknowledged_breach_is_silent_and_sounds_again_when_it_gets_deeper() -> None:
@@ -195,6 +234,7 @@ ALARMING: dict[Condition, dict[str, object]] = {
     Condition.REFERENCE_UNSEEN: {"reference_unseen_s": 1.2},
     Condition.CAMERA_STALLED: {"camera_silent_s": 0.7},
     Condition.CAMERA_GONE: {"camera_works": False},
+    Condition.TRACKING_STOPPED: {"tracker_works": False},
     Condition.POSE_UNCERTAIN: {"tip_sd_mm": 1.4},
     Condition.POSE_JUMPED: {"pose_steady": False},
     Condition.CAMERA_MOVED: {"camera_in_place": False},
@@ -211,6 +251,20 @@ ALARMING: dict[Condition, dict[str, object]] = {
     Condition.RECORDING_STOPPED: {"recording_runs": False},
     Condition.HOLD_ASKED: {"hold_asked_by": "Dr Sato"},
 }
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [Condition.DRILL_UNSEEN, Condition.REFERENCE_UNSEEN, Condition.POSE_UNCERTAIN, Condition.POSE_JUMPED],
+)
+def test_what_only_a_new_image_shows_is_not_claimed_of_an_old_one(condition: Condition) -> None:
+    stream = Stream()
+    (alarm,) = stream.images(6.0, **ALARMING[condition]).alarms
+    assert alarm.presence is Showing.YES
+    (alarm,) = stream.silence(0.1, image_current=False, **ALARMING[condition]).alarms
+    assert alarm.presence is Showing.UNKNOWN
+    picture = stream.silence(2.0, image_current=False, **ALARMING[condition])
+    assert [alarm.condition for alarm in picture.alarms] == [Condition.CAMERA_STALLED]
 
 
 @pytest.mark.parametrize("condition", Condition)

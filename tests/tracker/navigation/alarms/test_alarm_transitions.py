@@ -7,7 +7,14 @@ import pytest
 
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority, Trait
 from tracker.navigation.alarms.evidence import GONE, UNKNOWN, Evidence, Measure, Showing
-from tracker.navigation.alarms.occurrence import AlarmState, Moment, Occurrence, acknowledged, advanced
+from tracker.navigation.alarms.occurrence import (
+    AlarmState,
+    Moment,
+    Occurrence,
+    Peak,
+    acknowledged,
+    advanced,
+)
 
 N, A, K, L = AlarmState.NORMAL, AlarmState.ACTIVE, AlarmState.ACKNOWLEDGED, AlarmState.LATCHED
 SHOWS = Evidence(showing=Showing.YES)
@@ -75,7 +82,7 @@ HALF = Measure(value=0.5, limit=0.0, unit="mm")
 
 def test_only_what_is_acknowledged_and_clearly_worse_sounds_again() -> None:
     traits = trait(latches=True, holds=True)
-    known = Occurrence(state=K, worst=HALF, worst_severity=0.5, acknowledged_severity=0.5)
+    known = Occurrence(state=K, peak=Peak(measure=HALF, severity=0.5, at_s=0.0), acknowledged_severity=0.5)
     for depth_mm, becomes in ((0.4, K), (1.49, K), (1.5, A)):
         evidence = Evidence(showing=Showing.YES, measure=HALF, severity=depth_mm)
         moment = Moment(at_s=1.0, again_after_mm=1.0)

@@ -31,7 +31,8 @@ export const reasonsDe: Pick<Words, "cause" | "unseen"> = {
       sentence: "Es kommen keine Bilder. Neuer Versuch von selbst.",
     },
     "source-ended": { state: "ENDE DES VIDEOS", sentence: "Das Video ist bis zum Ende gespielt." },
-    "no-image": { state: "WARTET", sentence: "Noch kein Bild." },
+    "no-image": { state: "WARTET", sentence: "Kein Bild von der Kamera." },
+    "no-picture": { state: "WARTET", sentence: "Auf dieser Seite ist noch kein Bild angekommen." },
     old: { state: "ZU ALT", sentence: "Das Letzte ist zu alt, um gezeigt zu werden." },
   },
   unseen: {

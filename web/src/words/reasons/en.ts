@@ -22,7 +22,8 @@ export const reasonsEn: Pick<Words, "cause" | "unseen"> = {
       sentence: "No images come from the camera. Trying again by itself.",
     },
     "source-ended": { state: "END OF VIDEO", sentence: "The video has been played to its end." },
-    "no-image": { state: "WAITING", sentence: "No image has come yet." },
+    "no-image": { state: "WAITING", sentence: "No image from the camera." },
+    "no-picture": { state: "WAITING", sentence: "No picture has reached this page yet." },
     old: { state: "TOO OLD", sentence: "What came last is too old to be shown." },
   },
   unseen: {

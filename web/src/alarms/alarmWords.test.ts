@@ -1,0 +1,29 @@
+import { expect, test } from "vitest";
+import { alarm, alarms } from "../live/alarmBuilders";
+import type { NumbersVerdict } from "../live/assess";
+import { wordsBeside } from "./alarmWords";
+
+const now = alarm({ number: 4, sentence: text("Drill 0.4 mm through."), remedy: text("Withdraw.") });
+const withImage = alarm({ number: 4, sentence: text("Drill 0.5 mm through.") });
+const OLD: NumbersVerdict = { live: false, cause: "old", unread: null, ageMs: 400 };
+const UNREAD: NumbersVerdict = { live: false, cause: "unread", unread: null, ageMs: 40 };
+
+function text(en: string): { en: string; de: string } {
+  return { en, de: en };
+}
+
+test("beside figures the alarm has the words of the same image", () => {
+  expect(wordsBeside({ alarms: alarms({ alarms: [withImage] }), numbers: UNREAD }, now).sentence).toEqual(
+    withImage.sentence,
+  );
+});
+
+test("an alarm that was raised after that image has its own words", () => {
+  expect(wordsBeside({ alarms: alarms(), numbers: UNREAD }, now).sentence).toEqual(now.sentence);
+});
+
+test("beside figures that went for their age no alarm says what figures would show, and none instructs by them", () => {
+  const words = wordsBeside({ alarms: alarms({ alarms: [now] }), numbers: OLD }, now);
+  expect(words.sentence).toEqual(now.sentence_without_figures);
+  expect(words.remedy).toEqual(now.remedy_without_figures);
+});
