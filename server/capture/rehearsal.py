@@ -1,9 +1,9 @@
-"""The rehearsal theatre as a source: rendered when due, so that its hand moves in real time."""
+"""The rehearsal theatre as a source: rendered just before it is due, so that its hand moves in real time."""
 
 import math
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -16,6 +16,9 @@ from server.live import CameraStatus
 
 STOPS, STALLS = "camera_stops", "camera_stalls"
 LOOK_AGAIN_S = 0.05
+# Of the slowest recent rendering; one that begins earlier competes with the image that is tracked meanwhile.
+RENDER_LEAD_RATIO = 1.5
+SLOWEST_FADES_RATIO = 0.95
 
 
 class Renderer(Protocol):
@@ -72,6 +75,7 @@ class RehearsalSource:
         last_number: int | None = None,
         begun: Begun | None = None,
         silences: Sequence[Silence] = (),
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name = "rehearsal"
         self.waits_for_taker = fast
@@ -83,10 +87,12 @@ class RehearsalSource:
         self._begun = begun or Begun()
         self._rate_hz = rate_hz
         self._stop = stop
+        self._clock = clock
         self._fast = fast
         self._number = first_number
         self._last_number = last_number
         self._epoch_s: float | None = None
+        self._slowest_s = 0.0
 
     @property
     def stalls(self) -> bool:
@@ -109,7 +115,7 @@ class RehearsalSource:
     def open(self) -> None:
         """The next image is due now; the theatre's clock goes on while its camera is silent."""
         if self._epoch_s is None:
-            self._epoch_s = time.monotonic() - self._number / self._rate_hz
+            self._epoch_s = self._clock() - self._number / self._rate_hz
 
     def read(self) -> Shot | None:
         """The next image when it is due.
@@ -135,24 +141,30 @@ class RehearsalSource:
         """Nothing is held open."""
 
     def _due(self) -> int:
-        """The number of the image that is due now or next."""
+        """The number of the image that is due next."""
         if self._fast or self._epoch_s is None:
             return self._number
-        return max(self._number, int((time.monotonic() - self._epoch_s) * self._rate_hz))
+        return max(self._number, math.ceil((self._clock() - self._epoch_s) * self._rate_hz))
 
     def _shot(self, renderer: Renderer, at_s: float) -> Shot:
-        if not self._fast and self._epoch_s is not None:
-            self._stop.wait(max(0.0, self._epoch_s + self._number / self._rate_hz - time.monotonic()))
-        # The grab is the instant that is shown, not the end of its rendering.
-        captured_at_s = time.monotonic()
-        shot = Shot(
-            image=renderer.image_at(at_s),
-            number=self._number,
-            captured_at_s=captured_at_s,
-            source_time_s=at_s,
-        )
+        if self._fast or self._epoch_s is None:
+            captured_at_s = self._clock()
+            image = renderer.image_at(at_s)
+        else:
+            # A camera's image is there at once: this one is rendered before it is due, and given when it is.
+            # One that takes longer has its age from when it was due, not from the end of its rendering.
+            captured_at_s = self._epoch_s + self._number / self._rate_hz
+            self._wait_until(captured_at_s - RENDER_LEAD_RATIO * self._slowest_s)
+            started_s = self._clock()
+            image = renderer.image_at(at_s)
+            self._slowest_s = max(self._clock() - started_s, SLOWEST_FADES_RATIO * self._slowest_s)
+            self._wait_until(captured_at_s)
+        shot = Shot(image=image, number=self._number, captured_at_s=captured_at_s, source_time_s=at_s)
         self._number += 1
         return shot
+
+    def _wait_until(self, at_s: float) -> None:
+        self._stop.wait(max(0.0, at_s - self._clock()))
 
     def _pass_over(self, silence: Silence, first: int, at_s: float) -> bool:
         """Be silent; False where images are taken as fast as they come, and none comes any more."""

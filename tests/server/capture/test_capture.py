@@ -3,7 +3,7 @@
 import queue
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
@@ -244,23 +244,76 @@ def test_a_silent_theatre_leaves_out_the_images_of_that_time() -> None:
     assert [for_good.read() is None for _ in range(4)] == [False, False, True, True]
 
 
-def test_a_theatre_whose_camera_stops_says_so_and_its_clock_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+class Clock(threading.Event):
+    """Time that passes while somebody waits or renders."""
+
     now_s = 100.0
-    monkeypatch.setattr("server.capture.rehearsal.time.monotonic", lambda: now_s)
+
+    def __call__(self) -> float:
+        return self.now_s
+
+    def wait(self, timeout: float | None = None) -> bool:
+        self.now_s += timeout or 0.0
+        return False
+
+
+class SlowlyRendered(Numbered):
+    def __init__(self, clock: Clock, takes_s: float) -> None:
+        self.clock, self.takes_s = clock, takes_s
+
+    def image_at(self, at_s: float) -> np.ndarray:
+        self.clock.now_s += self.takes_s
+        return super().image_at(at_s)
+
+
+@pytest.mark.parametrize(
+    ("takes_s", "numbers", "max_late_s"),
+    [(0.015, [0, 1, 2, 3, 4, 5], 1e-9), (0.06, [0, 2, 4, 5, 7, 8], 0.06)],
+    ids=["in time", "slower than the rate"],
+)
+def test_the_theatres_images_are_rendered_before_they_are_due(
+    takes_s: float, numbers: Sequence[int], max_late_s: float
+) -> None:
+    clock = Clock()
+    source = RehearsalSource(
+        SlowlyRendered(clock, takes_s), rate_hz=25.0, stop=clock, first_number=0, clock=clock
+    )
+    source.open()
+    began_s = clock.now_s
+    shots, late_s = [], []
+    for _ in numbers:
+        shot = source.read()
+        assert shot is not None
+        shots.append(shot)
+        late_s.append(clock.now_s - shot.captured_at_s)
+        clock.now_s += 1e-4
+    # The age of an image counts from the instant that it shows, however long it was rendered.
+    assert [shot.captured_at_s - began_s for shot in shots] == pytest.approx(
+        [shot.number / 25 for shot in shots]
+    )
+    assert [shot.source_time_s for shot in shots] == pytest.approx([shot.number / 25 for shot in shots])
+    assert late_s[0] == pytest.approx(takes_s), "the first is due at once"
+    assert all(-1e-9 <= late <= max_late_s for late in late_s[1:])
+    assert [shot.number for shot in shots] == numbers
+
+
+def test_a_theatre_whose_camera_stops_says_so_and_its_clock_goes_on() -> None:
+    clock = Clock()
     source = RehearsalSource(
         Numbered(),
         rate_hz=10.0,
-        stop=threading.Event(),
+        stop=clock,
         silences=(silence(EventKind.CAMERA_STOPS, 2.0, 3.0),),
+        clock=clock,
     )
     source.open()
     assert source.read() is not None
-    now_s += 2.5
+    clock.now_s += 2.5
     for _ in range(3):
         with pytest.raises(CaptureError, match="gives no images"):
             source.read()
         source.open()
-    now_s += 3.0
+    clock.now_s += 3.0
     back = source.read()
     assert back is not None
     assert back.source_time_s == pytest.approx(5.5)
