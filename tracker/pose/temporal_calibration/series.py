@@ -1,0 +1,198 @@
+"""Recorded poses of one source, and their rates as a low-passed signal that knows its gaps."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline, PPoly
+from scipy.sparse import diags_array
+from scipy.sparse.linalg import spsolve
+from scipy.spatial.transform import Rotation
+
+from tracker.errors import InvalidInput
+from tracker.geometry import Array
+from tracker.pose.temporal_calibration.limits import TimeOffsetLimits
+
+# Five rates, of which the splines at both ends of a stretch share one.
+MIN_SEGMENT_SAMPLES = 6
+
+
+class Motion(StrEnum):
+    """Which rate is compared.
+
+    ROTATION: angular velocity, deg/s. The same for all bodies that are rigidly connected, whatever the
+        marker or its place on the tool, up to the rotation between the two sources' frames.
+    TRANSLATION: velocity, mm/s. The same only for one and the same point of the tool.
+    """
+
+    ROTATION = "rotation"
+    TRANSLATION = "translation"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PoseSeries:
+    """Where a moving body was, as one source saw it; a time at which it was unseen is left out.
+
+    Attributes:
+        name: how messages call this source.
+        times_s: (n,) increasing, on the source's own clock; steps may differ.
+        translations_mm: (n, 3), a point of the body in the source's frame.
+        rotations: (n, 3, 3), source from body; None where the source gives positions only.
+    """
+
+    name: str
+    times_s: Array
+    translations_mm: Array
+    rotations: Array | None = None
+
+    def __post_init__(self) -> None:
+        """Check the shapes and the times.
+
+        Raises:
+            InvalidInput: TIME_SERIES_INVALID.
+        """
+        count = len(self.times_s)
+        shapes = {"times_s": (count,), "translations_mm": (count, 3), "rotations": (count, 3, 3)}
+        for field, shape in shapes.items():
+            values = getattr(self, field)
+            if values is None:
+                continue
+            if np.shape(values) != shape or not np.isfinite(values).all():
+                raise self._invalid(f"{field} is no array {shape} of finite numbers")
+        steps_s = np.diff(self.times_s)
+        if (steps_s <= 0.0).any():
+            at = int(np.argmax(steps_s <= 0.0))
+            raise self._invalid(
+                f"the time after {self.times_s[at]:.6f} s is {self.times_s[at + 1]:.6f} s, which is not later"
+            )
+
+    def _invalid(self, what: str) -> InvalidInput:
+        return InvalidInput(
+            "TIME_SERIES_INVALID",
+            f"{self.name}: {what}",
+            "Give times in seconds that increase, with one pose each, and leave out what was not seen.",
+            {"source": self.name},
+        )
+
+    def without_repeats(self) -> "PoseSeries":
+        """Without poses that equal the one before to the last digit: a lost tracker repeats its last one."""
+        parts = [self.translations_mm]
+        if self.rotations is not None:
+            parts.append(self.rotations.reshape(-1, 9))
+        new = np.ones(len(self.times_s), dtype=np.bool_)
+        new[1:] = (np.diff(np.hstack(parts), axis=0) != 0.0).any(axis=1)
+        return PoseSeries(
+            name=self.name,
+            times_s=self.times_s[new],
+            translations_mm=self.translations_mm[new],
+            rotations=None if self.rotations is None else self.rotations[new],
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RateSignal:
+    """Rates of one source over its time, NaN in gaps and outside.
+
+    Attributes:
+        name: of the source.
+        samples: poses that are in segments.
+        segments: stretches without a gap.
+        rate_hz: by the median step.
+        curve: piecewise cubic of time in s, (3,) in deg/s or mm/s; None if there is no segment.
+    """
+
+    name: str
+    samples: int
+    segments: int
+    rate_hz: float
+    curve: PPoly | None
+
+    def at(self, times_s: Array) -> Array:
+        """Rates (n, 3) at times (n,)."""
+        if self.curve is None:
+            return np.full((len(times_s), 3), np.nan)
+        return np.asarray(self.curve(times_s))
+
+    @property
+    def span_s(self) -> tuple[float, float]:
+        """First and last time."""
+        return (float(self.curve.x[0]), float(self.curve.x[-1])) if self.curve is not None else (0.0, 0.0)
+
+
+def rate_signal(series: PoseSeries, motion: Motion, limits: TimeOffsetLimits) -> RateSignal:
+    """Rates between successive poses, low-passed at `limits.cutoff_hz` without delay.
+
+    A step is a gap where it is longer than half a period of the cut-off, which the low-pass bridges anyway,
+    and longer than the source's jitter explains. Each stretch between gaps has a spline of its own.
+    """
+    fresh = series.without_repeats()
+    steps_s = np.diff(fresh.times_s)
+    median_s = float(np.median(steps_s)) if len(steps_s) else np.inf
+    max_step_s = max(0.5 / limits.cutoff_hz, limits.max_step_ratio * median_s)
+    cuts = np.flatnonzero(steps_s > max_step_s) + 1
+    bounds = np.concatenate([[0], cuts, [len(fresh.times_s)]])
+    curves = []
+    samples = 0
+    for start, end in pairwise(bounds.tolist()):
+        if end - start >= MIN_SEGMENT_SAMPLES:
+            curves.append(_curve(fresh, slice(start, end), motion, limits.cutoff_hz))
+            samples += end - start
+    return RateSignal(
+        name=series.name,
+        samples=samples,
+        segments=len(curves),
+        rate_hz=1.0 / median_s,
+        curve=_joined(curves) if curves else None,
+    )
+
+
+def _curve(series: PoseSeries, part: slice, motion: Motion, cutoff_hz: float) -> PPoly:
+    times_s = series.times_s[part]
+    steps_s = np.diff(times_s)
+    if motion is Motion.ROTATION and series.rotations is not None:
+        # In the source's frame: another source's differs by the constant rotation between both frames alone.
+        orientations = Rotation.from_matrix(series.rotations[part])
+        moved = np.degrees((orientations[1:] * orientations[:-1].inv()).as_rotvec())
+    else:
+        moved = np.diff(series.translations_mm[part], axis=0)
+    rates = moved / steps_s[:, None]
+    # With each rate weighted by its step, the penalty is a Butterworth low-pass of this cut-off at any
+    # sampling; it has no delay, and the same effect on both sources.
+    penalty = (2.0 * np.pi * cutoff_hz) ** -4
+    middles_s = (times_s[1:] + times_s[:-1]) / 2.0
+    smoothed = smoothing_spline_values(middles_s, rates, weights=steps_s, penalty=penalty)
+    return CubicSpline(middles_s, smoothed, bc_type="natural", extrapolate=False)
+
+
+def smoothing_spline_values(x: Array, y: Array, *, weights: Array, penalty: float) -> Array:
+    """Values (n, k) at x (n,) of the cubic smoothing splines through y (n, k), by Reinsch's equations.
+
+    They minimise sum(weights * (y - f)^2) + penalty * integral(f''^2). SciPy's make_smoothing_spline does the
+    same, column by column and many times slower.
+    """
+    steps = np.diff(x)
+    count = len(x)
+    below, above = 1.0 / steps[:-1], 1.0 / steps[1:]
+    # Second divided differences, (n, n - 2), and the inner products of the second derivative's hat functions.
+    differences = diags_array([below, -below - above, above], offsets=[0, -1, -2], shape=(count, count - 2))
+    hats = diags_array(
+        [steps[1:-1] / 6.0, (steps[:-1] + steps[1:]) / 3.0, steps[1:-1] / 6.0], offsets=[-1, 0, 1]
+    )
+    scaled = diags_array(penalty / weights) @ differences
+    curvature = spsolve((hats + differences.T @ scaled).tocsc(), differences.T @ y)
+    return np.asarray(y - scaled @ curvature)
+
+
+def _joined(curves: list[PPoly]) -> PPoly:
+    """One curve that is NaN between its parts."""
+    gap = np.full((4, 1, 3), np.nan)
+    coefficients: list[npt.NDArray[np.float64]] = []
+    for curve in curves:
+        coefficients += [curve.c, gap]
+    return PPoly(
+        np.concatenate(coefficients[:-1], axis=1),
+        np.concatenate([curve.x for curve in curves]),
+        extrapolate=False,
+    )
