@@ -17,6 +17,7 @@ from server.cli.latency_commands import latency_app
 from server.cli.marker_commands import marker_app
 from server.cli.plan_commands import plan_app
 from server.cli.register_commands import register_app
+from server.cli.time_offset_commands import time_offset
 from server.cli.tool_commands import pivot, spin, tip_check
 from server.cli.track_words import TRACK_HELP
 from server.cli.verify_commands import verify
@@ -41,6 +42,7 @@ app.command()(ruler)
 app.command()(pivot)
 app.command()(spin)
 app.command(name="tip-check")(tip_check)
+app.command(name="time-offset")(time_offset)
 app.add_typer(plan_app, name="plan")
 app.add_typer(audit_app, name="audit")
 app.add_typer(latency_app, name="latency")

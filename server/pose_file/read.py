@@ -11,6 +11,7 @@ from server.pose_file.structured import Told, poses_from_array, poses_from_json
 from server.pose_file.text import holds_numbers, poses_from_text
 from server.pose_file.unit import Unit
 from tracker.errors import InvalidInput
+from tracker.pose.temporal_calibration import PoseSeries
 from tracker.pose.tool import Poses
 
 TEXT = {".txt", ".csv", ".tsv", ".dat", ".mat", ".asc", ".pose"}
@@ -45,6 +46,27 @@ class PoseFiles:
         return Poses.from_rigids(
             [record.pose for record in self.records],
             stated if stated and len(stated) == len(covariances) else None,
+        )
+
+    def series(self, name: str) -> PoseSeries:
+        """For a temporal calibration: the poses over the source's own clock.
+
+        Raises:
+            InvalidInput: POSE_TIMES_MISSING or TIME_SERIES_INVALID.
+        """
+        untimed = next((record.place for record in self.records if record.time_s is None), None)
+        if untimed is not None:
+            raise InvalidInput(
+                "POSE_TIMES_MISSING",
+                f"{untimed}: there is no time with the pose",
+                "Give the lines of 'coaxial track --json', or a CSV with a header and a column time_s.",
+                {"place": untimed},
+            )
+        return PoseSeries(
+            name=name,
+            times_s=np.array([record.time_s for record in self.records], dtype=np.float64),
+            translations_mm=np.array([record.pose.translation_mm for record in self.records]),
+            rotations=np.array([record.pose.rotation for record in self.records]),
         )
 
 

@@ -12,6 +12,8 @@ FORMATS_REMEDY = (
     "Give a folder of files with a 4x4 matrix each, or one file: rows of 4, 12 or 16 numbers, a CSV with a "
     "header (time, x, y, z, qx, qy, qz, qw), .npy (n, 4, 4), JSON, or the lines of 'coaxial track --json'."
 )
+# Names of a column or key that holds a time in seconds.
+TIME_NAMES = ("time_s", "time", "t", "timestamp", "stamp", "sec", "seconds")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,6 +26,7 @@ class PoseRecord:
         covariance: (6, 6) [mm, rad] where it is stated.
         marker: which marker, where that is told.
         side_mm: the side that it was tracked with, where that is told.
+        time_s: on the source's clock, where that is told.
     """
 
     place: str
@@ -31,6 +34,7 @@ class PoseRecord:
     covariance: npt.NDArray[np.float64] | None = None
     marker: str | None = None
     side_mm: float | None = None
+    time_s: float | None = None
 
 
 def unreadable(place: str, what: str) -> InvalidInput:

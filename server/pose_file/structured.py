@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from server.pose_file.record import PoseRecord, at_place, unreadable
+from server.pose_file.record import TIME_NAMES, PoseRecord, at_place, unreadable
 from server.pose_file.unit import Unit
 from tracker.errors import InvalidInput
 from tracker.pose.tool import rigid_from_written
@@ -111,6 +111,7 @@ def _from_value(place: str, value: Any, unit: Unit) -> PoseRecord:  # noqa: ANN4
         matrix = matrix.reshape(-1, 4) if matrix.shape in {(12,), (16,)} else matrix
     marker = value.get("name", value.get("marker"))
     covariance, side_mm = value.get("pose_covariance"), value.get("side_mm")
+    time_s = next((value[key] for key in TIME_NAMES if isinstance(value.get(key), int | float)), None)
     return _pose(
         matrix,
         place,
@@ -118,6 +119,7 @@ def _from_value(place: str, value: Any, unit: Unit) -> PoseRecord:  # noqa: ANN4
         covariance=None if covariance is None else _numbers(covariance),
         marker=None if marker is None else str(marker),
         side_mm=float(side_mm) if isinstance(side_mm, int | float) else None,
+        time_s=None if time_s is None else float(time_s),
     )
 
 
@@ -129,6 +131,7 @@ def _pose(
     covariance: np.ndarray | None = None,
     marker: str | None = None,
     side_mm: float | None = None,
+    time_s: float | None = None,
 ) -> PoseRecord:
     if matrix.dtype.kind not in "fiu" or matrix.shape not in {(4, 4), (3, 4)}:
         raise unreadable(place, "it holds no 4x4 matrix of numbers")
@@ -136,7 +139,9 @@ def _pose(
         pose = rigid_from_written(matrix, unit_mm=unit.in_mm)
     except InvalidInput as error:
         raise at_place(place, error) from None
-    return PoseRecord(place=place, pose=pose, covariance=covariance, marker=marker, side_mm=side_mm)
+    return PoseRecord(
+        place=place, pose=pose, covariance=covariance, marker=marker, side_mm=side_mm, time_s=time_s
+    )
 
 
 def _numbers(value: Any) -> np.ndarray:  # noqa: ANN401  JSON may be anything

@@ -5,7 +5,7 @@ from math import isnan
 
 import numpy as np
 
-from server.pose_file.record import PoseRecord, at_place, unreadable
+from server.pose_file.record import TIME_NAMES, PoseRecord, at_place, unreadable
 from server.pose_file.structured import Told
 from server.pose_file.unit import Unit
 from tracker.errors import InvalidInput
@@ -14,7 +14,7 @@ from tracker.pose.tool import rigid_from_quaternion, rigid_from_written
 NO_NUMBERS = re.compile(r"[\[\](){},;|]")
 COMMENT = re.compile(r"(#|%|//).*$")
 LAST_ROW = [0.0, 0.0, 0.0, 1.0]
-TIMES = {"t", "time", "time_s", "timestamp", "stamp", "sec", "seconds", "frame", "index", "image_number"}
+TIMES = {*TIME_NAMES, "frame", "index", "image_number"}
 NAMES = {
     "x": ("x", "tx", "px", "pos_x", "x_mm", "tx_mm"),
     "y": ("y", "ty", "py", "pos_y", "y_mm", "ty_mm"),
@@ -77,20 +77,25 @@ def _from_rows(rows: list[Row], header: list[str], *, name: str, unit: Unit) -> 
     width = len(rows[0][1])
     if header and len(header) == width and not {"qw", "q_w", "q0", "qr", "rot_w"}.isdisjoint(header):
         return _from_quaternions(rows, header, name=name, unit=unit)
+    times_s: list[float | None] = [None] * len(rows)
     if header and len(header) == width and header[0] in TIMES:
+        if header[0] in TIME_NAMES:
+            times_s = [numbers[0] for _, numbers in rows]
         rows = [(number, numbers[1:]) for number, numbers in rows]
         width -= 1
     if width == 4:
         return _from_blocks(rows, name=name, unit=unit)
     if width in {13, 17}:
         # A time stands before the matrix.
+        times_s = [numbers[0] for _, numbers in rows]
         rows = [(number, numbers[1:]) for number, numbers in rows]
         width -= 1
     if width not in {12, 16}:
         told = "; the order of a quaternion's parts must be named by a header" if width in {7, 8} else ""
         raise unreadable(name, f"its rows have {width} numbers, needed 4, 12 or 16{told}")
     return [
-        _pose(np.array(numbers).reshape(-1, 4), f"{name}, line {number}", unit) for number, numbers in rows
+        _pose(np.array(numbers).reshape(-1, 4), f"{name}, line {number}", unit, time_s=time_s)
+        for (number, numbers), time_s in zip(rows, times_s, strict=True)
     ]
 
 
@@ -116,6 +121,7 @@ def _from_quaternions(rows: list[Row], header: list[str], *, name: str, unit: Un
         if not there:
             raise unreadable(name, f"its header ({', '.join(header)}) names no column for {part}")
         column_of[part] = there[0]
+    time_column = next((header.index(one) for one in TIME_NAMES if one in header), None)
     found = []
     for number, numbers in rows:
         place = f"{name}, line {number}"
@@ -125,13 +131,14 @@ def _from_quaternions(rows: list[Row], header: list[str], *, name: str, unit: Un
             pose = rigid_from_quaternion(quaternion, translation, unit_mm=unit.in_mm)
         except InvalidInput as error:
             raise at_place(place, error) from None
-        found.append(PoseRecord(place=place, pose=pose))
+        time_s = None if time_column is None else numbers[time_column]
+        found.append(PoseRecord(place=place, pose=pose, time_s=time_s))
     return found
 
 
-def _pose(matrix: np.ndarray, place: str, unit: Unit) -> PoseRecord:
+def _pose(matrix: np.ndarray, place: str, unit: Unit, *, time_s: float | None = None) -> PoseRecord:
     try:
-        return PoseRecord(place=place, pose=rigid_from_written(matrix, unit_mm=unit.in_mm))
+        return PoseRecord(place=place, pose=rigid_from_written(matrix, unit_mm=unit.in_mm), time_s=time_s)
     except InvalidInput as error:
         raise at_place(place, error) from None
 

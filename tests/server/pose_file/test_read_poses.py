@@ -132,6 +132,49 @@ def test_every_form_gives_the_same_poses(tmp_path: Path, write: Callable[[Path],
     np.testing.assert_allclose(poses.translations_mm, MADE.translations_mm, atol=1e-6)
 
 
+def tracked_with_time(folder: Path) -> Path:
+    lines = [tracked_line(matrix, time_s=number / 30.0) for number, matrix in enumerate(MATRICES)]
+    (folder / "t.jsonl").write_text("".join(lines))
+    return folder / "t.jsonl"
+
+
+@pytest.mark.parametrize(
+    ("write", "rate_hz"),
+    [
+        pytest.param(tracked_with_time, 30.0, id="tracked"),
+        pytest.param(flat_rows_with_time, 30.0, id="flat-rows"),
+        pytest.param(quaternions, 1.0, id="quaternions"),
+    ],
+)
+def test_poses_with_times_are_a_series(tmp_path: Path, write: Callable[[Path], Path], rate_hz: float) -> None:
+    series = read_poses(write(tmp_path)).series("camera")
+    np.testing.assert_allclose(series.times_s, np.arange(12) / rate_hz, atol=1e-6)
+    np.testing.assert_allclose(series.translations_mm, MADE.translations_mm, atol=1e-6)
+    assert series.rotations is not None
+    np.testing.assert_allclose(series.rotations, MADE.rotations, atol=1e-7)
+
+
+def numbered(folder: Path) -> Path:
+    text = quaternions(folder).read_text().replace("timestamp", "image_number")
+    (folder / "p.csv").write_text(text)
+    return folder / "p.csv"
+
+
+def flat_rows_with_number(folder: Path) -> Path:
+    text = flat_rows_with_time(folder).read_text().replace("time", "index")
+    (folder / "p.csv").write_text(text)
+    return folder / "p.csv"
+
+
+@pytest.mark.parametrize(
+    "write", [tracked, array, numbered, flat_rows_with_number], ids=lambda write: write.__name__
+)
+def test_poses_without_times_are_no_series(tmp_path: Path, write: Callable[[Path], Path]) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        read_poses(write(tmp_path)).series("camera")
+    assert caught.value.code == "POSE_TIMES_MISSING"
+
+
 def test_what_a_folder_holds_beside_poses_is_named(tmp_path: Path) -> None:
     assert set(read_poses(folder_of_text(tmp_path)).ignored) == {"LICENSE", "notes.txt"}
 
