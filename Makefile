@@ -16,6 +16,8 @@ NPM := sh .make/with-node web npm
 
 # Whatever the shell around has set, packages go into .venv and caches nowhere else.
 unexport PYTHONPATH PYTHONHOME PIP_TARGET PIP_PREFIX NODE_ENV
+# Python keeps what it compiles: packages come without it, and each process, of a server or of the tests, would do it anew.
+unexport PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX
 export PIP_USER := 0
 export PIP_NO_CACHE_DIR := 1
 export PIP_NO_INPUT := 1

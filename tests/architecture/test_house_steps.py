@@ -1,5 +1,6 @@
 """The steps of the set-up: what they say on a machine where something is missing."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -207,3 +208,11 @@ def test_the_gate_fails_with_any_of_its_parts_and_tests_only_what_was_compiled_a
         assert called.index("run-tests") > max(
             called.index("server.loop.compiling"), called.index("--silent test")
         )
+
+
+def test_what_python_compiles_is_kept_whatever_the_shell_around_has_set(tmp_path: Path) -> None:
+    stands_ready(tmp_path, "nothing")
+    put(tmp_path / ".make", "run-tests", f'echo "${{PYTHONDONTWRITEBYTECODE-kept}}" >{tmp_path}/told')
+    around = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+    subprocess.run(["make", "test"], cwd=tmp_path, env=around, check=True, capture_output=True)
+    assert (tmp_path / "told").read_text() == "kept\n"
