@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import cv2
@@ -14,14 +15,17 @@ import numpy.typing as npt
 import pytest
 from typer.testing import CliRunner
 
-from server.cli import app
+from server.cli import app, main
 from tracker.pipeline import Tracker
 from tracker.pose import Sighting
 
 REPOSITORY = Path(__file__).parents[3]
 
 
-def coaxial(*words: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
+Ended = subprocess.CompletedProcess[str]
+
+
+def coaxial(*words: str | Path, folder: Path) -> Ended:
     environment = {**os.environ, "PYTHONPATH": str(REPOSITORY), "COAXIAL_HOME": str(folder / "home")}
     environment.pop("COAXIAL_PORT", None)
     return subprocess.run(
@@ -33,6 +37,28 @@ def coaxial(*words: str | Path, folder: Path) -> subprocess.CompletedProcess[str
         check=False,
         timeout=120,
     )
+
+
+@pytest.fixture
+def typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., Ended]:
+    """The same in this process: to start another one takes longer than what most of these ask for."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COAXIAL_HOME", str(tmp_path / "home"))
+    # Its stream ends with the command, the process and its other tests do not.
+    monkeypatch.setattr("server.cli.track.configure_logging", lambda _settings: None)
+
+    def ended(*words: str | Path) -> Ended:
+        monkeypatch.setattr(sys, "argv", ["coaxial", *map(str, words)])
+        with pytest.raises(SystemExit) as left:
+            main()
+        told = capsys.readouterr()
+        status = left.value.code
+        assert isinstance(status, int)
+        return Ended(words, status, told.out, told.err)
+
+    return ended
 
 
 def write_film(path: Path, *, images: int) -> Path:
@@ -134,22 +160,11 @@ def test_track_writes_a_line_for_every_image(film: Path, marker: Path, tmp_path:
         assert line["stage_ms"]["reading"] >= 0.0
 
 
-def test_track_can_write_to_standard_output_and_stop_early(film: Path, marker: Path, tmp_path: Path) -> None:
-    result = coaxial(
-        "track",
-        film,
-        "--marker",
-        marker,
-        "--side-mm",
-        "40",
-        "--name",
-        "a",
-        "--json",
-        "-",
-        "--images",
-        "2",
-        folder=tmp_path,
-    )
+def test_track_can_write_to_standard_output_and_stop_early(
+    typed: Callable[..., Ended], film: Path, marker: Path
+) -> None:
+    words = ("--marker", marker, "--side-mm", "40", "--name", "a", "--json", "-", "--images", "2")
+    result = typed("track", film, *words)
     assert result.returncode == 0, result.stderr
     assert [json.loads(line)["name"] for line in result.stdout.splitlines()] == ["a", "a"]
 
@@ -177,12 +192,12 @@ def test_a_stopped_track_tells_how_far_it_came_and_leaves_a_part(
     assert not lines.exists()
 
 
-def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: Path, tmp_path: Path) -> None:
+def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(
+    typed: Callable[..., Ended], film: Path, marker: Path, tmp_path: Path
+) -> None:
     write_film(film, images=40)
     film.write_bytes(film.read_bytes()[: film.stat().st_size * 6 // 10])
-    result = coaxial(
-        "track", film, "--marker", marker, "--side-mm", "40", "--json", "o.jsonl", folder=tmp_path
-    )
+    result = typed("track", film, "--marker", marker, "--side-mm", "40", "--json", "o.jsonl")
     assert result.returncode == 2
     assert "of 40 images" in result.stderr
     assert (tmp_path / "o.jsonl").read_text().count("\n") < 40
@@ -223,8 +238,20 @@ def test_a_cut_video_is_tracked_as_far_as_it_goes_and_told(film: Path, marker: P
     ],
 )
 @pytest.mark.usefixtures("film", "marker")
-def test_what_cannot_be_tracked_is_told_in_one_sentence(tmp_path: Path, words: list[str], told: str) -> None:
-    result = coaxial("track", *words, folder=tmp_path)
+def test_what_cannot_be_tracked_is_told_in_one_sentence(
+    typed: Callable[..., Ended], words: list[str], told: str
+) -> None:
+    result = typed("track", *words)
     assert result.returncode == 2
     assert is_one_sentence_with_remedy(result.stderr), result.stderr
     assert told in result.stderr
+
+
+@pytest.mark.usefixtures("film", "marker")
+def test_a_process_of_its_own_tells_the_same_and_logs_nothing_beside(
+    typed: Callable[..., Ended], tmp_path: Path
+) -> None:
+    words = ("track", "v.avi", "--marker", "m one.png", "--side-mm", "4", "--json", "m one.png")
+    result, here = coaxial(*words, folder=tmp_path), typed(*words)
+    assert is_one_sentence_with_remedy(result.stderr), result.stderr
+    assert (result.returncode, result.stdout, result.stderr) == (here.returncode, here.stdout, here.stderr)
