@@ -1,6 +1,7 @@
 """A server process with a feeder that does as it is told, and pages that watch it."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import pytest
 from playwright.sync_api import Browser
@@ -19,15 +20,39 @@ def playhouse() -> Iterator[Theatre]:
 
 
 @pytest.fixture
-def theatre(playhouse: Theatre) -> Theatre:
+def theatre(playhouse: Theatre) -> Iterator[Theatre]:
     """A server that nobody has used. A test that kills its process starts one of its own."""
     playhouse.anew()
-    return playhouse
+    yield playhouse
+    # Images that nobody sees would take their part of the machine from the tests that need none of it.
+    playhouse.tell("stop")
+
+
+@pytest.fixture(scope="module")
+def shared_theatre(playhouse: Theatre) -> Iterator[Theatre]:
+    """One server for all tests of a file, none of which hurts it or takes one of its own."""
+    playhouse.anew()
+    yield playhouse
+    playhouse.tell("stop")
 
 
 @pytest.fixture
 def watch(browser: Browser) -> Iterator[Callable[..., Watched]]:
     """Opens a page on a screen of this size; with `strict`, a complaint of the page fails the test."""
+    with watching(browser) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def watch_for_all(browser: Browser) -> Iterator[Callable[..., Watched]]:
+    """The same for a page that all tests of a file share: to load it costs more than most of them."""
+    with watching(browser) as opened:
+        yield opened
+
+
+@contextmanager
+def watching(browser: Browser) -> Iterator[Callable[..., Watched]]:
+    """What opens pages, which are closed at the end, and judged."""
     pages: list[tuple[Watched, bool]] = []
 
     def opened(theatre: Theatre, width: int = 1280, height: int = 800, *, strict: bool = True) -> Watched:

@@ -78,11 +78,3 @@ def test_alarms_are_claimed_by_no_page_that_does_not_hear_the_server(theatre: Th
     expect(page.get_by_test_id("alarms")).to_contain_text("ALARME UNBEKANNT")
     theatre.thaw()
     band(page, "high")
-
-
-def test_a_lost_camera_is_an_alarm(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open()
-    expect(page.get_by_test_id("numbers")).to_have_attribute("data-live", "true")
-    theatre.tell("lost")
-    band(page, "medium")
-    expect(page.get_by_test_id("alarm-top")).to_have_attribute("data-condition", "CAMERA_GONE")

@@ -12,6 +12,7 @@ from tests.browser.theatre import PATIENCE_MS, SCREENSHOTS, Theatre, Watched
 pytestmark = pytest.mark.browser
 
 Watch = Callable[..., Watched]
+PANES = ("video", "numbers", "scene")
 
 expect.set_options(timeout=PATIENCE_MS)
 
@@ -59,53 +60,20 @@ def is_live(page: Page, pane: str, *, live: bool = True) -> None:
     expect(page.get_by_test_id(pane)).to_have_attribute("data-live", "true" if live else "false")
 
 
-def test_picture_moves_and_numbers_change(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open()
-    is_live(page, "video")
-    is_live(page, "numbers")
-    canvas = page.locator("canvas.sharp")
-    depth = page.get_by_test_id("reading-depth")
-    first_picture, first_depth = canvas.evaluate(DIGEST), depth.inner_text()
-    expect(depth).not_to_have_text(first_depth)
-    page.wait_for_function(
-        f"first => ({DIGEST})(document.querySelector('canvas.sharp')) !== first", arg=first_picture
-    )
-    for name in ("entry", "angle", "depth", "toGo"):
-        expect(page.get_by_test_id(f"reading-{name}")).to_have_text(re.compile(r"^−?\d+\.\d$"))
-    expect(page.get_by_test_id("search-time")).to_contain_text("6.3 ms")
-    expect(page.get_by_test_id("marker-drill")).to_contain_text("93 %")
-    expect(page.get_by_text("Research software, not a medical device")).to_be_visible()
+# First those with a page of their own: the one that the others share is not drawn beside it.
 
 
-def test_scene_is_uncovered_when_it_has_drawn(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open()
-    is_live(page, "scene")
-    expect(page.get_by_test_id("scene-cover")).to_be_hidden()
-    expect(page.get_by_test_id("scene-stamp")).to_contain_text("image")
+def test_speaks_another_language(shared_theatre: Theatre, watch: Watch) -> None:
+    page = watch(shared_theatre).open("?lang=de")
+    expect(page.get_by_text("Forschungssoftware, kein Medizinprodukt")).to_be_visible()
+    expect(page.locator("html")).to_have_attribute("lang", "de")
 
 
-def test_silence_is_said_by_the_page_itself_and_passes(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open()
-    is_live(page, "numbers")
-    theatre.tell("stop")
-    is_live(page, "numbers", live=False)
-    is_live(page, "video", live=False)
-    # The whole line: what stood there while it was live must be gone.
-    expect(page.get_by_test_id("no-tracking")).to_have_text(re.compile(r"^\W*NO TRACKING"))
-    expect(page.get_by_test_id("untracked-for")).to_have_text(re.compile(r"\d s$"))
-    expect(page.get_by_test_id("reading-depth")).to_have_text("—")
-    expect(page.get_by_test_id("video-cover")).to_contain_text("NO VIDEO")
-    is_live(page, "scene", live=False)
-    # The server answers questions: it is not called gone.
-    expect(page.get_by_test_id("link-state")).to_contain_text("connected")
-    assert page.locator("canvas.sharp").evaluate(BLACK), "an old picture is still on the canvas"
-    theatre.tell("live")
-    is_live(page, "video")
-    is_live(page, "numbers")
-
-
-def test_burned_in_numbers_of_a_late_picture_are_made_illegible(theatre: Theatre, watch: Watch) -> None:
-    watched = watch(theatre)
+def test_burned_in_numbers_of_a_late_picture_are_made_illegible(
+    shared_theatre: Theatre, watch: Watch
+) -> None:
+    shared_theatre.tell("live")
+    watched = watch(shared_theatre)
 
     def patient(route: Route) -> None:
         said = route.fetch().json()
@@ -114,7 +82,7 @@ def test_burned_in_numbers_of_a_late_picture_are_made_illegible(theatre: Theatre
     watched.page.route("**/api/dashboard", patient)
     page = watched.open()
     is_live(page, "numbers")
-    theatre.tell("stop")
+    shared_theatre.tell("stop")
     is_live(page, "numbers", live=False)
     is_live(page, "video")
     expect(page.get_by_test_id("video-late")).to_be_visible()
@@ -122,72 +90,11 @@ def test_burned_in_numbers_of_a_late_picture_are_made_illegible(theatre: Theatre
     expect(page.locator("canvas.coarse")).to_be_visible()
 
 
-def test_marker_out_of_view_takes_the_numbers_and_leaves_the_video(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open()
-    is_live(page, "numbers")
-    theatre.tell("unseen")
-    is_live(page, "numbers", live=False)
+def test_picture_is_empty_when_a_hidden_page_comes_back(shared_theatre: Theatre, watch: Watch) -> None:
+    shared_theatre.tell("live")
+    page = watch(shared_theatre).open()
     is_live(page, "video")
-    expect(page.get_by_test_id("numbers")).to_contain_text("too few of its edges")
-    expect(page.get_by_test_id("reading-entry")).to_have_text("—")
-
-
-def test_lost_camera_is_told_with_its_remedy(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open()
-    is_live(page, "video")
-    theatre.tell("lost")
-    expect(page.get_by_test_id("alert")).to_contain_text("The camera has given no image for 2.0 s")
-    expect(page.get_by_test_id("alert")).to_contain_text("Check the camera's cable")
-    expect(page.get_by_test_id("video-cover")).to_contain_text("NO VIDEO")
-    expect(page.get_by_test_id("video-cover")).to_contain_text("CAMERA LOST")
-    theatre.tell("live")
-    is_live(page, "video")
-    expect(page.get_by_test_id("alert")).to_have_count(0)
-
-
-def test_camera_without_calibration_claims_no_millimetres(theatre: Theatre, watch: Watch) -> None:
-    theatre.tell("bare")
-    page = watch(theatre).open()
-    is_live(page, "video")
-    expect(page.get_by_test_id("numbers")).to_contain_text("CAMERA NOT CALIBRATED")
-    expect(page.get_by_test_id("reading-entry")).to_have_text("—")
-
-
-def test_killed_server_is_said_and_comes_back_without_reload(watch: Watch) -> None:
-    with Theatre() as first:
-        # A lost connection is written to the browser's console by the browser itself.
-        page = watch(first, strict=False).open()
-        is_live(page, "video")
-        page.evaluate("window.neverReloaded = true")
-        first.kill()
-        expect(page.get_by_test_id("link-state")).to_contain_text("gone")
-        expect(page.get_by_test_id("video-cover")).to_contain_text("SERVER GONE")
-        is_live(page, "numbers", live=False)
-        with Theatre(first.port):
-            is_live(page, "video")
-            is_live(page, "numbers")
-            assert page.evaluate("window.neverReloaded") is True
-
-
-def test_server_that_hangs_is_called_gone_though_its_sockets_stand(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre, strict=False).open()
-    is_live(page, "video")
-    theatre.freeze()
-    try:
-        expect(page.get_by_test_id("link-state")).to_contain_text("gone")
-        is_live(page, "video", live=False)
-        is_live(page, "numbers", live=False)
-        is_live(page, "scene", live=False)
-    finally:
-        theatre.thaw()
-    is_live(page, "video")
-    is_live(page, "numbers")
-
-
-def test_picture_is_empty_when_a_hidden_page_comes_back(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open()
-    is_live(page, "video")
-    theatre.tell("stop")
+    shared_theatre.tell("stop")
     page.evaluate(
         """() => {
             Object.defineProperty(document, "visibilityState", { value: "hidden", configurable: true });
@@ -200,10 +107,20 @@ def test_picture_is_empty_when_a_hidden_page_comes_back(theatre: Theatre, watch:
     assert page.locator("canvas.sharp").evaluate(BLACK)
 
 
-def test_speaks_another_language(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open("?lang=de")
-    expect(page.get_by_text("Forschungssoftware, kein Medizinprodukt")).to_be_visible()
-    expect(page.locator("html")).to_have_attribute("lang", "de")
+@pytest.fixture(scope="module")
+def dashboard(shared_theatre: Theatre, watch_for_all: Watch) -> Page:
+    """The page of all tests that need none of their own."""
+    return watch_for_all(shared_theatre).open()
+
+
+@pytest.fixture
+def page(dashboard: Page, shared_theatre: Theatre) -> Page:
+    """The same page as each of them finds it: live, whatever the test before has done to its server."""
+    shared_theatre.tell("live")
+    dashboard.set_viewport_size({"width": 1280, "height": 800})
+    for pane in PANES:
+        is_live(dashboard, pane)
+    return dashboard
 
 
 @pytest.mark.parametrize(
@@ -211,13 +128,10 @@ def test_speaks_another_language(theatre: Theatre, watch: Watch) -> None:
     [(1920, 1080), (1280, 720), (1180, 820), (1024, 768), (820, 1180), (390, 844)],
     ids=["theatre", "laptop", "large-tablet", "tablet-lying", "tablet-upright", "phone"],
 )
-def test_fits_the_screen_with_the_video_first(
-    theatre: Theatre, watch: Watch, width: int, height: int
-) -> None:
-    page = watch(theatre, width, height).open()
-    is_live(page, "video")
-    is_live(page, "scene")
-    is_live(page, "numbers")
+def test_fits_the_screen_with_the_video_first(page: Page, width: int, height: int) -> None:
+    page.set_viewport_size({"width": width, "height": height})
+    for pane in PANES:
+        is_live(page, pane)
     picture(page, f"dashboard-{width}x{height}")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert page.locator("body").evaluate(ILLEGIBLE) == []
@@ -232,34 +146,97 @@ def test_fits_the_screen_with_the_video_first(
         assert size >= 64.0
 
 
-def test_failure_looks_like_failure(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre, 1920, 1080).open()
+def test_picture_moves_and_numbers_change(page: Page) -> None:
+    canvas = page.locator("canvas.sharp")
+    depth = page.get_by_test_id("reading-depth")
+    first_picture, first_depth = canvas.evaluate(DIGEST), depth.inner_text()
+    expect(depth).not_to_have_text(first_depth)
+    page.wait_for_function(
+        f"first => ({DIGEST})(document.querySelector('canvas.sharp')) !== first", arg=first_picture
+    )
+    for name in ("entry", "angle", "depth", "toGo"):
+        expect(page.get_by_test_id(f"reading-{name}")).to_have_text(re.compile(r"^−?\d+\.\d$"))
+    expect(page.get_by_test_id("search-time")).to_contain_text("6.3 ms")
+    expect(page.get_by_test_id("marker-drill")).to_contain_text("93 %")
+    expect(page.get_by_text("Research software, not a medical device")).to_be_visible()
+
+
+def test_scene_is_uncovered_when_it_has_drawn(page: Page) -> None:
+    expect(page.get_by_test_id("scene-cover")).to_be_hidden()
+    expect(page.get_by_test_id("scene-stamp")).to_contain_text("image")
+
+
+def test_silence_is_said_by_the_page_itself_and_passes(page: Page, shared_theatre: Theatre) -> None:
+    shared_theatre.tell("stop")
+    is_live(page, "numbers", live=False)
+    is_live(page, "video", live=False)
+    # The whole line: what stood there while it was live must be gone.
+    expect(page.get_by_test_id("no-tracking")).to_have_text(re.compile(r"^\W*NO TRACKING"))
+    expect(page.get_by_test_id("untracked-for")).to_have_text(re.compile(r"\d s$"))
+    expect(page.get_by_test_id("reading-depth")).to_have_text("—")
+    expect(page.get_by_test_id("video-cover")).to_contain_text("NO VIDEO")
+    is_live(page, "scene", live=False)
+    # The server answers questions: it is not called gone.
+    expect(page.get_by_test_id("link-state")).to_contain_text("connected")
+    assert page.locator("canvas.sharp").evaluate(BLACK), "an old picture is still on the canvas"
+    shared_theatre.tell("live")
+    is_live(page, "video")
+    is_live(page, "numbers")
+
+
+def test_camera_without_calibration_claims_no_millimetres(page: Page, shared_theatre: Theatre) -> None:
+    shared_theatre.tell("bare")
+    is_live(page, "numbers", live=False)
+    is_live(page, "video")
+    expect(page.get_by_test_id("numbers")).to_contain_text("CAMERA NOT CALIBRATED")
+    expect(page.get_by_test_id("reading-entry")).to_have_text("—")
+
+
+def test_failure_looks_like_failure(page: Page, shared_theatre: Theatre) -> None:
+    page.set_viewport_size({"width": 1920, "height": 1080})
     is_live(page, "scene")
-    theatre.tell("lost")
+    shared_theatre.tell("unseen")
+    marker_is_out_of_view(page)
+    shared_theatre.tell("lost")
     is_live(page, "video", live=False)
     is_live(page, "scene", live=False)
-    for pane, words in (("video", "NO VIDEO"), ("scene", "SCENE STALE")):
+    for pane, words in (("video", "NO VIDEO"), ("video", "CAMERA LOST"), ("scene", "SCENE STALE")):
         cover = page.get_by_test_id(f"{pane}-cover")
         expect(cover).to_contain_text(words)
         expect(cover).to_be_visible()
         assert page.get_by_test_id(pane).evaluate(COVERED), f"something shines through the words over {pane}"
     assert page.locator("canvas.sharp").evaluate(BLACK), "an old picture is still on the canvas"
     expect(page.get_by_test_id("no-tracking")).to_be_visible()
-    for name in ("entry", "angle", "depth", "toGo"):
-        expect(page.get_by_test_id(f"reading-{name}")).to_have_text("—")
+    figures_are_gone(page)
     expect(page.get_by_test_id("verdict")).to_have_count(0)
+    # It is told with its remedy, and is an alarm.
+    expect(page.get_by_test_id("alert")).to_contain_text("The camera has given no image for 2.0 s")
+    expect(page.get_by_test_id("alert")).to_contain_text("Check the camera's cable")
+    expect(page.get_by_test_id("alarms")).to_have_attribute("data-priority", "medium")
+    expect(page.get_by_test_id("alarm-top")).to_have_attribute("data-condition", "CAMERA_GONE")
     picture(page, "camera-lost-1920x1080")
-    theatre.tell("unseen")
-    # The picture is true again, so nothing covers it; numbers there are none, and it says why.
-    is_live(page, "video")
-    is_live(page, "scene")
-    for pane in ("video", "scene"):
-        expect(page.get_by_test_id(f"{pane}-cover")).to_be_hidden()
+    shared_theatre.tell("unseen")
+    marker_is_out_of_view(page)
     assert not page.locator("canvas.sharp").evaluate(BLACK), "the picture did not come back"
+    picture(page, "marker-unseen-1920x1080")
+    shared_theatre.tell("live")
+    is_live(page, "numbers")
+    expect(page.get_by_test_id("alert")).to_have_count(0)
+
+
+def marker_is_out_of_view(page: Page) -> None:
+    """The picture is true, so nothing covers it; numbers there are none, and it says why."""
+    is_live(page, "numbers", live=False)
     expect(page.get_by_test_id("numbers")).to_contain_text("too few of its edges")
+    for pane in ("video", "scene"):
+        is_live(page, pane)
+        expect(page.get_by_test_id(f"{pane}-cover")).to_be_hidden()
+    figures_are_gone(page)
+
+
+def figures_are_gone(page: Page) -> None:
     for name in ("entry", "angle", "depth", "toGo"):
         expect(page.get_by_test_id(f"reading-{name}")).to_have_text("—")
-    picture(page, "marker-unseen-1920x1080")
 
 
 def picture(page: Page, name: str) -> Path:

@@ -74,14 +74,8 @@ def slowed(watched: Watched, part: str, *, query: str = "") -> Page:
     return page
 
 
-@pytest.mark.parametrize(
-    ("part", "query", "words"),
-    [("decoding", "", "Slow decoding"), ("drawing", "?lang=de", "Langsames Zeichnen")],
-)
-def test_a_slow_device_keeps_its_picture_longest_and_says_what_is_slow(
-    theatre: Theatre, watch: Watch, part: str, query: str, words: str
-) -> None:
-    page = slowed(watch(theatre, 1280, 800), part, query=query)
+def gave_way_in_order(page: Page, words: str) -> None:
+    """First the rate, then the scene, the picture's size last; and the page says what is slow."""
     expect(page.get_by_test_id("line-note")).to_have_text(re.compile(f"{words}: .* 640x360"))
     # The whole size is no step.
     given = [one for one in page.evaluate("given") if one != ["scale", 1]]
@@ -94,8 +88,12 @@ def test_a_slow_device_keeps_its_picture_longest_and_says_what_is_slow(
     assert set(page.evaluate("[...widths]")) == {1280, 640}
 
 
-def test_the_scene_stays_live_at_its_slowest_and_coarsest(theatre: Theatre, watch: Watch) -> None:
+def test_a_device_that_decodes_slowly_keeps_its_picture_longest_and_its_scene_live(
+    theatre: Theatre, watch: Watch
+) -> None:
     page = slowed(watch(theatre, 1280, 800), "decoding")
+    gave_way_in_order(page, "Slow decoding")
+    # At its slowest and coarsest.
     is_live(page, "scene")
     frame = page.locator(".scene-stage iframe")
     assert frame.evaluate("e => [e.clientWidth / e.parentElement.clientWidth]")[0] == pytest.approx(
@@ -104,3 +102,8 @@ def test_the_scene_stays_live_at_its_slowest_and_coarsest(theatre: Theatre, watc
     # It is shown as large as before, and nothing stands out.
     shown = frame.evaluate("e => e.getBoundingClientRect().width / e.parentElement.clientWidth")
     assert shown == pytest.approx(1.0, abs=0.02)
+
+
+def test_a_device_that_draws_slowly_keeps_its_picture_longest(theatre: Theatre, watch: Watch) -> None:
+    page = slowed(watch(theatre, 1280, 800), "drawing", query="?lang=de")
+    gave_way_in_order(page, "Langsames Zeichnen")
