@@ -24,13 +24,6 @@ RUN = """options => axe
         ({ id, impact, nodes: nodes.map(node => node.html) })))"""
 
 
-@pytest.fixture(scope="module")
-def shared_theatre(playhouse: Theatre) -> Theatre:
-    """One server for all pages: none of these tests hurts it."""
-    playhouse.anew()
-    return playhouse
-
-
 def patient(port: int) -> dict[str, Any]:
     """What the server says of itself, patient: a busy machine brings images late, and late numbers go."""
     with urlopen(f"http://127.0.0.1:{port}/api/dashboard") as answer:
@@ -38,28 +31,33 @@ def patient(port: int) -> dict[str, Any]:
     return {**said, "limits": {**said["limits"], "pose_stale_after_ms": 600_000}}
 
 
-@pytest.fixture
-def opened(browser: Browser, shared_theatre: Theatre) -> Iterator[Callable[..., Page]]:
-    """Opens a page with axe-core in it; a complaint of the page fails the test."""
-    pages: list[Watched] = []
+@pytest.fixture(scope="module")
+def watched(browser: Browser, shared_theatre: Theatre) -> Iterator[Watched]:
+    """The page of all these tests, with axe-core in it."""
+    said = patient(shared_theatre.port)
+    context = browser.new_context(locale="en-GB")
+    context.set_default_timeout(PATIENCE_MS)
+    context.add_init_script(path=AXE)
+    context.route("**/api/dashboard", lambda route: route.fulfill(json=said))
+    yield Watched(context.new_page(), shared_theatre.port)
+    context.close()
 
-    def open_page(path: str, size: tuple[int, int] = LYING) -> Page:
+
+@pytest.fixture
+def opened(watched: Watched, shared_theatre: Theatre) -> Iterator[Callable[..., Page]]:
+    """Goes to an address if the page is not there; a complaint of the page fails the test."""
+
+    def go(path: str, size: tuple[int, int] = LYING) -> Page:
         width, height = size
-        context = browser.new_context(viewport={"width": width, "height": height}, locale="en-GB")
-        context.set_default_timeout(PATIENCE_MS)
-        context.add_init_script(path=AXE)
-        context.route("**/api/dashboard", lambda route: route.fulfill(json=said))
-        watched = Watched(context.new_page(), shared_theatre.port)
-        pages.append(watched)
-        return watched.open(path.removeprefix("/"))
+        watched.page.set_viewport_size({"width": width, "height": height})
+        if not watched.page.url.endswith(path):
+            watched.open(path.removeprefix("/"))
+        return watched.page
 
     shared_theatre.tell("live")
-    said = patient(shared_theatre.port)
-    yield open_page
-    for watched in pages:
-        watched.page.context.close()
-        assert watched.complaints == []
-        assert watched.strangers == []
+    yield go
+    assert watched.complaints == []
+    assert watched.strangers == []
 
 
 def faults(page: Page, **options: Any) -> list[dict[str, Any]]:  # noqa: ANN401  axe's own options
@@ -73,18 +71,6 @@ def test_the_theatre_s_view(opened: Callable[..., Page], size: tuple[int, int]) 
     page = opened("/theatre", size)
     expect(page.get_by_test_id("video")).to_have_attribute("data-live", "true", timeout=PATIENCE_MS)
     assert faults(page) == []
-
-
-def test_the_theatre_s_view_while_nothing_is_well(
-    opened: Callable[..., Page], shared_theatre: Theatre
-) -> None:
-    page = opened("/theatre?lang=de", THEATRE)
-    shared_theatre.tell("lost")
-    expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
-    expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
-    assert faults(page) == []
-    # The server's English among German words says that it is English.
-    expect(page.get_by_test_id("alert").locator("[lang=en]").first).to_contain_text("camera")
 
 
 def test_numbers_stand_out_more_than_words_have_to(
@@ -103,9 +89,25 @@ def test_numbers_stand_out_more_than_words_have_to(
     assert found == []
 
 
+def test_the_theatre_s_view_while_nothing_is_well(
+    opened: Callable[..., Page], shared_theatre: Theatre
+) -> None:
+    page = opened("/theatre?lang=de", THEATRE)
+    shared_theatre.tell("lost")
+    expect(page.get_by_test_id("alert")).to_be_visible(timeout=PATIENCE_MS)
+    expect(page.get_by_test_id("alarm-top")).to_be_visible(timeout=PATIENCE_MS)
+    assert faults(page) == []
+    # The server's English among German words says that it is English.
+    expect(page.get_by_test_id("alert").locator("[lang=en]").first).to_contain_text("camera")
+
+
 @pytest.mark.parametrize("step", STEPS)
-def test_every_page_of_the_operator(opened: Callable[..., Page], step: str) -> None:
-    page = opened(f"/operator/{step}")
+def test_every_page_of_the_operator(opened: Callable[..., Page], watched: Watched, step: str) -> None:
+    is_there = "/operator/" in watched.page.url
+    page = watched.page if is_there else opened(f"/operator/{step}")
+    link = page.get_by_test_id(f"step-{step}")
+    link.click()
+    expect(link).to_have_attribute("aria-current", "step", timeout=PATIENCE_MS)
     expect(page.locator(".step h2").first).to_be_visible(timeout=PATIENCE_MS)
     assert faults(page) == []
     assert small_targets(page) == []

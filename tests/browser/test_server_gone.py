@@ -92,7 +92,11 @@ def all_live(page: Page, *, live: bool) -> None:
 def says_gone(page: Page) -> None:
     """Every pane says so in words that are seen, and no figure of before is left."""
     expect(page.get_by_test_id("link-state")).to_contain_text("gone")
-    for pane, words in (("video-cover", "NO VIDEO"), ("scene-cover", "SCENE STALE")):
+    for pane, words in (
+        ("video-cover", "NO VIDEO"),
+        ("video-cover", "SERVER GONE"),
+        ("scene-cover", "SCENE STALE"),
+    ):
         expect(page.get_by_test_id(pane)).to_be_visible()
         expect(page.get_by_test_id(pane)).to_contain_text(words)
     expect(page.get_by_test_id("no-tracking")).to_be_visible()

@@ -41,7 +41,7 @@ WITNESS = """() => {
 }"""
 
 
-def headline(page: Page, words: str | re.Pattern[str], tone: str) -> None:
+def headline(page: Page, words: str | re.Pattern[str], tone: str | re.Pattern[str]) -> None:
     expect(page.get_by_test_id("verdict")).to_have_text(words)
     expect(page.get_by_test_id("verdict")).to_have_attribute("data-tone", tone)
 
@@ -51,29 +51,51 @@ def keep(page: Page, name: str) -> None:
     page.screenshot(path=SCREENSHOTS / f"verdict-{name}.png")
 
 
-def test_a_breach_from_the_path_to_its_acknowledgement(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open("/theatre")
+def test_the_words_are_german_on_a_german_page(theatre: Theatre, watch: Watch) -> None:
+    page = watch(theatre).open("/theatre?lang=de")
+    theatre.tell("breach")
+    headline(page, "✖ DURCH MEDIALE WAND 0.8 mm", "danger")
+    expect(page.get_by_test_id("alarm-top")).to_contain_text(
+        "Bohrer 0.8 mm durch die mediale Wand in 29.0 mm Tiefe. Anhalten. Bohrer zurückziehen."
+    )
+
+
+@pytest.fixture(scope="module")
+def screen(shared_theatre: Theatre, watch_for_all: Watch) -> Page:
+    """The screen of the tests below, with its sound armed."""
+    page = watch_for_all(shared_theatre).open("/theatre")
     arm(page)
-    theatre.tell("path")
+    return page
+
+
+@pytest.fixture
+def page(screen: Page, shared_theatre: Theatre) -> Page:
+    """The same as each of them finds it: the drill is on its path."""
+    shared_theatre.tell("path")
+    headline(screen, re.compile("ON PATH"), re.compile("good|caution"))
+    return screen
+
+
+def test_a_breach_from_the_path_to_its_acknowledgement(page: Page, shared_theatre: Theatre) -> None:
     headline(page, "● ON PATH", "good")
     keep(page, "on-path")
-    theatre.tell("entry")
+    shared_theatre.tell("entry")
     headline(page, "▲ CORRECT 2.4 mm medial, 1.3 mm caudal", "caution")
     expect(page.get_by_test_id("headline-detail")).to_have_text("entry 2.7 mm, limit 1.8 mm")
     expect(page.locator("[data-reading=entry]")).to_have_attribute("data-standing", "over")
     keep(page, "entry-over")
-    theatre.tell("near")
+    shared_theatre.tell("near")
     headline(page, "◆ NEAR MEDIAL WALL 0.5 mm", "warning")
     expect(page.get_by_test_id("alarm-top")).to_contain_text("0.5 mm to the medial wall, limit 1.0 mm.")
     keep(page, "near")
-    theatre.tell("breach")
+    shared_theatre.tell("breach")
     headline(page, "✖ THROUGH MEDIAL WALL 0.8 mm", "danger")
     alarm = page.get_by_test_id("alarm-top")
     expect(alarm).to_contain_text(
         "Drill 0.8 mm through the medial wall at 29.0 mm depth. Stop. Withdraw the drill."
     )
     keep(page, "breach")
-    theatre.tell("hidden")
+    shared_theatre.tell("hidden")
     expect(page.get_by_test_id("no-tracking")).to_contain_text("NO TRACKING")
     expect(alarm).to_contain_text(
         re.compile(rf"Not tracked\. Was 0\.8 mm through the medial wall at 29\.0 mm depth, {TIME}\.")
@@ -81,7 +103,7 @@ def test_a_breach_from_the_path_to_its_acknowledgement(theatre: Theatre, watch: 
     expect(alarm).to_contain_text("Stop.")
     expect(page.get_by_test_id("headline-event")).to_have_text("BREACH when last seen")
     keep(page, "lost-in-a-breach")
-    theatre.tell("path")
+    shared_theatre.tell("path")
     headline(page, "▲ ON PATH", "caution")
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-state", "latched")
     expect(page.get_by_test_id("headline-event")).to_have_text(
@@ -102,9 +124,10 @@ def test_a_breach_from_the_path_to_its_acknowledgement(theatre: Theatre, watch: 
     keep(page, "acknowledged")
 
 
-def test_a_breach_that_is_acknowledged_and_still_there_is_not_green(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open("/theatre")
-    theatre.tell("breach")
+def test_a_breach_that_is_acknowledged_and_still_there_is_not_green(
+    page: Page, shared_theatre: Theatre
+) -> None:
+    shared_theatre.tell("breach")
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-priority", "high")
     page.get_by_test_id("acknowledge").click()
     expect(page.get_by_test_id("alarms")).to_have_attribute("data-state", "acknowledged")
@@ -113,12 +136,9 @@ def test_a_breach_that_is_acknowledged_and_still_there_is_not_green(theatre: The
     keep(page, "acknowledged-breach")
 
 
-def test_no_image_of_the_screen_contradicts_itself(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open("/theatre")
-    theatre.tell("path")
-    headline(page, "● ON PATH", "good")
+def test_no_image_of_the_screen_contradicts_itself(page: Page, shared_theatre: Theatre) -> None:
     page.evaluate(WITNESS)
-    theatre.tell("wander")
+    shared_theatre.tell("wander")
     page.wait_for_function(
         "() => ['through_wall', 'near_wall', 'correct_entry', 'on_path']"
         ".every(one => (window.witnessed.verdicts[one] ?? 0) > 5)"
@@ -126,12 +146,3 @@ def test_no_image_of_the_screen_contradicts_itself(theatre: Theatre, watch: Watc
     witnessed = page.evaluate("window.witnessed")
     assert witnessed["wrong"] == []
     assert witnessed["looks"] > 50
-
-
-def test_the_words_are_german_on_a_german_page(theatre: Theatre, watch: Watch) -> None:
-    page = watch(theatre).open("/theatre?lang=de")
-    theatre.tell("breach")
-    headline(page, "✖ DURCH MEDIALE WAND 0.8 mm", "danger")
-    expect(page.get_by_test_id("alarm-top")).to_contain_text(
-        "Bohrer 0.8 mm durch die mediale Wand in 29.0 mm Tiefe. Anhalten. Bohrer zurückziehen."
-    )
