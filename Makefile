@@ -54,7 +54,7 @@ run: ready-to-run ## start Coaxial with the rehearsal theatre, and print the add
 .PHONY: test
 test: $(STAMPS)/project ## everything: format, lint, types, contracts, Python, web and browser tests
 	@# Compiling takes a minute of one core: so long the rest is installed, and checked as far as nothing need run.
-	@$(MAKE) $(STAMPS)/warm & warm=$$!; $(MAKE) --jobs=2 $(STAMPS)/page $(STAMPS)/dev && $(MAKE) check && $(MAKE) test-web; \
+	@$(MAKE) $(STAMPS)/warm & warm=$$!; $(MAKE) --jobs=2 $(STAMPS)/page $(STAMPS)/dev && $(MAKE) --jobs=2 judged-python judged-page; \
 	checked=$$?; wait $$warm && exit $$checked
 	@$(MAKE) test-python
 
@@ -72,17 +72,40 @@ format: $(STAMPS)/dev $(STAMPS)/page-packages ## put all code into its form
 	@$(NPM) run --silent format
 
 .PHONY: lint
-lint: $(STAMPS)/dev $(STAMPS)/page-packages ## form, lint and import contracts
+lint: lint-python lint-page ## form, lint and import contracts
+
+.PHONY: types
+types: types-python types-page ## strict types, Python and TypeScript
+
+.PHONY: lint-python
+lint-python: $(STAMPS)/dev
 	@$(PYTHON_IN_VENV) -m ruff format --check .
 	@$(PYTHON_IN_VENV) -m ruff check .
 	@.venv/bin/lint-imports --no-logo
+
+.PHONY: lint-page
+lint-page: $(STAMPS)/page-packages
 	@$(NPM) run --silent format:check
 	@$(NPM) run --silent lint
 
-.PHONY: types
-types: $(STAMPS)/dev $(STAMPS)/page-packages ## strict types, Python and TypeScript
+.PHONY: types-python
+types-python: $(STAMPS)/dev
 	@$(PYTHON_IN_VENV) -m mypy
+
+.PHONY: types-page
+types-page: $(STAMPS)/page-packages
 	@$(NPM) run --silent types
+
+# What of the gate need not be compiled, in two parts that may run side by side. Those of the page run one after the
+# other, because each makes the schema's types anew.
+.PHONY: judged-python judged-page
+judged-python:
+	@$(MAKE) lint-python
+	@$(MAKE) types-python
+judged-page:
+	@$(MAKE) lint-page
+	@$(MAKE) types-page
+	@$(MAKE) test-web
 
 .PHONY: test-web
 test-web: $(STAMPS)/page-packages
