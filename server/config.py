@@ -65,7 +65,8 @@ class CameraConfig(Section):
 
     name: Name = "main"
     source: Annotated[int, Field(ge=0, le=99)] | Annotated[str, StringConstraints(min_length=1)] = "rehearsal"
-    """rehearsal, a number or path of a local camera, a video file, a stream's address, a folder of images."""
+    """rehearsal, a number or path of a local camera, basler: or genicam: with a serial number, a video file,
+    a stream's address, a folder of images."""
     calibration: FilePath | None = None
     """A camera file (YAML or JSON) with matrix, distortion, size_wh_px."""
     loop: bool = True
@@ -85,6 +86,8 @@ class CameraConfig(Section):
     automatic focus is switched off; without a calibration, once it has settled."""
     lock_light: bool = False
     """Automatic exposure and white balance are switched off once they have settled."""
+    trigger: Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9]{0,39}$")] | None = None
+    """The input of an industrial camera that starts each image, as line1; left out, it runs freely."""
     readout_ms: Annotated[float, Field(ge=0.0, le=200.0)] = 0.0
     """From when the first row of an image is read to the last one; 0 of a global shutter."""
 

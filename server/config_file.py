@@ -244,6 +244,15 @@ def _mistakes_between_keys(config: Config, where: _Where) -> list[Mistake]:
         given = getattr(camera, lone)
         sentence = f"'camera.{lone}' is {given}, but 'camera.{other}' is missing, allowed: both or none"
         mistakes.append(Mistake(where=where.of(("camera", lone)), key=f"camera.{other}", sentence=sentence))
+    source = source_from_text(camera.source)
+    if camera.trigger is not None and source.kind is not SourceKind.INDUSTRIAL_CAMERA:
+        sentence = (
+            f"'camera.trigger' is '{camera.trigger}', but 'camera.source' is {source.name}, allowed: null, "
+            "or an industrial camera as the source"
+        )
+        mistakes.append(
+            Mistake(where=where.of(("camera", "trigger")), key="camera.trigger", sentence=sentence)
+        )
     known = set(config.markers)
     if source_from_text(camera.source).kind is SourceKind.REHEARSAL:
         taken = [("markers", "drill"), ("tools", "drill")]

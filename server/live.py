@@ -49,7 +49,8 @@ class CameraMode:
     """How a camera gives its images.
 
     Attributes:
-        fourcc: pixel format, as V4L2 and OpenCV name it: "MJPG", "YUYV"; empty where it is not known.
+        fourcc: pixel format, as V4L2 and OpenCV name it ("MJPG", "YUYV"), or GenICam ("BayerRG8"); empty
+            where it is not known.
         size_wh_px: width and height.
         rate_hz: images a second; 0 where it is not known.
     """
@@ -69,6 +70,7 @@ class ImageClock(StrEnum):
     """Whose clock says when an image was taken."""
 
     DRIVER = "driver"  # the camera's driver stamped it
+    DEVICE = "device"  # the camera itself stamped it, by its own clock
     ARRIVAL = "arrival"  # it was read when the image arrived: later, by exposure, transfer and buffers
 
 
@@ -81,12 +83,14 @@ class CameraStatus:
         asked: the mode it was asked for; None where it is not known what it offers.
         granted: the mode that it granted; None where it is not known.
         controls: their values when they were last read, in the driver's own units; empty where none is known.
+        trigger: the input that starts each image; empty where the camera runs freely.
     """
 
     clock: ImageClock
     asked: CameraMode | None = None
     granted: CameraMode | None = None
     controls: Mapping[CameraControl, int] = field(default_factory=dict)
+    trigger: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from urllib.parse import urlsplit
 
+INDUSTRIAL_SCHEMES = ("basler", "genicam")
 STREAM_SCHEMES = ("rtsp", "rtsps", "rtmp", "http", "https", "udp", "tcp")
 
 
@@ -13,6 +14,7 @@ class SourceKind(StrEnum):
 
     REHEARSAL = "rehearsal"
     LOCAL_CAMERA = "local camera"
+    INDUSTRIAL_CAMERA = "industrial camera"
     STREAM = "stream"
     PATH = "path"  # a video file or a folder: known when it is opened, it may not be there yet
 
@@ -33,7 +35,7 @@ class SourceAddress:
 
 
 def source_from_text(text: str | int) -> SourceAddress:
-    """Tell what a source is: rehearsal, camera number or device, stream's address, or a path."""
+    """Tell what a source is: rehearsal, camera (number, device, industrial), stream's address, or a path."""
     plain = str(text).strip()
     if plain.lower() == "rehearsal":
         return SourceAddress(kind=SourceKind.REHEARSAL, text="rehearsal", name="rehearsal")
@@ -41,6 +43,10 @@ def source_from_text(text: str | int) -> SourceAddress:
         return SourceAddress(kind=SourceKind.LOCAL_CAMERA, text=plain, name=f"camera {int(plain)}")
     if re.match(r"^/dev/", plain):
         return SourceAddress(kind=SourceKind.LOCAL_CAMERA, text=plain, name=plain)
+    library, colon, serial = plain.partition(":")
+    if colon and library.lower() in INDUSTRIAL_SCHEMES:
+        text = f"{library.lower()}:{serial.strip()}"
+        return SourceAddress(kind=SourceKind.INDUSTRIAL_CAMERA, text=text, name=text)
     scheme = plain.partition("://")[0].lower()
     if "://" in plain and scheme in STREAM_SCHEMES:
         return SourceAddress(kind=SourceKind.STREAM, text=plain, name=masked(plain))

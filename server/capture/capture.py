@@ -100,6 +100,15 @@ class Capture:
             )
 
     def _stalled(self) -> Trouble:
+        camera = self._source.camera
+        if camera is not None and camera.trigger:
+            return Trouble(
+                code="CAMERA_NOT_TRIGGERED",
+                message=f"{self._source.name} waits for a pulse on {camera.trigger}, and none came for "
+                f"{STALLED_AFTER_S:g} s",
+                remedy="Start what triggers it, and check its cable; or set camera.trigger to null.",
+                context={"source": self._source.name, "trigger": camera.trigger, "limit_s": STALLED_AFTER_S},
+            )
         return Trouble(
             code="SOURCE_STALLED",
             message=f"the source {self._source.name} is open, but gave no image for {STALLED_AFTER_S:g} s",

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from server.capture.address import SourceAddress, SourceKind, source_from_text
 from server.capture.folder import FolderSource
+from server.capture.industrial import BaslerCameras, GenTLCameras, IndustrialCameraSource
 from server.capture.local_camera import CalibratedCamera, LocalCameraSource
 from server.capture.modes import WantedMode
 from server.capture.rehearsal import Begun, RehearsalSource, Renderer, Silence
@@ -36,7 +37,7 @@ def source_from_config(
         first_number: the number of its first image.
         begun: what of the rehearsal is played, and since when.
         silences: when the rehearsal's camera gives no image.
-        calibration: that is in use, for a local camera; None while there is none.
+        calibration: that is in use, for a local or an industrial camera; None while there is none.
 
     Raises:
         CaptureError: REHEARSAL_WITHOUT_THEATRE.
@@ -59,6 +60,8 @@ def source_from_config(
             begun=begun,
             silences=silences,
         )
+    if address.kind is SourceKind.INDUSTRIAL_CAMERA:
+        return _industrial_camera(camera, address, stop, calibration, first_number)
     if address.kind is SourceKind.LOCAL_CAMERA:
         return LocalCameraSource(
             address,
@@ -73,8 +76,27 @@ def source_from_config(
     return PathSource(address, config=config, stop=stop, first_number=first_number)
 
 
+def _industrial_camera(
+    camera: CameraConfig,
+    address: SourceAddress,
+    stop: threading.Event,
+    calibration: CalibratedCamera | None,
+    first_number: int,
+) -> IndustrialCameraSource:
+    return IndustrialCameraSource(
+        address,
+        cameras=BaslerCameras() if address.text.startswith("basler:") else GenTLCameras(),
+        stop=stop,
+        wanted=wanted_mode(camera),
+        calibration=calibration,
+        trigger=camera.trigger,
+        lock_controls=camera.lock_controls,
+        first_number=first_number,
+    )
+
+
 def wanted_mode(camera: CameraConfig) -> WantedMode:
-    """What the settings ask of a local camera: a size where both its numbers are given."""
+    """What the settings ask of a camera: a size where both its numbers are given."""
     size = None if camera.width is None or camera.height is None else (camera.width, camera.height)
     return WantedMode(size_wh_px=size, rate_hz=camera.rate_hz)
 

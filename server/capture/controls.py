@@ -1,10 +1,11 @@
 """A camera's focus, exposure, gain and white balance: locked at the start, and read once a second."""
 
 from collections.abc import Iterable, Mapping
+from typing import Protocol
 
 import structlog
 
-from server.capture.v4l2 import VideoDevice
+from server.capture.v4l2 import ControlReading
 from server.capture.v4l2.structs import EXPOSURE_MANUAL
 from tracker.camera import GEOMETRIC, CameraControl
 
@@ -18,6 +19,16 @@ LIGHT_LOCKS = (
 )
 
 log = structlog.get_logger(__name__)
+
+
+class Controls(Protocol):
+    """The controls of one camera."""
+
+    def control(self, control: CameraControl) -> ControlReading | None:
+        """A control's value; None when the camera does not have it. Raises OSError when it is gone."""
+
+    def set_control(self, control: CameraControl, value: int) -> None:
+        """Set a control. Raises OSError when the camera refuses."""
 
 
 class ControlKeeper:
@@ -37,7 +48,7 @@ class ControlKeeper:
 
     def __init__(
         self,
-        device: VideoDevice,
+        device: Controls,
         *,
         name: str,
         lock_focus: bool,

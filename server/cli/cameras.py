@@ -19,6 +19,14 @@ from server.capture.v4l2 import (
     VideoDevices,
     devices_here,
 )
+from server.cli.industrial_cameras import (
+    control_values,
+    find_industrial_cameras,
+    industrial_lines,
+    industrial_values,
+    installed_libraries,
+    mode_values,
+)
 from server.config_file import load_config
 from server.live import CameraMode
 from tracker.camera import CameraControl
@@ -27,7 +35,8 @@ NO_CAMERA = 1
 NONE_FOUND = (
     "no camera is found at this machine",
     "Plug one in and see that it is listed in /dev as video0 or so (ls /dev/video*); in a container, hand it "
-    "in with --device /dev/video0. Network cameras are not listed: give their address with --source.",
+    "in with --device /dev/video0. Network cameras are not listed: give their address with --source. "
+    "Industrial cameras need pip install 'coaxial[basler]', or 'coaxial[genicam]' and a GenTL producer.",
 )
 NONE_KNOWN = (
     "cameras are listed on Linux alone",
@@ -65,12 +74,22 @@ def list_cameras(config_file: Path | None, *, as_json: bool) -> int:
     config = load_config(config_file)
     calibration = config.camera.calibration
     size_wh_px = None if calibration is None else load_camera_file(calibration).size_wh_px
-    found = find_cameras(devices_here(), wanted_mode(config.camera), calibrated_size_wh_px=size_wh_px)
+    wanted = wanted_mode(config.camera)
+    found = find_cameras(devices_here(), wanted, calibrated_size_wh_px=size_wh_px)
+    industrial = find_industrial_cameras(
+        installed_libraries(),
+        wanted,
+        calibrated_size_wh_px=size_wh_px,
+        is_triggered=config.camera.trigger is not None,
+    )
     if as_json:
-        typer.echo(json.dumps({"cameras": [camera_values(camera) for camera in found]}, indent=2))
+        values = [*map(camera_values, found), *map(industrial_values, industrial)]
+        typer.echo(json.dumps({"cameras": values}, indent=2))
     else:
-        typer.echo("\n".join(line for camera in found for line in _lines(camera)), nl=bool(found))
-    if found:
+        lines = [line for camera in found for line in _lines(camera)]
+        lines += [line for camera in industrial for line in industrial_lines(camera)]
+        typer.echo("\n".join(lines), nl=bool(lines))
+    if found or industrial:
         return 0
     message, remedy = NONE_FOUND if sys.platform == "linux" else NONE_KNOWN
     typer.echo(f"Error: {message}.\n{remedy}", err=True)
@@ -117,18 +136,10 @@ def camera_values(camera: FoundCamera) -> dict[str, object]:
         "name": description.name,
         "driver": description.driver,
         "bus": description.bus,
-        "modes": [_mode_values(mode) for mode in camera.modes],
-        "chosen": None if camera.chosen is None else _mode_values(camera.chosen),
-        "controls": {
-            control.value: {"value": one.value, "min": one.min_value, "max": one.max_value}
-            for control, one in camera.controls.items()
-        },
+        "modes": [mode_values(mode) for mode in camera.modes],
+        "chosen": None if camera.chosen is None else mode_values(camera.chosen),
+        "controls": control_values(camera.controls),
     }
-
-
-def _mode_values(mode: CameraMode) -> dict[str, object]:
-    width, height = mode.size_wh_px
-    return {"fourcc": mode.fourcc, "width_px": width, "height_px": height, "rate_hz": mode.rate_hz}
 
 
 def _lines(camera: FoundCamera) -> list[str]:

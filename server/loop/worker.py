@@ -19,6 +19,7 @@ import structlog
 
 from server.capture.capture import Capture
 from server.capture.choose import source_from_config
+from server.capture.industrial import IndustrialCameraSource
 from server.capture.local_camera import LocalCameraSource
 from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot, Source
@@ -194,7 +195,7 @@ def work(
         case = newest.take()
         if case is not None:
             tracking.adopt(case)
-            if isinstance(source, LocalCameraSource):
+            if isinstance(source, LocalCameraSource | IndustrialCameraSource):
                 source.adopt(tracking.calibrated_camera)
         scene = None if scenes is None else scenes.take()
         if scene is not None and staging is not None:

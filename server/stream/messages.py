@@ -36,7 +36,7 @@ class CameraModeMessage(Message):
     """How a camera gives its images."""
 
     fourcc: str
-    """Pixel format: "MJPG", "YUYV"; empty where it is not known."""
+    """Pixel format: "MJPG", "YUYV", "BayerRG8"; empty where it is not known."""
     width_px: int
     height_px: int
     rate_hz: float
@@ -47,7 +47,8 @@ class CameraStatusMessage(Message):
     """What is known of a camera beside its images."""
 
     clock: ImageClock
-    """Whose clock says when an image was taken: the camera driver's, or this machine's at its arrival."""
+    """Whose clock says when an image was taken: the camera driver's, the camera's own, or this machine's at
+    its arrival."""
     asked: CameraModeMessage | None
     granted: CameraModeMessage | None
     controls: dict[str, int]

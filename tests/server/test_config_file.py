@@ -82,6 +82,16 @@ TOOL = {
         pytest.param({"video": {"jpeg_quality": 0}}, ["1 to 100"], id="quality-zero"),
         pytest.param({"tracker": {"accept_score_ratio": 1.1}}, ["1.1", "0 to 1"], id="ratio-over-one"),
         pytest.param({"camera": {"width": 640}}, ["camera.width", "camera.height"], id="width-alone"),
+        pytest.param(
+            {"camera": {"trigger": "line1"}},
+            ["'camera.trigger' is 'line1'", "industrial camera"],
+            id="trigger-of-a-rehearsal",
+        ),
+        pytest.param(
+            {"camera": {"source": "basler:1", "trigger": "line 1"}},
+            ["camera.trigger"],
+            id="trigger-with-a-space",
+        ),
         pytest.param({"tools": {"t": TOOL}}, ["tools.t.marker", "axis_in_marker"], id="tool-of-nothing"),
         pytest.param({"markers": {"a b": {}}}, ["markers.a b", "letters"], id="name-with-a-space"),
         pytest.param({5: 1}, ["'[5]'", "server"], id="key-is-a-number"),

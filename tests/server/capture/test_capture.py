@@ -13,7 +13,7 @@ from server.capture.capture import Capture
 from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot
 from server.errors import CaptureError
-from server.live import CameraStatus, SourceState
+from server.live import CameraStatus, ImageClock, SourceState
 from tracker.rehearsal import Event, EventKind
 
 
@@ -153,6 +153,26 @@ def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.
     assert status.state is SourceState.RECONNECTING
     assert status.trouble is not None
     assert status.trouble.code == "SOURCE_STALLED"
+    stop.set()
+    source.told.put(None)
+
+
+def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    source, stop = ToldSource(stalls=True), threading.Event()
+    source.camera = CameraStatus(clock=ImageClock.DEVICE, trigger="Line1")
+    capture = Capture(source, stop=stop)
+    source.told.put(shot(0))
+    capture.start()
+    until(lambda: capture.status().state is SourceState.RUNNING)
+    later_s = time.monotonic() + 2.5
+    with monkeypatch.context() as patch:
+        patch.setattr("server.capture.capture.time.monotonic", lambda: later_s)
+        status = capture.status()
+    assert status.trouble is not None
+    assert status.trouble.code == "CAMERA_NOT_TRIGGERED"
+    assert status.trouble.message == "told waits for a pulse on Line1, and none came for 2 s"
     stop.set()
     source.told.put(None)
 

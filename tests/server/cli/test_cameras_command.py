@@ -7,12 +7,22 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+from server.capture.industrial import Bounds
 from server.cli import app
 from tests.server.capture.fake_camera import HD, FakeCamera, FakeDevices, modes
+from tests.server.capture.fake_industrial import FakeIndustrialCamera, FakeIndustrialCameras
 
 
-def listed(monkeypatch: pytest.MonkeyPatch, folder: Path, *cameras: FakeCamera, words: str = "") -> Result:
+def listed(
+    monkeypatch: pytest.MonkeyPatch,
+    folder: Path,
+    *cameras: FakeCamera,
+    words: str = "",
+    industrial: FakeIndustrialCameras | None = None,
+) -> Result:
     monkeypatch.setattr("server.cli.cameras.devices_here", lambda: FakeDevices(*cameras))
+    libraries = () if industrial is None else (industrial,)
+    monkeypatch.setattr("server.cli.cameras.installed_libraries", lambda: libraries)
     monkeypatch.chdir(folder)
     return CliRunner().invoke(app, ["cameras", *words.split()])
 
@@ -93,3 +103,51 @@ def test_elsewhere_than_on_linux_the_remedy_is_another(
     assert result.exit_code == 1
     assert "listed on Linux alone" in result.stderr
     assert "--source 0" in result.stderr
+
+
+class BusyCamera(FakeIndustrialCamera):
+    """Another program has it."""
+
+    def bounds(self, name: str) -> Bounds | None:
+        raise OSError(f"{name} is controlled by another application")
+
+
+def test_industrial_cameras_are_told_with_what_they_offer(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    cameras = FakeIndustrialCameras(sn4711=FakeIndustrialCamera(), sn4712=BusyCamera())
+    result = listed(monkeypatch, tmp_path, industrial=cameras)
+    assert result.exit_code == 0
+    assert result.stdout.splitlines() == [
+        "basler:4711  Basler a2A1920-160uc  (BaslerUsb)",
+        "    Mono8, BayerRG8, BayerRG12",
+        "    16 to 1936 x 16 to 1216, 1 to 160 Hz",
+        "    triggers: Line1, Line3, Software",
+        "    controls: zoom 1, pan 0, tilt 0, auto_exposure 0, exposure 8000, gain 325, auto_white_balance 1",
+        "    Coaxial takes 1936x1216 BayerRG8 at 30 Hz",
+        "basler:4712  cannot be asked: Width is controlled by another application",
+        "    See that no other program has it.",
+    ]
+    (tmp_path / "config.yaml").write_text(
+        "camera: {source: 'basler:4711', trigger: line1, width: 1001, height: 800}\n"
+    )
+    values = json.loads(listed(monkeypatch, tmp_path, industrial=cameras, words="--json").stdout)["cameras"][
+        0
+    ]
+    assert values["path"] == "basler:4711"
+    assert values["serial"] == "4711"
+    assert values["width_px"] == {"min": 16.0, "max": 1936.0, "step": 8.0}
+    assert values["rate_hz"] == {"min": 1.0, "max": 160.0, "step": 0.0}
+    # What is triggered has no rate of its own.
+    assert values["chosen"] == {"fourcc": "BayerRG8", "width_px": 1000, "height_px": 800, "rate_hz": 0.0}
+
+
+def test_a_library_that_is_not_installed_lists_nothing(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    missing = FakeIndustrialCameras(sn4711=FakeIndustrialCamera())
+    missing.is_installed = False
+    monkeypatch.setattr("sys.platform", "linux")
+    result = listed(monkeypatch, tmp_path, industrial=missing)
+    assert result.exit_code == 1
+    assert "coaxial[basler]" in result.stderr

@@ -119,7 +119,7 @@ export const de: Words = {
     ended: "am Ende",
     unknown: "unbekannt",
   },
-  imageClock: { driver: "dem Kameratreiber", arrival: "der Ankunft" },
+  imageClock: { driver: "dem Kameratreiber", device: "der Uhr der Kamera", arrival: "der Ankunft" },
   linkState: {
     connecting: "verbindet",
     open: "verbunden",

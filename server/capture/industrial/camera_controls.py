@@ -1,0 +1,74 @@
+"""Exposure, gain, white balance and cut-out of an industrial camera, as controls that are locked and read."""
+
+import contextlib
+
+from server.capture.industrial.device import Features
+from server.capture.v4l2 import ControlReading
+from server.capture.v4l2.structs import EXPOSURE_MANUAL
+from tracker.camera import CameraControl
+
+# What V4L2 reads where the camera chooses the exposure.
+EXPOSURE_AUTO = 0
+OFF = "Off"
+# Automatic exposure is all that changes brightness by itself, the gain too.
+AUTOMATICS = {
+    CameraControl.AUTO_EXPOSURE: (("ExposureAuto", "GainAuto"), EXPOSURE_MANUAL, EXPOSURE_AUTO),
+    CameraControl.AUTO_WHITE_BALANCE: (("BalanceWhiteAuto",), 0, 1),
+}
+# By SFNC, then as older cameras name it; a control's value is a whole number of such parts of the feature's
+# unit. What moves the camera matrix is here, too: binning is a zoom, and the cut-out's place on the sensor
+# pan and tilt.
+NUMBERS = {
+    CameraControl.ZOOM: (("BinningHorizontal",), 1),
+    CameraControl.PAN: (("OffsetX",), 1),
+    CameraControl.TILT: (("OffsetY",), 1),
+    CameraControl.EXPOSURE: (("ExposureTime", "ExposureTimeAbs"), 1),
+    CameraControl.GAIN: (("Gain", "GainRaw"), 100),
+}
+
+
+class IndustrialControls:
+    """The controls of one camera: exposure in microseconds, gain in hundredths of its unit (mostly dB)."""
+
+    def __init__(self, features: Features) -> None:
+        self._features = features
+
+    def control(self, control: CameraControl) -> ControlReading | None:
+        """A control's value; None when the camera does not have it."""
+        if control in AUTOMATICS:
+            names, off, on = AUTOMATICS[control]
+            states = [state for name in names if (state := self._features.value(name)) is not None]
+            if not states:
+                return None
+            value = off if all(state == OFF for state in states) else on
+            return ControlReading(value=value, min_value=min(off, on), max_value=max(off, on))
+        names, parts = NUMBERS.get(control, ((), 1))
+        for name in names:
+            value_now, bounds = self._features.value(name), self._features.bounds(name)
+            if isinstance(value_now, int | float) and bounds is not None:
+                return ControlReading(
+                    value=round(value_now * parts),
+                    min_value=round(bounds.min_value * parts),
+                    max_value=round(bounds.max_value * parts),
+                )
+        return None
+
+    def set_control(self, control: CameraControl, value: int) -> None:
+        """Set a control; one that is so already is left alone. Raises OSError when the camera refuses."""
+        reading = self.control(control)
+        if reading is None:
+            raise OSError(f"the camera has no {control.value}")
+        if reading.value == value:
+            return
+        if control in AUTOMATICS:
+            for name in AUTOMATICS[control][0]:
+                if self._features.value(name) is not None:
+                    self._features.set_value(name, OFF)
+            return
+        names, parts = NUMBERS[control]
+        name = next(name for name in names if self._features.value(name) is not None)
+        is_whole = isinstance(self._features.value(name), int)
+        self._features.set_value(name, value // parts if is_whole else value / parts)
+        if control is CameraControl.ZOOM:
+            with contextlib.suppress(OSError):
+                self._features.set_value("BinningVertical", value)

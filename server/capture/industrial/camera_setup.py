@@ -1,0 +1,154 @@
+"""What an industrial camera offers, what it is asked for, and what it granted.
+
+A smaller image of such a camera is a cut-out of its sensor, in the middle, and no scaled image: it has the
+same pixels per degree and another camera matrix.
+"""
+
+import contextlib
+from dataclasses import dataclass
+
+from server.capture.industrial.device import Bounds, Features, FeatureValue
+from server.capture.industrial.pixel_formats import best_format
+from server.capture.modes import WANTED_RATE_HZ, WantedMode
+from server.errors import CaptureError
+from server.live import CameraMode
+
+# By SFNC, and as older and Basler's cameras name it.
+RATE_NAMES = ("AcquisitionFrameRate", "AcquisitionFrameRateAbs")
+GRANTED_RATE_NAMES = (
+    "ResultingFrameRate",
+    "BslResultingAcquisitionFrameRate",
+    "ResultingFrameRateAbs",
+    "AcquisitionResultingFrameRate",
+    *RATE_NAMES,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Offer:
+    """What a camera offers.
+
+    Attributes:
+        pixel_formats: by their names in PFNC.
+        width_px, height_px: of its images; the largest are of the whole sensor.
+        rate_hz: images a second; None where it cannot be set.
+        triggers: the inputs that can start an image.
+    """
+
+    pixel_formats: tuple[str, ...]
+    width_px: Bounds
+    height_px: Bounds
+    rate_hz: Bounds | None
+    triggers: tuple[str, ...]
+
+
+def offer_of(features: Features) -> Offer:
+    """What a camera offers now. Raises OSError where it does not name the size of its images."""
+    width, height = _whole(features, "Width"), _whole(features, "Height")
+    if width is None or height is None:
+        raise OSError("it does not name the size of its images")
+    rates = (features.bounds(name) for name in RATE_NAMES)
+    return Offer(
+        pixel_formats=features.options("PixelFormat"),
+        width_px=width,
+        height_px=height,
+        rate_hz=next((rate for rate in rates if rate is not None), None),
+        triggers=features.options("TriggerSource"),
+    )
+
+
+def chosen_mode(
+    offer: Offer, wanted: WantedMode, *, calibrated_size_wh_px: tuple[int, int] | None, is_triggered: bool
+) -> CameraMode | None:
+    """The mode to ask for; None where none of the formats can be read.
+
+    What is wanted, or what is nearest to it; where nothing is: the calibration's size, else the whole sensor,
+    at 30 Hz or what is nearest. A camera that is triggered has no rate of its own: 0.
+    """
+    fourcc = best_format(offer.pixel_formats)
+    if fourcc is None:
+        return None
+    width, height = (
+        wanted.size_wh_px or calibrated_size_wh_px or (offer.width_px.max_value, offer.height_px.max_value)
+    )
+    rate_hz = 0.0
+    if offer.rate_hz is not None and not is_triggered:
+        rate_hz = offer.rate_hz.nearest(wanted.rate_hz or WANTED_RATE_HZ)
+    size = (int(offer.width_px.nearest(width)), int(offer.height_px.nearest(height)))
+    return CameraMode(fourcc=fourcc, size_wh_px=size, rate_hz=rate_hz)
+
+
+def set_mode(features: Features, mode: CameraMode) -> CameraMode:
+    """Ask for a mode, and return the one that is set then. What the camera refuses is seen in the latter."""
+    _try(features, "PixelFormat", mode.fourcc)
+    for name, offset, size_px in zip(
+        ("Width", "Height"), ("OffsetX", "OffsetY"), mode.size_wh_px, strict=True
+    ):
+        _try(features, offset, 0)
+        _try(features, name, size_px)
+        free = features.bounds(offset)
+        if free is not None:
+            _try(features, offset, int(free.nearest(free.max_value / 2.0)))
+    if mode.rate_hz > 0.0:
+        _try(features, "AcquisitionFrameRateEnable", True)
+        for name in RATE_NAMES:
+            _try(features, name, mode.rate_hz)
+    return granted_mode(features, has_rate=mode.rate_hz > 0.0)
+
+
+def granted_mode(features: Features, *, has_rate: bool) -> CameraMode:
+    """The mode that is set now."""
+    rates = (features.value(name) for name in GRANTED_RATE_NAMES) if has_rate else iter(())
+    return CameraMode(
+        fourcc=str(features.value("PixelFormat") or ""),
+        size_wh_px=(int(features.value("Width") or 0), int(features.value("Height") or 0)),
+        rate_hz=next((float(rate) for rate in rates if rate), 0.0),
+    )
+
+
+def set_trigger(features: Features, name: str, trigger: str | None) -> str:
+    """Have each image started by an input of the camera, or by nothing; returns the camera's name of it.
+
+    Args:
+        features: of the camera.
+        name: of the camera.
+        trigger: the input, in any case ("line1"); None lets it run freely.
+
+    Raises:
+        CaptureError: CAMERA_TRIGGER_NOT_OFFERED.
+        OSError: the camera refuses.
+    """
+    # Whoever had the camera before may have left any of them on.
+    for selected in features.options("TriggerSelector"):
+        with contextlib.suppress(OSError):
+            features.set_value("TriggerSelector", selected)
+            features.set_value("TriggerMode", "Off")
+    if trigger is None:
+        return ""
+    sources = features.options("TriggerSource")
+    source = next((one for one in sources if one.lower() == trigger.lower()), None)
+    if source is None:
+        raise CaptureError(
+            "CAMERA_TRIGGER_NOT_OFFERED",
+            f"{name} has no trigger '{trigger}'",
+            f"Set camera.trigger to one that it has: {', '.join(sources) or 'none'}; or to null.",
+            {"camera": name, "trigger": trigger, "offered": list(sources)},
+        )
+    _try(features, "TriggerSelector", "FrameStart")
+    features.set_value("TriggerSource", source)
+    features.set_value("TriggerMode", "On")
+    return source
+
+
+def _whole(features: Features, name: str) -> Bounds | None:
+    """What may be set of width or height once the cut-out begins at the sensor's edge."""
+    now, largest = features.bounds(name), features.value(f"{name}Max")
+    if now is None or not isinstance(largest, int | float):
+        return now
+    return Bounds(min_value=now.min_value, max_value=max(now.max_value, float(largest)), step=now.step)
+
+
+def _try(features: Features, name: str, value: FeatureValue) -> None:
+    """Set what the camera may not have; what was granted is read back afterwards."""
+    with contextlib.suppress(OSError):
+        features.set_value(name, value)

@@ -1,0 +1,281 @@
+"""An industrial camera as a source."""
+
+import threading
+import time
+from collections.abc import Callable
+
+import numpy as np
+import structlog
+
+from server.capture.address import SourceAddress
+from server.capture.controls import ControlKeeper
+from server.capture.device_clock import DeviceClock
+from server.capture.driver_clock import DriverClock
+from server.capture.industrial.camera_controls import IndustrialControls
+from server.capture.industrial.camera_setup import chosen_mode, offer_of, set_mode, set_trigger
+from server.capture.industrial.clock_latch import LatchedClock
+from server.capture.industrial.device import GrabbedImage, IndustrialCamera, IndustrialCameras
+from server.capture.industrial.pixel_formats import bgr_from_pixels
+from server.capture.local_camera import CalibratedCamera
+from server.capture.mode_check import ModeCheck
+from server.capture.modes import WantedMode
+from server.capture.shot import Shot
+from server.errors import CaptureError
+from server.live import CameraMode, CameraStatus, ImageClock
+from tracker.camera import CameraControl
+
+# So often it is looked whether to stop, and whether the camera is still there.
+GRAB_TIMEOUT_S = 0.2
+# A camera that runs freely and gives nothing for so long is opened again.
+MAX_SILENCE_S = 2.0
+MAX_TORN = 30
+
+log = structlog.get_logger(__name__)
+
+
+class IndustrialCameraSource:
+    """Images of an industrial camera, the newest alone, stamped by its own clock where it has one.
+
+    Args:
+        address: "basler:" or "genicam:" with a serial number; without one, the only camera that is there.
+        cameras: what the library finds.
+        stop: set when the source shall wait no longer.
+        wanted: what the settings ask for.
+        calibration: that is in use at the start; None while there is none.
+        trigger: the input of the camera that starts each image; None where it runs freely.
+        lock_controls: switch automatic exposure, gain and white balance off once they have settled, and set
+            the cut-out of the sensor to what it was at the calibration.
+        first_number: number of its first image.
+        clock: monotonic.
+    """
+
+    def __init__(
+        self,
+        address: SourceAddress,
+        *,
+        cameras: IndustrialCameras,
+        stop: threading.Event,
+        wanted: WantedMode | None = None,
+        calibration: CalibratedCamera | None = None,
+        trigger: str | None = None,
+        lock_controls: bool = True,
+        first_number: int = 0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.name = address.name
+        self.waits_for_taker = False
+        self.stalls = True
+        self._serial = address.text.partition(":")[2]
+        self._cameras = cameras
+        self._stop = stop
+        self._wanted = wanted or WantedMode()
+        self._calibration = calibration
+        self._adopted: CalibratedCamera | None = None
+        self._trigger = trigger
+        self._triggered_by = ""
+        self._lock_controls = lock_controls
+        self._number = first_number
+        self._clock = clock
+        self._device_clock = DeviceClock()
+        self._stamps = DriverClock()
+        self._has_own_clock = False
+        self._camera: IndustrialCamera | None = None
+        self._latch: LatchedClock | None = None
+        self._asked: CameraMode | None = None
+        self._check: ModeCheck | None = None
+        self._keeper: ControlKeeper | None = None
+
+    @property
+    def defect(self) -> CaptureError | None:
+        """In what its images are others than was asked for; None where they are not."""
+        return None if self._check is None else self._check.problem
+
+    @property
+    def camera(self) -> CameraStatus:
+        """What is known of the camera."""
+        is_used = self._has_own_clock and self._stamps.clock is ImageClock.DRIVER
+        return CameraStatus(
+            clock=ImageClock.DEVICE if is_used else ImageClock.ARRIVAL,
+            asked=self._asked,
+            granted=None if self._check is None else self._check.granted,
+            controls={} if self._keeper is None else self._keeper.values,
+            trigger=self._triggered_by,
+        )
+
+    def adopt(self, calibration: CalibratedCamera | None) -> None:
+        """From the next image on give what this calibration was made with. From any thread."""
+        self._adopted = calibration
+
+    def open(self) -> None:
+        """Open the camera, ask it for format, size, rate and trigger, and start it."""
+        self.close()
+        try:
+            camera = self._opened()
+            self._camera = camera
+            self._set_up(camera)
+            camera.start()
+        except ImportError as error:
+            raise self._without_library() from error
+        except OSError as error:
+            raise self._not_opened(str(error)) from error
+
+    def read(self) -> Shot | None:
+        """The newest image; None when it shall wait no longer."""
+        self._use_adopted()
+        image, captured_at_s = None, 0.0
+        began_s, torn = self._clock(), 0
+        while image is None:
+            if self._stop.is_set():
+                return None
+            grabbed = self._grabbed()
+            now_s = self._clock()
+            if self._keeper is not None:
+                self._keeper.poll(now_s)
+            if grabbed is None:
+                if not self._triggered_by and now_s - began_s > MAX_SILENCE_S:
+                    raise self._stopped("no whole image came")
+                continue
+            self._number += grabbed.skipped
+            captured_at_s = self._captured_at_s(grabbed, now_s)
+            if grabbed.pixels is not None:
+                image = bgr_from_pixels(grabbed.pixels, grabbed.pixel_format)
+            if image is None:
+                self._number, torn = self._number + 1, torn + 1
+                if torn > MAX_TORN:
+                    raise self._torn(torn, grabbed)
+        if self._check is not None:
+            height, width = image.shape[:2]
+            self._check.take((width, height), captured_at_s)
+        shot = Shot(
+            image=np.asarray(image, dtype=np.uint8),
+            number=self._number,
+            captured_at_s=captured_at_s,
+            source_time_s=captured_at_s,
+        )
+        self._number += 1
+        return shot
+
+    def close(self) -> None:
+        """Let go of the camera."""
+        if self._camera is not None:
+            self._camera.close()
+            self._camera = None
+        self._keeper = None
+        self._latch = None
+
+    def _opened(self) -> IndustrialCamera:
+        if self._serial:
+            return self._cameras.open(self._serial)
+        found = self._cameras.descriptions()
+        if len(found) != 1:
+            raise OSError(
+                f"{len(found)} cameras are there: {', '.join(one.address for one in found)}; name one"
+                if found
+                else "no camera is there"
+            )
+        return self._cameras.open(found[0].serial)
+
+    def _set_up(self, camera: IndustrialCamera) -> None:
+        controls = IndustrialControls(camera)
+        calibrated = {} if self._calibration is None else self._calibration.controls
+        if self._lock_controls and CameraControl.ZOOM in calibrated:
+            # Before the size, which binning limits.
+            controls.set_control(CameraControl.ZOOM, calibrated[CameraControl.ZOOM])
+        self._triggered_by = set_trigger(camera, self.name, self._trigger)
+        asked = self._chosen(camera)
+        if asked is None:
+            raise OSError(f"it offers no pixel format that is read here, but {camera.options('PixelFormat')}")
+        granted = set_mode(camera, asked)
+        self._asked = asked
+        wanted = WantedMode(size_wh_px=self._wanted.size_wh_px) if self._triggered_by else self._wanted
+        self._check = ModeCheck(self.name, wanted=wanted, asked=asked, granted=granted)
+        log.info("camera asked", camera=self.name, asked=str(asked), granted=str(granted))
+        self._device_clock.restart()
+        self._stamps.restart()
+        self._latch = LatchedClock(camera, self._device_clock, clock=self._clock)
+        self._keeper = ControlKeeper(
+            controls,
+            name=self.name,
+            lock_focus=self._lock_controls,
+            lock_light=self._lock_controls,
+            calibrated=calibrated,
+            at_s=self._clock(),
+        )
+
+    def _chosen(self, camera: IndustrialCamera) -> CameraMode | None:
+        return chosen_mode(
+            offer_of(camera),
+            self._wanted,
+            calibrated_size_wh_px=None if self._calibration is None else self._calibration.size_wh_px,
+            is_triggered=bool(self._triggered_by),
+        )
+
+    def _use_adopted(self) -> None:
+        """Take up the calibration that was adopted last, if it is another one."""
+        adopted, self._adopted = self._adopted, None
+        if adopted is None or adopted == self._calibration:
+            return
+        self._calibration = adopted
+        if self._camera is not None:
+            # Size and binning cannot be changed while images come.
+            self.open()
+
+    def _grabbed(self) -> GrabbedImage | None:
+        if self._camera is None:
+            raise self._stopped("it is not open")
+        try:
+            if self._latch is not None:
+                self._latch.renew()
+            return self._camera.grab(GRAB_TIMEOUT_S)
+        except OSError as error:
+            raise self._stopped(str(error)) from error
+
+    def _captured_at_s(self, grabbed: GrabbedImage, arrived_s: float) -> float:
+        self._has_own_clock = grabbed.device_s is not None
+        if grabbed.device_s is None:
+            return arrived_s
+        had_given_up = self._stamps.gave_up
+        at_s = self._device_clock.monotonic_s(grabbed.device_s, arrived_s=arrived_s)
+        captured_at_s = self._stamps.captured_at_s(at_s, arrived_s=arrived_s)
+        if self._stamps.gave_up and not had_given_up:
+            log.warning(
+                "the camera's own times are implausible; images count from their arrival",
+                code="CAMERA_CLOCK_IMPLAUSIBLE",
+                camera=self.name,
+                remedy="Ages lack exposure and transfer now. Restart the camera, and update its firmware.",
+            )
+        return captured_at_s
+
+    def _without_library(self) -> CaptureError:
+        extra = self._cameras.extra
+        return CaptureError(
+            "CAMERA_LIBRARY_MISSING",
+            f"{self.name} needs a library that is not installed here",
+            f"Install it with pip install 'coaxial[{extra}]', and start again.",
+            {"camera": self.name, "extra": extra},
+        )
+
+    def _not_opened(self, reason: str) -> CaptureError:
+        return CaptureError(
+            "CAMERA_NOT_OPENED",
+            f"{self.name} cannot be opened: {reason}",
+            "See what coaxial cameras lists; check its cable and power, and that no other program has it. "
+            "It is tried again by itself.",
+            {"camera": self.name, "reason": reason},
+        )
+
+    def _stopped(self, reason: str) -> CaptureError:
+        return CaptureError(
+            "CAMERA_STOPPED",
+            f"{self.name} gave no image: {reason}",
+            "Check its cable and power; it is tried again by itself.",
+            {"camera": self.name, "reason": reason},
+        )
+
+    def _torn(self, images: int, grabbed: GrabbedImage) -> CaptureError:
+        return CaptureError(
+            "CAMERA_TORN",
+            f"{self.name} gave {images} images in a row of which parts are missing, or that cannot be read",
+            "Give it a USB 3 port or a network card (jumbo frames) of its own, or a lower camera.rate_hz.",
+            {"camera": self.name, "images": images, "pixel_format": grabbed.pixel_format},
+        )
