@@ -18,6 +18,7 @@ pylon = pytest.importorskip(
 )
 # While pylon waits for an image it has a timer of its own send SIGALRM, which must not end the test.
 pytestmark = pytest.mark.timeout(300, method="thread")
+DEADLINE_S = 30.0
 SERIAL = "0815-0000"
 WANTED = WantedMode(size_wh_px=(320, 240), rate_hz=100.0)
 
@@ -58,7 +59,9 @@ class Emulated:
             self.source.close()
 
     def until(self, is_so: Callable[[], bool]) -> None:
+        deadline_s = time.monotonic() + DEADLINE_S
         while not is_so():
+            assert time.monotonic() < deadline_s
             self.capture.take(0.05)
 
 
@@ -96,8 +99,9 @@ def test_the_newest_image_comes_and_never_a_backlog(emulated: Callable[..., Emul
     first = one.source.read()
     sent = one.cameras.newest._camera.StreamGrabber.Statistic_Total_Buffer_Count
     enough = sent.GetValue() + 20
+    deadline_s = time.monotonic() + DEADLINE_S
     while sent.GetValue() < enough:
-        pass
+        assert time.monotonic() < deadline_s
     second, third = one.source.read(), one.source.read()
     assert first is not None
     assert second is not None

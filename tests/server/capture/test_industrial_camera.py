@@ -264,6 +264,16 @@ def test_exposure_gain_and_white_balance_are_locked_once_they_have_settled(
     assert source.camera.controls[CameraControl.GAIN] == 600
 
 
+def test_an_automatic_gain_is_locked_where_the_exposure_is_fixed_already(
+    camera: FakeIndustrialCamera,
+) -> None:
+    camera.features["ExposureAuto"] = "Off"
+    source = opened(source_of(camera))
+    camera.now_s += SETTLES_S
+    read(source, camera)
+    assert camera.features["GainAuto"] == "Off"
+
+
 def test_locked_controls_can_be_left_alone(camera: FakeIndustrialCamera) -> None:
     source = opened(source_of(camera, lock_controls=False))
     camera.now_s += 2 * SETTLES_S

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from server.capture.address import source_from_text
+from server.capture.industrial import IndustrialCameraSource
 from server.capture.local_camera import LocalCameraSource
+from server.capture.modes import WantedMode
 from server.capture.shot import Shot
 from server.config import CameraConfig, Config
 from server.live import SourceState
@@ -20,6 +22,7 @@ from server.loop.tracking import Tracking
 from server.loop.worker import NewestCase, WorkerLink, WorkerOrder, work
 from server.setup import CaseSetup, Preparation, build_setup, nominal_camera
 from tests.server.capture.fake_camera import FakeCamera, FakeDevices, FakeVideo, modes
+from tests.server.capture.fake_industrial import FakeIndustrialCamera, FakeIndustrialCameras
 from tests.server.loop.made import SIZE, made_image, made_setup
 from tracker.camera import CameraControl
 from tracker.errors import InvalidInput
@@ -188,3 +191,30 @@ def test_a_case_that_is_opened_sets_the_camera_to_its_calibration(
     stop.set()
     thread.join(30)
     assert video.camera.was_set == [(CameraControl.AUTOFOCUS, 0), (CameraControl.FOCUS, 45)]
+
+
+def test_a_case_that_is_opened_moves_the_cut_out_of_an_industrial_camera(
+    link: tuple[WorkerLink, KeptRing],
+) -> None:
+    camera = FakeIndustrialCamera()
+    stop = threading.Event()
+    source = IndustrialCameraSource(
+        source_from_text("basler:4711"),
+        cameras=FakeIndustrialCameras(sn4711=camera),
+        stop=stop,
+        wanted=WantedMode(size_wh_px=SIZE),
+        clock=camera.clock,
+    )
+    newest = NewestCase()
+    newest.put(CaseSetup(camera=nominal_camera(SIZE), camera_controls={CameraControl.PAN: 96}))
+    tracking = Tracking(build_setup(Config(camera=CameraConfig(source="basler:4711"))))
+    thread = threading.Thread(
+        target=work, args=(ORDER, link[0], stop, source, tracking), kwargs={"newest": newest}
+    )
+    thread.start()
+    deadline_s = time.monotonic() + 30.0
+    while camera.features["OffsetX"] != 96:
+        assert time.monotonic() < deadline_s
+        threading.Event().wait(0.002)
+    stop.set()
+    thread.join(30)
