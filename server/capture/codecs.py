@@ -11,8 +11,12 @@ OPTIONS_VARIABLE = "OPENCV_FFMPEG_CAPTURE_OPTIONS"
 OPEN_TIMEOUT_MS = 3000
 READ_TIMEOUT_MS = 2000
 # TCP, because a lost UDP packet smears half an image; no buffer and little probing, because an old image is
-# worse than none; one decoding thread, because each further one holds an image back.
-STREAM_OPTIONS = "rtsp_transport;tcp|fflags;nobuffer|flags;low_delay|analyzeduration;200000|fpsprobesize;0"
+# worse than none; one decoding thread, because each further one holds an image back. No sound, because beside
+# it FFmpeg moves the times of both by the sender reports, and at the first of these they jump.
+STREAM_OPTIONS = (
+    "rtsp_transport;tcp|allowed_media_types;video|fflags;nobuffer|flags;low_delay|analyzeduration;200000|"
+    "fpsprobesize;0"
+)
 
 
 def silence_codecs() -> None:

@@ -9,13 +9,15 @@ Exposure, transfer and encoding at their best stay unknown, so an image looks yo
 
 import math
 
+from server.capture.driver_clock import MAX_AHEAD_S
+
 # The least difference is looked for in this time: long enough for one undelayed image, and short enough that
 # a crystal drifts by no more than a millisecond.
 WINDOW_S = 10.0
 BUCKETS = 10
-# An image can make up for the delay of the one before, and for no more: a device's time that gains so much
-# more on the arrivals was set forward.
-MAX_GAIN_S = 0.1
+# An image can make up for the delay of the one before, of which only the known part is counted: a device's
+# time that gains so much more on the arrivals was set forward.
+MAX_GAIN_S = 0.5
 
 
 class DeviceClock:
@@ -52,7 +54,8 @@ class DeviceClock:
         went_on = device_s > self._last_device_s
         gain_s = (device_s - self._last_device_s) - (arrived_s - self._last_arrived_s)
         self._last_device_s, self._last_arrived_s = device_s, arrived_s
-        if not is_first and (not went_on or gain_s > self._delay_s + MAX_GAIN_S):
+        is_ahead = self._latched_s is not None and device_s + self._latched_s > arrived_s + MAX_AHEAD_S
+        if not is_first and (not went_on or is_ahead or gain_s > self._delay_s + MAX_GAIN_S):
             # Nothing that was known of it holds.
             self.jumps += 1
             self._latched_s = None

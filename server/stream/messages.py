@@ -47,8 +47,8 @@ class CameraStatusMessage(Message):
     """What is known of a camera beside its images."""
 
     clock: ImageClock
-    """Whose clock says when an image was taken: the camera driver's, the camera's own, or this machine's at
-    its arrival."""
+    """Whose clock says when an image was taken: the camera driver's, the camera's own, the stream's
+    sender's, or this machine's at its arrival."""
     asked: CameraModeMessage | None
     granted: CameraModeMessage | None
     controls: dict[str, int]

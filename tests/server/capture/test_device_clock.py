@@ -39,7 +39,7 @@ def test_a_crystal_that_is_off_is_followed() -> None:
     assert at_s - (taken_s + 0.02) == pytest.approx(-1e-4 * WINDOW_S, abs=2e-4)
 
 
-@pytest.mark.parametrize("jump_s", [-3600.0, -0.5, 0.5, 3600.0])
+@pytest.mark.parametrize("jump_s", [-3600.0, -0.5, 1.0, 3600.0])
 def test_a_clock_that_is_set_anew_is_noticed_and_mapped_anew(jump_s: float) -> None:
     clock = DeviceClock()
     for n in range(60):
@@ -67,10 +67,11 @@ def test_a_clock_that_stands_still_says_nothing() -> None:
     assert clock.monotonic_s(7.0, arrived_s=100.1) == 0.0
 
 
-def test_a_reading_of_both_clocks_leaves_no_delay_and_ends_with_a_jump() -> None:
+@pytest.mark.parametrize("jump_s", [-100.0, 0.2, 100.0])
+def test_a_reading_of_both_clocks_leaves_no_delay_and_ends_with_a_jump(jump_s: float) -> None:
     clock = DeviceClock()
     clock.latch(ZERO_S + 3.0, monotonic_s=3.0)
     assert stamped(clock, 4.0, 0.3) == pytest.approx(0.0)
     assert clock.is_latched
-    stamped(clock, 4.1, 0.02, zero_s=ZERO_S - 100.0)
+    stamped(clock, 4.1, 0.02, zero_s=ZERO_S + jump_s)
     assert not clock.is_latched

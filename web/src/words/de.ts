@@ -119,7 +119,12 @@ export const de: Words = {
     ended: "am Ende",
     unknown: "unbekannt",
   },
-  imageClock: { driver: "dem Kameratreiber", device: "der Uhr der Kamera", arrival: "der Ankunft" },
+  imageClock: {
+    driver: "dem Kameratreiber",
+    device: "der Uhr der Kamera",
+    sender: "dem Sender des Stroms",
+    arrival: "der Ankunft",
+  },
   linkState: {
     connecting: "verbindet",
     open: "verbunden",

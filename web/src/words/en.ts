@@ -121,7 +121,12 @@ export const en: Words = {
     ended: "at its end",
     unknown: "not known",
   },
-  imageClock: { driver: "the camera's driver", device: "the camera's own clock", arrival: "its arrival" },
+  imageClock: {
+    driver: "the camera's driver",
+    device: "the camera's own clock",
+    sender: "the stream's sender",
+    arrival: "its arrival",
+  },
   linkState: {
     connecting: "connecting",
     open: "connected",
