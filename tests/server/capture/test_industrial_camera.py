@@ -3,7 +3,6 @@
 import threading
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from structlog.testing import capture_logs
 
@@ -11,7 +10,6 @@ from server.capture.address import source_from_text
 from server.capture.controls import SETTLES_S
 from server.capture.driver_clock import GIVEN_UP_AFTER
 from server.capture.industrial import IndustrialCameraSource
-from server.capture.industrial.pixel_formats import bgr_from_pixels
 from server.capture.industrial.source import MAX_TORN
 from server.capture.local_camera import CalibratedCamera
 from server.capture.modes import WantedMode
@@ -119,34 +117,6 @@ def test_a_refused_pixel_format_is_told(camera: FakeIndustrialCamera) -> None:
 def test_a_camera_whose_formats_cannot_be_read_is_not_opened(camera: FakeIndustrialCamera) -> None:
     camera.pixel_formats = ("BayerRG12", "Coord3D_C16")
     assert code_of(source_of(camera)) == "CAMERA_NOT_OPENED"
-
-
-@pytest.mark.parametrize(
-    ("name", "rows"),
-    [
-        pytest.param("BayerRG8", ["RG", "GB"], id="RG"),
-        pytest.param("BayerGR8", ["GR", "BG"], id="GR"),
-        pytest.param("BayerGB8", ["GB", "RG"], id="GB"),
-        pytest.param("BayerBG8", ["BG", "GR"], id="BG"),
-    ],
-)
-def test_a_mosaic_is_read_from_its_first_row(name: str, rows: list[str]) -> None:
-    colour = {"R": 200, "G": 120, "B": 40}
-    tile = np.array([[colour[letter] for letter in row] for row in rows], dtype=np.uint8)
-    image = bgr_from_pixels(np.tile(tile, (8, 8)), name)
-    assert image is not None
-    assert image[8, 8].tolist() == [40, 120, 200]
-
-
-@pytest.mark.parametrize("name", ["RGB8", "RGB8Packed", "RGBa8"])
-def test_colours_are_put_into_the_order_of_opencv(name: str) -> None:
-    pixels = np.full((4, 4, 4 if "a" in name[:4] else 3), 255, dtype=np.uint8)
-    pixels[:, :, :3] = (200, 120, 40)
-    image = bgr_from_pixels(pixels, name)
-    assert image is not None
-    assert image[0, 0].tolist() == [40, 120, 200]
-    assert image.shape == (4, 4, 3)
-    assert bgr_from_pixels(pixels, "Mono16") is None
 
 
 def test_by_its_own_clock_images_are_stamped_without_the_jitter_of_the_way(
