@@ -18,6 +18,7 @@ from playwright.sync_api import Browser, sync_playwright
 from tests.benchmarks.asked import Asked
 from tests.benchmarks.first_page.processes import processor_time, processor_use
 from tests.benchmarks.first_page.report import Seen, report
+from tests.benchmarks.first_page.stages import mean_stage_ms, stage_sums
 from tests.benchmarks.machine import machine_line
 from tests.benchmarks.running_server import RunningServer, running_server
 from tests.conftest import FLAGS, chromium_path
@@ -56,16 +57,22 @@ def _watch(
     page.wait_for_selector('[data-testid="video"][data-live="true"]', timeout=PATIENCE_MS)
     page.wait_for_timeout(1000 * given.settling_seconds)
     began_s, before = time.monotonic(), processor_time(server.pid, os.getpid())
+    stages = stage_sums(server.port)
     page.evaluate("coaxialRecorder.begin()")
     page.wait_for_timeout(1000 * given.seconds)
     recorded = page.evaluate("coaxialRecorder.seen()")
+    stage_ms = mean_stage_ms(stages, stage_sums(server.port))
     after, spent_s = processor_time(server.pid, os.getpid()), time.monotonic() - began_s
     if given.screenshots is not None:
         given.screenshots.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=given.screenshots / f"first-page-{width_px}x{height_px}.png")
     context.close()
     return Seen.of(
-        recorded, size_px=size_px, processor_use=processor_use(before, after, spent_s), load=_load()
+        recorded,
+        size_px=size_px,
+        processor_use=processor_use(before, after, spent_s),
+        stage_ms=stage_ms,
+        load=_load(),
     )
 
 

@@ -27,6 +27,7 @@ class Seen:
         longest_gap_ms: between two images of the page.
         notes: share of time by what the page called slow.
         processor_use: share of a core by process.
+        stage_ms: mean time of each stage of the server, of all images.
         load: of the machine, at the end.
     """
 
@@ -44,6 +45,7 @@ class Seen:
     longest_gap_ms: float
     notes: Mapping[str, float]
     processor_use: Mapping[str, float]
+    stage_ms: Mapping[str, float]
     load: str
 
     @classmethod
@@ -53,6 +55,7 @@ class Seen:
         *,
         size_px: tuple[int, int],
         processor_use: Mapping[str, float],
+        stage_ms: Mapping[str, float],
         load: str,
     ) -> Self:
         """From what `recorder.js` has counted."""
@@ -75,13 +78,15 @@ class Seen:
             longest_gap_ms=recorded["longestGapMs"],
             notes={name: ms / span_ms for name, ms in recorded["noteMs"].items()},
             processor_use=processor_use,
+            stage_ms=stage_ms,
             load=load,
         )
 
 
 def report(seen: Sequence[Seen]) -> str:
     """The tables as Markdown."""
-    return "\n".join((_page_table(seen).markdown, _processor_table(seen).markdown))
+    tables = (_page_table(seen), _processor_table(seen), _stage_table(seen))
+    return "\n".join(table.markdown for table in tables)
 
 
 def _page_table(seen: Sequence[Seen]) -> Table:
@@ -130,3 +135,14 @@ def _processor_table(seen: Sequence[Seen]) -> Table:
         for one in seen
     ]
     return Table(title="Processor use, of a core", columns=["screen", *names], rows=rows)
+
+
+def _stage_table(seen: Sequence[Seen]) -> Table:
+    names = list(dict.fromkeys(name for one in seen for name in one.stage_ms))
+    rows = [
+        [f"{one.size_px[0]}x{one.size_px[1]}"]
+        + [number(one.stage_ms[name], 1) if name in one.stage_ms else NOTHING for name in names]
+        for one in seen
+    ]
+    note = "`waiting` is from the grab of an image to the begin of its tracking."
+    return Table(title="Mean time of each stage, ms", columns=["screen", *names], rows=rows, note=note)
