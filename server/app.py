@@ -39,6 +39,7 @@ from server.api.supervision import ROOM_IN_WORDS, room_router, signatures_router
 from server.api.surface import surface_router
 from server.api.sweep import sweep_router
 from server.api.tools import tools_router
+from server.capture.address import source_from_text
 from server.config import Config
 from server.jobs import Jobs
 from server.live import LiveHub
@@ -54,6 +55,8 @@ from server.stream.connection import cut_line
 from server.stream.fitting.pictures import Pictures
 from server.stream.fitting.texts import Texts
 from server.stream.mjpeg import Video
+from server.stream.phone.receiver import Receiver
+from server.stream.phone.socket import PhoneDoor
 from server.stream.view_socket import View
 from server.stream.viewers import ViewerKind, Viewers
 from server.supervision import Holds, HoldsFile, Lobby, SignatureDesk
@@ -78,6 +81,7 @@ class AppParts:
         surface: the bone, for the scene.
         alarms: of this theatre; None makes some that nobody feeds.
         rehearsed: what is rehearsed; None for every other source.
+        phone: receives the images of a phone; None for every other source.
         people: who is signed in; None where there is no guard at all, as in tests of other rooms.
     """
 
@@ -90,6 +94,7 @@ class AppParts:
     surface: Surface | None = None
     alarms: AlarmDesk | None = None
     rehearsed: Rehearsed | None = None
+    phone: Receiver | None = None
     people: PeopleDesk | None = None
 
 
@@ -129,7 +134,7 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     _add_guards(app, parts)
     app.state.pictures = pictures
-    app.include_router(streams_router(camera_name=config.camera.name, video=video, view=view))
+    _add_streams(app, parts, viewers, video, view)
     app.include_router(live_router(hub))
     _add_people(app, parts)
     _add_supervision(app, parts, viewers)
@@ -164,6 +169,14 @@ def picture_of(app: FastAPI) -> Picture:
         is_watched=pictures.is_watched,
         is_watched_in_full=pictures.is_watched_in_full,
     )
+
+
+def _add_streams(app: FastAPI, parts: AppParts, viewers: Viewers, video: Video, view: View) -> None:
+    """The doors to what is live, and the one for a phone's images."""
+    camera = parts.config.camera
+    source = source_from_text(camera.source).name
+    phone = PhoneDoor(hub=parts.hub, viewers=viewers, receiver=parts.phone, source=source)
+    app.include_router(streams_router(camera_name=camera.name, video=video, view=view, phone=phone))
 
 
 def _add_guards(app: FastAPI, parts: AppParts) -> None:

@@ -65,8 +65,8 @@ class CameraConfig(Section):
 
     name: Name = "main"
     source: Annotated[int, Field(ge=0, le=99)] | Annotated[str, StringConstraints(min_length=1)] = "rehearsal"
-    """rehearsal, a number or path of a local camera, basler: or genicam: with a serial number, a video file,
-    a stream's address, a folder of images."""
+    """rehearsal, phone, a number or path of a local camera, basler: or genicam: with a serial number, a video
+    file, a stream's address, a folder of images."""
     calibration: FilePath | None = None
     """A camera file (YAML or JSON) with matrix, distortion, size_wh_px."""
     loop: bool = True

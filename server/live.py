@@ -72,6 +72,7 @@ class ImageClock(StrEnum):
     DRIVER = "driver"  # the camera's driver stamped it
     DEVICE = "device"  # the camera itself stamped it, by its own clock
     SENDER = "sender"  # the stream's sender stamped it; the least delay of its way is not known
+    BROWSER = "browser"  # the browser of the phone that sends it said when it was captured
     ARRIVAL = "arrival"  # it was read when the image arrived: later, by exposure, transfer and buffers
 
 

@@ -10,12 +10,15 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from server.security.headers import CAMERA_PAGE_PERMISSIONS
+
 SERVER_FOLDER = Path(__file__).resolve().parent.parent
 # Installed, the page lies in the package; in a checkout, where its build puts it.
 PAGE_FOLDERS = (SERVER_FOLDER / "page", SERVER_FOLDER.parent / "web" / "dist")
-# Vite writes the hash of the content into the names of these.
 # Addresses that the page itself understands: they all show its one file.
-VIEWS = frozenset({"theatre", "operator", "supervisor", "enter"})
+CAMERA_VIEW = "camera"
+VIEWS = frozenset({"theatre", "operator", "supervisor", "enter", CAMERA_VIEW})
+# Vite writes the hash of the content into the names of these.
 FOREVER = "public, max-age=31536000, immutable"
 ASK_AGAIN = "no-cache"
 
@@ -34,11 +37,14 @@ class PageFiles(StaticFiles):
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         """The file with its lifetime."""
-        if path.split("/", 1)[0] in VIEWS:
+        view = path.split("/", 1)[0]
+        if view in VIEWS:
             path = "index.html"
         response = await super().get_response(path, scope)
         hashed = path.startswith("assets/") and response.status_code < 400
         response.headers["Cache-Control"] = FOREVER if hashed else ASK_AGAIN
+        if view == CAMERA_VIEW:
+            response.headers["Permissions-Policy"] = CAMERA_PAGE_PERMISSIONS
         return response
 
 

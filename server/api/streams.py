@@ -8,6 +8,7 @@ from server.stream.errors import CameraUnknown
 from server.stream.fitting.sizes import Choice, choice_from_text
 from server.stream.live_socket import watch_live
 from server.stream.mjpeg import Video
+from server.stream.phone.socket import PhoneDoor, receive_phone
 from server.stream.socket import LONGEST_REASON, REFUSED
 from server.stream.view_socket import View, watch_view
 from tracker.errors import NavigationError
@@ -24,15 +25,23 @@ the line stands, and `shown_scale_ratio` in the header says in which one the pic
 how long it needed to show an image, `{"next": true, "showing_ms": 12}`, so that this does not count against
 its line, and that it cannot show a larger one, `{"largest": "half"}`.
 
-Both are open to pages of this server and to programs that send no Origin. A client that sends anything else
-is closed with code 1008 or 1009 and the reason in words; one that is too many (`video.most_viewers`, eight of
-one person, and an eighth of all is kept for operators and screens), with 1013. The 3-D scene at `/scene/` has
-as many places of its own, given in the same way.
+`WS /ws/camera`: the page `/camera` sends the images of its device's camera, where `camera.source` is `phone`.
+Text messages are JSON with one key. The page says `hello` with a key of its own, and is told `welcome` (size,
+rate, quality, largest part) or `refused` (an error). `note` comes for each image and twice a second: the page
+answers its `ping` at once with `pong` and its clock in ms, and may send as many images as its `credit` says,
+from the beginning. Each is an `image` message (bytes, capture time, whose clock) and the JPEG in binary
+parts; `camera` before it says what the browser granted. One page sends at a time; one that is silent for 3 s
+is gone.
+
+The first two are open to pages of this server and to programs that send no Origin. A client that sends
+anything else is closed with code 1008 or 1009 and the reason in words; one that is too many
+(`video.most_viewers`, eight of one person, and an eighth of all is kept for operators and screens), with
+1013. The 3-D scene at `/scene/` has as many places of its own, given in the same way.
 """
 
 
-def streams_router(*, camera_name: str, video: Video, view: View) -> APIRouter:
-    """`GET /video/{camera}.mjpg`, `WS /ws/live` and `WS /ws/view`."""
+def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDoor) -> APIRouter:
+    """`GET /video/{camera}.mjpg`, `WS /ws/live`, `WS /ws/view` and `WS /ws/camera`."""
     router = APIRouter(tags=["streams"])
 
     @router.get(
@@ -74,6 +83,10 @@ def streams_router(*, camera_name: str, video: Video, view: View) -> APIRouter:
             await _refuse(websocket, error)
             return
         await watch_view(websocket, view, choice=choice)
+
+    @router.websocket("/ws/camera")
+    async def sent(websocket: WebSocket) -> None:
+        await receive_phone(websocket, phone)
 
     return router
 

@@ -13,6 +13,7 @@ class SourceKind(StrEnum):
     """The kinds of sources that can be told apart by their text alone."""
 
     REHEARSAL = "rehearsal"
+    PHONE = "phone"  # or a tablet: a page there sends its camera's images
     LOCAL_CAMERA = "local camera"
     INDUSTRIAL_CAMERA = "industrial camera"
     STREAM = "stream"
@@ -35,10 +36,12 @@ class SourceAddress:
 
 
 def source_from_text(text: str | int) -> SourceAddress:
-    """Tell what a source is: rehearsal, camera (number, device, industrial), stream's address, or a path."""
+    """Tell what a source is: rehearsal, phone, camera (number, device, industrial), stream's address, or a path."""
     plain = str(text).strip()
     if plain.lower() == "rehearsal":
         return SourceAddress(kind=SourceKind.REHEARSAL, text="rehearsal", name="rehearsal")
+    if plain.lower() == "phone":
+        return SourceAddress(kind=SourceKind.PHONE, text="phone", name="phone")
     if plain.isascii() and plain.isdecimal():
         return SourceAddress(kind=SourceKind.LOCAL_CAMERA, text=plain, name=f"camera {int(plain)}")
     if re.match(r"^/dev/", plain):

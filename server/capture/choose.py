@@ -9,6 +9,7 @@ from server.capture.folder import FolderSource
 from server.capture.industrial import BaslerCameras, GenTLCameras, IndustrialCameraSource
 from server.capture.local_camera import CalibratedCamera, LocalCameraSource
 from server.capture.modes import WantedMode
+from server.capture.phone import Inbox, PhoneSource
 from server.capture.rehearsal import Begun, RehearsalSource, Renderer, Silence
 from server.capture.shot import Shot, Source
 from server.capture.stream import StreamSource
@@ -27,6 +28,7 @@ def source_from_config(
     begun: Begun | None = None,
     silences: Sequence[Silence] = (),
     calibration: CalibratedCamera | None = None,
+    inbox: Inbox | None = None,
 ) -> Source:
     """The source that `camera.source` names, not yet opened.
 
@@ -38,9 +40,10 @@ def source_from_config(
         begun: what of the rehearsal is played, and since when.
         silences: when the rehearsal's camera gives no image.
         calibration: that is in use, for a local or an industrial camera; None while there is none.
+        inbox: where the images of a phone come in; needed for that source only.
 
     Raises:
-        CaptureError: REHEARSAL_WITHOUT_THEATRE.
+        CaptureError: REHEARSAL_WITHOUT_THEATRE, PHONE_WITHOUT_SERVER.
     """
     camera = config.camera
     address = source_from_text(camera.source)
@@ -60,6 +63,8 @@ def source_from_config(
             begun=begun,
             silences=silences,
         )
+    if address.kind is SourceKind.PHONE:
+        return _phone(inbox, stop, first_number)
     if address.kind is SourceKind.INDUSTRIAL_CAMERA:
         return _industrial_camera(camera, address, stop, calibration, first_number)
     if address.kind is SourceKind.LOCAL_CAMERA:
@@ -93,6 +98,16 @@ def _industrial_camera(
         lock_controls=camera.lock_controls,
         first_number=first_number,
     )
+
+
+def _phone(inbox: Inbox | None, stop: threading.Event, first_number: int) -> PhoneSource:
+    if inbox is None:
+        raise CaptureError(
+            "PHONE_WITHOUT_SERVER",
+            "a phone sends its images to a running server, and there is none here",
+            "Start it with coaxial run --source phone.",
+        )
+    return PhoneSource(inbox, stop=stop, first_number=first_number)
 
 
 def wanted_mode(camera: CameraConfig) -> WantedMode:

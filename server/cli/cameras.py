@@ -35,8 +35,9 @@ NO_CAMERA = 1
 NONE_FOUND = (
     "no camera is found at this machine",
     "Plug one in and see that it is listed in /dev as video0 or so (ls /dev/video*); in a container, hand it "
-    "in with --device /dev/video0. Network cameras are not listed: give their address with --source. "
-    "Industrial cameras need pip install 'coaxial[basler]', or 'coaxial[genicam]' and a GenTL producer.",
+    "in with --device /dev/video0. Network cameras are not listed: give their address with --source. A phone "
+    "can be the camera, too: --source phone. Industrial cameras need pip install 'coaxial[basler]', or "
+    "'coaxial[genicam]' and a GenTL producer.",
 )
 NONE_KNOWN = (
     "cameras are listed on Linux alone",

@@ -22,7 +22,8 @@ from server.security.tls import refuse_unsafe
 if TYPE_CHECKING:
     from server.loop.rehearsed import Rehearsed
     from server.loop.tracked import Tracked
-    from server.setup import Preparation
+    from server.setup import CaseSetup, Preparation
+    from server.stream.phone.receiver import Receiver
 
 BACKLOG = 128
 PORT_REMEDY = "Stop the program that uses this port, or choose another one with --port or COAXIAL_PORT."
@@ -56,7 +57,6 @@ def _serve(
     from server.cli.door import Door  # noqa: PLC0415
     from server.cli.kept import Kept  # noqa: PLC0415
     from server.loop.tracked import Tracked  # noqa: PLC0415
-    from server.marker_remarks import warn_of_markers  # noqa: PLC0415
     from server.setup import build_setup  # noqa: PLC0415
 
     with ExitStack() as ending:
@@ -66,13 +66,13 @@ def _serve(
         kept = Kept.opened(ending, settings)
         door = Door.of(config, kept.store, new_operator_link=new_operator_link)
         preparation = build_setup(config)
-        _warn_without_markers(preparation)
-        warn_of_markers(preparation.models)
+        _warn_of_markers(preparation)
         from server.alarms import AlarmDesk, StoredAlarmLog  # noqa: PLC0415
         from server.app import AppParts, create_app, picture_of  # noqa: PLC0415
         from server.cli.web import serve_until  # noqa: PLC0415
         from server.procedure import Steps  # noqa: PLC0415
 
+        phone = _phone(config, preparation, tracked)
         alarm_log = StoredAlarmLog(kept.store)
         ending.callback(alarm_log.stop)
         alarms = AlarmDesk(config, log=alarm_log)
@@ -83,7 +83,7 @@ def _serve(
             jobs=kept.jobs,
             config=config,
             markers=preparation.models,
-            adopt=tracked.adopt,
+            adopt=_adopting(tracked, preparation, phone),
             know=alarms.know,
             tracked_from_s=lambda: tracked.tracks_from_s,
         )
@@ -98,6 +98,7 @@ def _serve(
                 surface=preparation.surface,
                 alarms=alarms,
                 people=door.people,
+                phone=phone,
                 rehearsed=_rehearsed(config, preparation, tracked),
             )
         )
@@ -105,13 +106,39 @@ def _serve(
         serve_until(app, listener, stopping, on_ready=lambda: _greet(listener, door.words), tls=door.tls)
 
 
-def _warn_without_markers(preparation: "Preparation") -> None:
+def _warn_of_markers(preparation: "Preparation") -> None:
+    from server.marker_remarks import warn_of_markers  # noqa: PLC0415
+
+    warn_of_markers(preparation.models)
     if not preparation.models:
         log.warning(
             "no marker is named, so nothing is tracked",
             code="NO_MARKER",
             remedy="Give its picture with --marker and its side with --side-mm, or in the settings.",
         )
+
+
+def _phone(config: Config, preparation: "Preparation", tracked: "Tracked") -> "Receiver | None":
+    from server.stream.phone.receiver import Receiver  # noqa: PLC0415
+
+    if tracked.inbox is None:
+        return None
+    receiver = Receiver(tracked.inbox, config.camera)
+    receiver.calibrated = preparation.calibrated_camera
+    return receiver
+
+
+def _adopting(
+    tracked: "Tracked", preparation: "Preparation", phone: "Receiver | None"
+) -> "Callable[[CaseSetup], None]":
+    """Work with what a case knows; a phone that begins to send is asked for its calibration's size."""
+
+    def adopt(case: "CaseSetup") -> None:
+        if phone is not None:
+            phone.calibrated = preparation.with_case(case).calibrated_camera
+        tracked.adopt(case)
+
+    return adopt
 
 
 def _rehearsed(config: Config, preparation: "Preparation", tracked: "Tracked") -> "Rehearsed | None":

@@ -51,11 +51,14 @@ class Entry:
 class ImageRing:
     """Newest wins, never torn. One writer; handed to a child process as an argument."""
 
-    def __init__(self, *, slots: int = SLOTS, image_bytes: int = IMAGE_BYTES) -> None:
+    def __init__(
+        self, *, slots: int = SLOTS, image_bytes: int = IMAGE_BYTES, note_bytes: int = NOTE_BYTES
+    ) -> None:
         self._slots = slots
         self._image_bytes = image_bytes
+        self._note_bytes = note_bytes
         # The notes' part and the images' part of a slot each start on a page of their own.
-        self._slot_bytes = _whole_pages(PAGE_BYTES + NOTE_BYTES + image_bytes)
+        self._slot_bytes = _whole_pages(PAGE_BYTES + note_bytes + image_bytes)
         self._fd: int = _nameless_memory(PAGE_BYTES + slots * self._slot_bytes)
         self._map_memory()
 
@@ -66,8 +69,8 @@ class ImageRing:
             CaptureError: IMAGE_TOO_LARGE.
             ValueError: the note is longer than the ring's notes may be.
         """
-        if len(note) > NOTE_BYTES:
-            raise ValueError(f"a note of {len(note)} bytes, at most {NOTE_BYTES}")
+        if len(note) > self._note_bytes:
+            raise ValueError(f"a note of {len(note)} bytes, at most {self._note_bytes}")
         if image is not None and (image.nbytes > self._image_bytes or image.shape[2:] != (3,)):
             raise CaptureError(
                 "IMAGE_TOO_LARGE",
@@ -135,7 +138,7 @@ class ImageRing:
         head = self._heads[slot]
         height, width, length = int(head[HEIGHT]), int(head[WIDTH]), int(head[NOTE_LENGTH])
         size = height * width * 3
-        if length > NOTE_BYTES or size > self._image_bytes:
+        if length > self._note_bytes or size > self._image_bytes:
             return None
         note = self._notes[slot][:length].tobytes()
         image = self._images[slot][:size].reshape(height, width, 3).copy() if size else None
@@ -148,8 +151,10 @@ class ImageRing:
         self._head = words[:2]
         starts = [PAGE_BYTES + slot * self._slot_bytes for slot in range(self._slots)]
         self._heads = [words[start // 8 : start // 8 + 5] for start in starts]
-        self._notes = [pixels[start + PAGE_BYTES :][:NOTE_BYTES] for start in starts]
-        self._images = [pixels[start + PAGE_BYTES + NOTE_BYTES :][: self._image_bytes] for start in starts]
+        self._notes = [pixels[start + PAGE_BYTES :][: self._note_bytes] for start in starts]
+        self._images = [
+            pixels[start + PAGE_BYTES + self._note_bytes :][: self._image_bytes] for start in starts
+        ]
         self._sequence = max(int(head[SEQUENCE]) for head in self._heads)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -158,12 +163,14 @@ class ImageRing:
             "fd": reduction.DupFd(self._fd),
             "slots": self._slots,
             "image_bytes": self._image_bytes,
+            "note_bytes": self._note_bytes,
             "slot_bytes": self._slot_bytes,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._fd = state["fd"].detach()
         self._slots, self._image_bytes = state["slots"], state["image_bytes"]
+        self._note_bytes = state["note_bytes"]
         self._slot_bytes = state["slot_bytes"]
         self._map_memory()
 

@@ -1,12 +1,13 @@
 """Everything between a source and the live hub, started and stopped as one."""
 
 from server.alarms import no_alarms
-from server.capture.address import source_from_text
+from server.capture.address import SourceKind, source_from_text
 from server.capture.rehearsal import Begun
 from server.config import Config
 from server.live import LiveHub
 from server.logs import LogSettings
 from server.loop.board import Board
+from server.loop.phone_inbox import PhoneInbox
 from server.loop.publisher import Look, Picture, Publisher
 from server.loop.staging import SceneOrder
 from server.loop.supervisor import Supervisor, Watch
@@ -15,14 +16,20 @@ from server.setup import CaseSetup
 
 
 class Tracked:
-    """Captures and tracks in a process of its own, and publishes to `hub`."""
+    """Captures and tracks in a process of its own, and publishes to `hub`.
+
+    Attributes:
+        hub: where the newest instant is published.
+        inbox: where a phone's images go; None for every other source.
+    """
 
     def __init__(self, config: Config, *, log: LogSettings, watch: Watch | None = None) -> None:
         self.hub = LiveHub()
-        self._board = Board(source_from_text(config.camera.source).name)
-        self._supervisor = Supervisor(
-            order=WorkerOrder(config=config, log=log), board=self._board, watch=watch
-        )
+        source = source_from_text(config.camera.source)
+        self.inbox = PhoneInbox() if source.kind is SourceKind.PHONE else None
+        self._board = Board(source.name)
+        order = WorkerOrder(config=config, log=log, inbox=self.inbox)
+        self._supervisor = Supervisor(order=order, board=self._board, watch=watch)
         self._publisher: Publisher | None = None
 
     @property
@@ -66,3 +73,5 @@ class Tracked:
         if self._publisher is not None:
             self._publisher.stop()
         self._supervisor.stop()
+        if self.inbox is not None:
+            self.inbox.close()

@@ -27,6 +27,7 @@ from server.config import Config
 from server.live import Trouble
 from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
+from server.loop.phone_inbox import PhoneInbox
 from server.loop.report import Report, ReportPacker
 from server.loop.ring import ImageRing
 from server.loop.staging import SceneOrder, Staging
@@ -56,6 +57,7 @@ class WorkerOrder:
         first_number: the number of its first image, above all that were reported before.
         skipped_before: images that were skipped before.
         scene: of the rehearsal, in place of what the settings say; None while no other one was ordered.
+        inbox: where the images of a phone come in; None for every other source.
     """
 
     config: Config
@@ -64,6 +66,7 @@ class WorkerOrder:
     first_number: int = 0
     skipped_before: int = 0
     scene: SceneOrder | None = None
+    inbox: PhoneInbox | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,7 +157,11 @@ def _staged(
     if theatre is None:
         calibration = preparation.with_case(order.case).calibrated_camera
         source = source_from_config(
-            order.config, stop=stop, first_number=order.first_number, calibration=calibration
+            order.config,
+            stop=stop,
+            first_number=order.first_number,
+            calibration=calibration,
+            inbox=order.inbox,
         )
         return source, None
     store = StillFiles(home_folder())

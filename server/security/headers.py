@@ -31,6 +31,8 @@ ALWAYS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(), microphone=(), geolocation=()",
 }
+# Of the one page that sends its device's camera.
+CAMERA_PAGE_PERMISSIONS = "camera=(self), microphone=(), geolocation=()"
 # Once by TLS, by TLS for a year: nobody on the way turns it back. Not for other servers of this name.
 UNDER_TLS = {"Strict-Transport-Security": "max-age=31536000"}
 

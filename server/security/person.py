@@ -15,6 +15,7 @@ class Role(StrEnum):
     SUPERVISOR = "supervisor"  # sees all, points, co-signs, asks to hold; moves nothing
     VIEWER = "viewer"  # sees
     SCREEN = "screen"  # the screen in theatre: sees, sounds, acknowledges
+    CAMERA = "camera"  # a phone or tablet that sends its camera's images; sees nothing
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from server.security.person import Role
 
 EVERYBODY = frozenset(Role)
+WATCHERS = EVERYBODY - {Role.CAMERA}
 OVERSEERS = frozenset({Role.OPERATOR, Role.SUPERVISOR})
 THEATRE = frozenset({Role.OPERATOR, Role.SCREEN})
 OPERATORS = frozenset({Role.OPERATOR})
+CAMERAS = frozenset({Role.OPERATOR, Role.CAMERA})
 
 SOCKET = "WS"
 
@@ -23,10 +25,14 @@ GET     /health
 POST    /api/session
 """
 
-# What is live, and who one is oneself.
-SEEN_BY_EVERYBODY = """
+# Who one is oneself.
+OWN = """
 GET     /api/session
 DELETE  /api/session
+"""
+
+# What is live.
+SEEN_BY_WATCHERS = """
 GET     /api/dashboard
 GET     /api/live
 GET     /api/alarms
@@ -182,6 +188,11 @@ POST    /api/surface/from-ct
 POST    /api/surface
 """
 
+# A device that is invited as a camera can do this alone.
+SENT_BY_CAMERAS = """
+WS      /ws/camera
+"""
+
 # Nothing that a person does: a page says every two seconds that it is there. The alarm log has what changes.
 UNWRITTEN = "POST    /api/alarms/screens"
 # Nothing is changed, but a patient's pictures leave the server.
@@ -251,11 +262,13 @@ def _rules() -> Iterable[Rule]:
     )
     for lines, roles in (
         (PUBLIC, EVERYBODY),
-        (SEEN_BY_EVERYBODY, EVERYBODY),
+        (OWN, EVERYBODY),
+        (SEEN_BY_WATCHERS, WATCHERS),
         (SEEN_BY_OVERSEERS, OVERSEERS),
         (DONE_IN_THEATRE, THEATRE),
         (DONE_BY_OVERSEERS, OVERSEERS),
         (DONE_BY_OPERATORS, OPERATORS),
+        (SENT_BY_CAMERAS, CAMERAS),
     ):
         for key in _keys(lines):
             changes = key[0] not in {"GET", SOCKET}

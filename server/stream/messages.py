@@ -48,7 +48,7 @@ class CameraStatusMessage(Message):
 
     clock: ImageClock
     """Whose clock says when an image was taken: the camera driver's, the camera's own, the stream's
-    sender's, or this machine's at its arrival."""
+    sender's, the browser's of the phone that sends it, or this machine's at its arrival."""
     asked: CameraModeMessage | None
     granted: CameraModeMessage | None
     controls: dict[str, int]

@@ -30,6 +30,13 @@ VIEWERS_MAY = {
     "WS /scene",
     "WS /scene/",
 }
+CAMERAS_MAY = {
+    "GET /health",
+    "GET /api/session",
+    "POST /api/session",
+    "DELETE /api/session",
+    "WS /ws/camera",
+}
 SUPERVISORS_DO = {
     "DELETE /api/session",
     "POST /api/session",
@@ -71,13 +78,15 @@ def test_what_each_role_may_is_what_was_agreed() -> None:
 
     everything = {rule.name for rule in TABLE}
     assert may(Role.OPERATOR, read=True) | may(Role.OPERATOR, read=False) == everything
-    assert may(Role.SUPERVISOR, read=True) == may(Role.OPERATOR, read=True)
+    assert may(Role.SUPERVISOR, read=True) == may(Role.OPERATOR, read=True) - {"WS /ws/camera"}
     viewer = may(Role.VIEWER, read=True) | may(Role.VIEWER, read=False)
     assert viewer - {"GET /health", "POST /api/session"} >= VIEWERS_MAY
     assert may(Role.SCREEN, read=True) == may(Role.VIEWER, read=True)
     # What other rooms add for their roles goes here by name.
     assert {one for one in may(Role.SUPERVISOR, read=False) if "/supervision" not in one} == SUPERVISORS_DO
     assert may(Role.SCREEN, read=False) == SCREENS_DO
+    camera = may(Role.CAMERA, read=True) | may(Role.CAMERA, read=False)
+    assert camera == CAMERAS_MAY
     assert {rule.name for rule in TABLE if rule.is_public} == {"GET /health", "POST /api/session"}
 
 

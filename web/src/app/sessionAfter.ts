@@ -1,6 +1,6 @@
 // Who is believed to be signed in, after each answer of the server.
 
-export type Role = "operator" | "supervisor" | "viewer" | "screen";
+export type Role = "operator" | "supervisor" | "viewer" | "screen" | "camera";
 
 export interface Who {
   name: string;

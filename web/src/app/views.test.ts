@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { viewAt } from "./views";
+import { homeOf, isCameraAt, viewAt } from "./views";
 
 test.each([
   ["/", "operator", "theatre"],
@@ -12,4 +12,23 @@ test.each([
   ["/nonsense", "screen", "theatre"],
 ] as const)("%s shows a %s the %s view", (path, role, view) => {
   expect(viewAt(path, role)).toBe(view);
+});
+
+test.each([
+  ["/camera", "operator", true],
+  ["/camera", "camera", true],
+  ["/theatre", "camera", true],
+  ["/operator", "operator", false],
+  ["/camera", "viewer", false],
+  ["/camera", "supervisor", false],
+] as const)("a device at %s, signed in as %s, is the camera: %s", (path, role, is) => {
+  expect(isCameraAt(path, role)).toBe(is);
+});
+
+test("a camera begins where it sends, everybody else where they look", () => {
+  expect([homeOf("camera"), homeOf("operator"), homeOf("screen")]).toEqual([
+    "/camera",
+    "/operator",
+    "/theatre",
+  ]);
 });

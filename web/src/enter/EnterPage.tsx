@@ -2,7 +2,7 @@ import { Button, Loader, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { useSession, type Session } from "../app/session";
-import { PATHS, viewsOf } from "../app/views";
+import { homeOf } from "../app/views";
 import type { Refusal } from "../rest/client";
 import type { EnterWords } from "../words/enter/en";
 import { useWords } from "../words/WordsContext";
@@ -43,7 +43,7 @@ export function EnterPage(): ReactNode {
         </section>
       )}
       {session.state === "in" && !busy && (
-        <Link className="enter-on" href={PATHS[viewsOf(session.who.role)[0] ?? "theatre"]}>
+        <Link className="enter-on" href={homeOf(session.who.role)}>
           {words.goOn}
         </Link>
       )}

@@ -2,7 +2,7 @@
 import { useEffect, useEffectEvent, useRef, useState } from "react";
 import { useLocation } from "wouter";
 import { useSession } from "../app/session";
-import { PATHS, viewsOf } from "../app/views";
+import { homeOf } from "../app/views";
 import { answered, Refusal, server } from "../rest/client";
 import { takeToken } from "./token";
 
@@ -28,7 +28,7 @@ export function useEntry(): Entry {
     answered(server.POST("/api/session", { body: { invitation: token } }))
       .then(({ role }) => {
         again();
-        go(PATHS[viewsOf(role)[0] ?? "theatre"], { replace: true });
+        go(homeOf(role), { replace: true });
       })
       .catch((error: unknown) => {
         again();

@@ -11,6 +11,7 @@ import { marksDe } from "./marks/de";
 import { operatorDe } from "./operator/de";
 import { auditDe } from "./audit/de";
 import { peopleDe } from "./people/de";
+import { phoneDe } from "./phone/de";
 import { planDe } from "./plan/de";
 import { reasonsDe } from "./reasons/de";
 import { registrationDe } from "./registration/de";
@@ -123,6 +124,7 @@ export const de: Words = {
     driver: "dem Kameratreiber",
     device: "der Uhr der Kamera",
     sender: "dem Sender des Stroms",
+    browser: "dem Browser des Telefons",
     arrival: "der Ankunft",
   },
   linkState: {
@@ -160,6 +162,7 @@ export const de: Words = {
   latency: latencyDe,
   tool: toolDe,
   people: peopleDe,
+  phone: phoneDe,
   audit: auditDe,
   plan: planDe,
   registration: registrationDe,

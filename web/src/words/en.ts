@@ -11,6 +11,7 @@ import { marksEn } from "./marks/en";
 import { operatorEn } from "./operator/en";
 import { auditEn } from "./audit/en";
 import { peopleEn } from "./people/en";
+import { phoneEn } from "./phone/en";
 import { planEn } from "./plan/en";
 import { reasonsEn } from "./reasons/en";
 import { registrationEn } from "./registration/en";
@@ -125,6 +126,7 @@ export const en: Words = {
     driver: "the camera's driver",
     device: "the camera's own clock",
     sender: "the stream's sender",
+    browser: "the phone's browser",
     arrival: "its arrival",
   },
   linkState: {
@@ -162,6 +164,7 @@ export const en: Words = {
   latency: latencyEn,
   tool: toolEn,
   people: peopleEn,
+  phone: phoneEn,
   audit: auditEn,
   plan: planEn,
   registration: registrationEn,

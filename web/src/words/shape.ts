@@ -13,6 +13,7 @@ import type { MarksWords } from "./marks/en";
 import type { NavigateWords } from "./navigate/en";
 import type { OperatorWords } from "./operator/en";
 import type { PeopleWords } from "./people/en";
+import type { PhoneWords } from "./phone/en";
 import type { PlanWords } from "./plan/en";
 import type { RegistrationWords } from "./registration/en";
 import type { ReportWords } from "./report/en";
@@ -121,6 +122,7 @@ export interface Words {
   latency: LatencyWords;
   tool: ToolWords;
   people: PeopleWords;
+  phone: PhoneWords;
   audit: AuditWords;
   plan: PlanWords;
   registration: RegistrationWords;

@@ -10,7 +10,7 @@ import { InvitationLink } from "./InvitationLink";
 
 type Invited = components["schemas"]["InvitedMessage"];
 
-const ROLES: readonly Role[] = ["supervisor", "viewer", "screen", "operator"];
+const ROLES: readonly Role[] = ["supervisor", "viewer", "screen", "camera", "operator"];
 const HOURS = [1, 24, 168];
 
 /** An invitation: who, as what, for how long; then its link, once. */

@@ -11,6 +11,7 @@ export const peopleDe: PeopleWords = {
     supervisor: "Sieht alles, zeigt und zeichnet gegen. Bewegt nichts.",
     viewer: "Sieht, was live ist.",
     screen: "Der Bildschirm im Saal: zeigt, tönt und stellt Alarme still.",
+    camera: "Ein Telefon oder Tablet, das die Bilder seiner Kamera sendet. Sieht nichts.",
   },
   lasts: "Der Link gilt",
   hours: "Std.",

@@ -9,6 +9,7 @@ export const peopleEn = {
     supervisor: "Sees everything, points and co-signs. Moves nothing.",
     viewer: "Sees what is live.",
     screen: "The screen in theatre: sees, sounds, and quiets alarms.",
+    camera: "A phone or tablet that sends its camera's images. Sees nothing.",
   },
   lasts: "The link lets in for",
   hours: "h",

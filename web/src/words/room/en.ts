@@ -2,7 +2,13 @@ export const roomEn = {
   watching: "Watching",
   unknown: "Who is watching is not known now.",
   you: "you",
-  role: { operator: "operator", supervisor: "supervisor", viewer: "viewer", screen: "theatre screen" },
+  role: {
+    operator: "operator",
+    supervisor: "supervisor",
+    viewer: "viewer",
+    screen: "theatre screen",
+    camera: "camera",
+  },
   line: { good: "good line", slow: "slow line", silent: "not answering" },
 };
 

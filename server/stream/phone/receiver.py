@@ -1,0 +1,175 @@
+"""The one phone that sends now, and the way of its images to the tracking process."""
+
+import asyncio
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import structlog
+
+from server.capture.local_camera import CalibratedCamera
+from server.capture.phone import Inbound, PhoneImage
+from server.config import CameraConfig
+from server.live import Trouble
+from server.loop.phone_inbox import PhoneInbox
+from server.security import Person
+from server.stream.connection import LARGEST_UPWARD_BYTES
+from server.stream.phone.messages import WelcomeMessage
+from server.stream.phone.sender import Received
+from tracker.camera import CameraControl
+from tracker.errors import NavigationError
+
+DEFAULT_SIZE_WH_PX = (1280, 720)
+DEFAULT_RATE_HZ = 30.0
+# Artefacts of compression stay below the sensor's noise; 1280x720 takes some 150 to 300 kB.
+JPEG_QUALITY_RATIO = 0.9
+# As of a local camera: past it, an image waited somewhere.
+MAX_AGE_S = 1.0
+RATE_WINDOW_S = 2.0
+
+_log = structlog.get_logger(__name__)
+
+
+class PhoneTaken(NavigationError):
+    """Another device sends already."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(
+            "PHONE_TAKEN",
+            f"another device sends its camera's images already, signed in as {name}",
+            "Touch STOP on it, or close its page; then touch START here.",
+            {"name": name},
+        )
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Made again from what it was made of."""
+        return type(self), (self.context["name"],)
+
+
+@dataclass(slots=True, eq=False)
+class Place:
+    """The place of the one who sends.
+
+    Attributes:
+        key: of the page.
+        person: who is signed in there.
+        replaced: set when the same page came back on another connection.
+        problem: of the last image; None when it was handed on.
+    """
+
+    key: str
+    person: Person
+    replaced: asyncio.Event = field(default_factory=asyncio.Event)
+    problem: Trouble | None = None
+
+
+class Receiver:
+    """Hands the images of one sender on, each newer than the one before. Used in one event loop.
+
+    Attributes:
+        images: that were handed on, of all senders.
+        calibrated: what the calibration in use was made with; None while there is none.
+    """
+
+    def __init__(
+        self, inbox: PhoneInbox, settings: CameraConfig, *, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self.images = 0
+        self.calibrated: CalibratedCamera | None = None
+        self._inbox = inbox
+        self._settings = settings
+        self._clock = clock
+        self._place: Place | None = None
+        self._captured_at_s = 0.0
+        self._arrived: deque[float] = deque(maxlen=240)
+
+    @property
+    def rate_hz(self) -> float:
+        """Images a second that were handed on in the last two seconds."""
+        since_s = self._clock() - RATE_WINDOW_S
+        recent = [at_s for at_s in self._arrived if at_s >= since_s]
+        if len(recent) < 2 or recent[-1] <= recent[0]:
+            return 0.0
+        return (len(recent) - 1) / (recent[-1] - recent[0])
+
+    def welcome(self) -> WelcomeMessage:
+        """What a page is asked for: by the settings, else as the calibration in use was made."""
+        settings, calibrated = self._settings, self.calibrated
+        width, height = DEFAULT_SIZE_WH_PX if calibrated is None else calibrated.size_wh_px
+        if settings.width is not None and settings.height is not None:
+            width, height = settings.width, settings.height
+        return WelcomeMessage(
+            width_px=width,
+            height_px=height,
+            rate_hz=settings.rate_hz or DEFAULT_RATE_HZ,
+            quality_ratio=JPEG_QUALITY_RATIO,
+            part_bytes=LARGEST_UPWARD_BYTES,
+            lock_focus=settings.lock_controls,
+            focus_mm=None if calibrated is None else calibrated.controls.get(CameraControl.FOCUS),
+        )
+
+    @contextmanager
+    def sending(self, key: str, person: Person) -> Iterator[Place]:
+        """The place of the one who sends, for the time of the block.
+
+        Raises:
+            PhoneTaken: another page has it. The same page of the same person gets its place back.
+        """
+        before = self._place
+        if before is not None and (before.key, before.person.id) != (key, person.id):
+            _log.warning("phone_refused", by=person.name, sending=before.person.name)
+            raise PhoneTaken(before.person.name)
+        if before is not None:
+            before.replaced.set()
+        place = self._place = Place(key=key, person=person)
+        self._inbox.put(Inbound(sender=person.name))
+        _log.info("phone_sends", by=person.name)
+        try:
+            yield place
+        finally:
+            if self._place is place:
+                self._place = None
+                self._inbox.put(Inbound(sender=""))
+                _log.info("phone_gone", by=person.name)
+
+    def deliver(self, place: Place, received: Received | Trouble) -> None:
+        """Hand an image on to the tracking process, or why it cannot be used."""
+        if self._place is not place:
+            return
+        problem = received if isinstance(received, Trouble) else self._trouble_of(received)
+        if problem is not None and (place.problem is None or place.problem.code != problem.code):
+            _log.warning(problem.message, code=problem.code, remedy=problem.remedy, by=place.person.name)
+        place.problem = problem
+        image = None
+        if problem is None and isinstance(received, Received):
+            image = PhoneImage(
+                jpeg=received.jpeg,
+                number=self.images,
+                captured_at_s=received.captured_at_s,
+                clock=received.clock,
+                camera=received.camera,
+            )
+            self.images += 1
+            self._captured_at_s = received.captured_at_s
+            self._arrived.append(received.arrived_s)
+        self._inbox.put(Inbound(sender=place.person.name, image=image, problem=problem))
+
+    def _trouble_of(self, received: Received) -> Trouble | None:
+        if received.captured_at_s <= self._captured_at_s:
+            return Trouble(
+                code="PHONE_IMAGE_REPEATED",
+                message="an image of the phone was captured no later than the one before it",
+                remedy="Touch STOP and START on the phone.",
+            )
+        age_s = received.arrived_s - received.captured_at_s
+        if age_s <= MAX_AGE_S:
+            return None
+        return Trouble(
+            code="PHONE_IMAGE_OLD",
+            message=f"images of the phone arrive {age_s:.1f} s after their capture, limit {MAX_AGE_S:g} s",
+            remedy="Bring the phone nearer to its access point, or ask for smaller images with camera.width "
+            "and camera.height.",
+            context={"limit_s": MAX_AGE_S},
+        )

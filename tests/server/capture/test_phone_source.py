@@ -1,0 +1,136 @@
+"""A phone as a source: what it gives, and what it says when it gives nothing."""
+
+import threading
+from dataclasses import replace
+
+import pytest
+
+from server.capture.address import SourceKind, source_from_text
+from server.capture.choose import source_from_config
+from server.capture.phone import Focus, Inbound, PhoneSource, broken_image
+from server.config import CameraConfig, Config
+from server.errors import CaptureError
+from server.live import ImageClock
+from tests.server.capture.sent_by_phone import CAMERA, Script, image
+from tracker.camera import CameraControl
+
+HERE = Inbound(sender="phone")
+GONE = Inbound(sender="")
+
+
+def sent(number: int, captured_at_s: float = 1.0, **changes: object) -> Inbound:
+    return Inbound(sender="phone", image=image(number, captured_at_s, **changes))
+
+
+def opened(script: Script, stop: threading.Event | None = None, first_number: int = 0) -> PhoneSource:
+    source = PhoneSource(
+        script, stop=stop or threading.Event(), first_number=first_number, clock=script.clock
+    )
+    source.open()
+    return source
+
+
+def test_the_settings_name_it_phone() -> None:
+    assert source_from_text("Phone").kind is SourceKind.PHONE
+    config = Config(camera=CameraConfig(source="phone"))
+    source = source_from_config(config, stop=threading.Event(), inbox=Script(HERE, []))
+    assert (source.name, source.stalls, source.waits_for_taker) == ("phone", True, False)
+
+
+def test_without_a_server_there_is_nobody_to_send_to() -> None:
+    with pytest.raises(CaptureError) as told:
+        source_from_config(Config(camera=CameraConfig(source="phone")), stop=threading.Event())
+    assert told.value.code == "PHONE_WITHOUT_SERVER"
+
+
+def test_an_image_comes_with_the_time_of_its_capture_and_the_browsers_word_on_its_camera() -> None:
+    source = opened(Script(HERE, [sent(7, 12.5)]))
+    shot = source.read()
+    assert shot is not None
+    assert shot.image.shape == (90, 160, 3)
+    assert (shot.number, shot.captured_at_s, int(shot.image[0, 0, 0])) == (0, 12.5, 7)
+    status = source.camera
+    assert status.clock is ImageClock.BROWSER
+    assert str(status.granted) == "160x90 MJPG at 30 Hz"
+    assert status.controls == {CameraControl.FOCUS: 400, CameraControl.ZOOM: 100, CameraControl.AUTOFOCUS: 0}
+
+
+def test_images_that_were_replaced_before_they_were_read_are_counted() -> None:
+    source = opened(Script(HERE, [sent(3), sent(7)]), first_number=100)
+    assert [shot.number for shot in (source.read(), source.read()) if shot] == [100, 104]
+
+
+def test_an_image_from_before_the_source_was_opened_is_not_read() -> None:
+    source = opened(Script(sent(3, 1.0), [sent(5, 2.0)]))
+    shot = source.read()
+    # One in between was skipped; the one that lay there is none that this source gave.
+    assert shot is not None
+    assert (shot.captured_at_s, shot.number) == (2.0, 1)
+
+
+def test_a_source_that_nobody_sends_to_says_how_to_begin() -> None:
+    for script in (Script(None, []), Script(GONE, []), Script(None, [GONE])):
+        with pytest.raises(CaptureError) as told:
+            opened(script)
+        assert told.value.code == "PHONE_ABSENT"
+        assert "/camera" in told.value.remedy
+
+
+@pytest.mark.parametrize(
+    ("entries", "code"),
+    [
+        pytest.param([GONE], "PHONE_GONE", id="its-page-is-closed"),
+        pytest.param([], "PHONE_SILENT", id="nothing-comes"),
+        pytest.param([HERE, None, HERE], "PHONE_SILENT", id="it-is-there-and-sends-nothing"),
+        pytest.param(
+            [Inbound(sender="phone", problem=broken_image()), None],
+            "PHONE_IMAGE_BROKEN",
+            id="what-it-sends-cannot-be-used",
+        ),
+        pytest.param(
+            [sent(0, jpeg=b"\xff\xd8no image\xff\xd9")], "PHONE_IMAGE_BROKEN", id="it-is-not-decoded"
+        ),
+    ],
+)
+def test_a_phone_that_gives_no_image_is_told(entries: list[Inbound | None], code: str) -> None:
+    source = opened(Script(HERE, entries))
+    with pytest.raises(CaptureError) as told:
+        source.read()
+    assert told.value.code == code
+    assert told.value.remedy
+
+
+def test_the_phone_is_told_silent_before_a_camera_with_a_cable_would_be() -> None:
+    script = Script(HERE, [])
+    source = opened(script)
+    with pytest.raises(CaptureError):
+        source.read()
+    assert script.now_s < 2.0
+
+
+def test_a_source_that_shall_stop_waits_no_longer() -> None:
+    stop = threading.Event()
+    stop.set()
+    assert opened(Script(HERE, []), stop).read() is None
+
+
+@pytest.mark.parametrize(
+    ("focus", "code"),
+    [
+        (Focus.LOCKED, None),
+        (Focus.AUTOMATIC, "PHONE_FOCUS_NOT_LOCKED"),
+        (Focus.UNKNOWN, "PHONE_FOCUS_NOT_LOCKED"),
+    ],
+)
+def test_a_focus_that_may_move_is_told(focus: Focus, code: str | None) -> None:
+    camera = replace(CAMERA, focus=focus)
+    source = opened(Script(HERE, [sent(1, camera=camera)]))
+    assert source.defect is None
+    source.read()
+    assert (None if source.defect is None else source.defect.code) == code
+    # What is not known cannot be compared with a calibration, and is not made up.
+    known = {Focus.LOCKED: 0, Focus.AUTOMATIC: 1, Focus.UNKNOWN: None}[focus]
+    assert source.camera.controls.get(CameraControl.AUTOFOCUS) == known
+    # It is gone, and with it what was known of it.
+    source.close()
+    assert (source.defect, source.camera.controls) == (None, {})

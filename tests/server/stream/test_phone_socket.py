@@ -1,0 +1,284 @@
+"""`/ws/camera` through the door: one sender, its images in the inbox, and who is refused why."""
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from starlette.testclient import WebSocketTestSession
+from starlette.websockets import WebSocketDisconnect
+
+from server.app import AppParts, create_app
+from server.capture.local_camera import CalibratedCamera
+from server.capture.phone import Inbound, PhoneImage
+from server.config import CameraConfig, Config
+from server.live import ImageClock, LiveHub, SourceState, SourceStatus, Trouble
+from server.loop.phone_inbox import PhoneInbox
+from server.security import Person, Role
+from server.stream.phone import socket as phone_socket
+from server.stream.phone.receiver import MAX_AGE_S, PhoneTaken, Receiver
+from server.stream.phone.sender import Received
+from tests.server.capture.sent_by_phone import CAMERA, jpeg_of
+from tests.server.stream.test_phone_sender import CAMERA as CAMERA_SAID
+from tracker.camera import CameraControl
+
+KEY, OTHER_KEY = "0" * 32, "1" * 32
+ITO = Person(id="ito", name="Dr. Ito", role=Role.OPERATOR)
+GUEST = Person(id="guest", name="Guest", role=Role.CAMERA)
+SETTINGS = CameraConfig(source="phone")
+CAMERA_WITHOUT_ZOOM = replace(CAMERA, zoom_percent=None)
+
+
+@pytest.fixture
+def inbox() -> Iterator[PhoneInbox]:
+    inbox = PhoneInbox()
+    yield inbox
+    inbox.close()
+
+
+@pytest.fixture
+def receiver(inbox: PhoneInbox) -> Receiver:
+    return Receiver(inbox, SETTINGS)
+
+
+@pytest.fixture
+def door(hub: LiveHub, receiver: Receiver) -> Iterator[TestClient]:
+    app = create_app(AppParts(hub=hub, config=Config(camera=SETTINGS), phone=receiver))
+    with TestClient(app, base_url="http://127.0.0.1:8000") as client:
+        yield client
+
+
+def connected(client: TestClient) -> WebSocketTestSession:
+    return client.websocket_connect("ws://127.0.0.1:8000/ws/camera")
+
+
+class Phone:
+    """A page that sends, as far as the server sees it. Its clock is this machine's."""
+
+    def __init__(self, socket: WebSocketTestSession, key: str = KEY) -> None:
+        self.socket = socket
+        self.credit = 0
+        self.say(hello={"key": key})
+
+    def say(self, **message: object) -> None:
+        self.socket.send_text(json.dumps(message))
+
+    def told(self, what: str) -> dict[str, Any]:
+        """The next message of this kind; each ping on the way is answered."""
+        while True:
+            message = self.socket.receive_json()
+            if "note" in message:
+                self.credit = message["note"]["credit"]
+                self.say(pong={"ping": message["note"]["ping"], "at_ms": time.monotonic() * 1000.0})
+            if what in message:
+                told: dict[str, Any] = message[what]
+                return told
+
+    def note_after(self, images: int) -> dict[str, Any]:
+        """The note that counts this many images."""
+        while (note := self.told("note"))["images"] < images:
+            pass
+        return note
+
+    def begin(self) -> dict[str, Any]:
+        welcome = self.told("welcome")
+        self.told("note")
+        self.say(camera=CAMERA_SAID)
+        return welcome
+
+    def send(self, jpeg: bytes, *, age_s: float = 0.0) -> None:
+        captured_ms = (time.monotonic() - age_s) * 1000.0
+        self.say(image={"bytes": len(jpeg), "captured_ms": captured_ms, "clock": "capture"})
+        self.socket.send_bytes(jpeg)
+
+
+def ending(socket: WebSocketTestSession) -> WebSocketDisconnect:
+    """How the server ends it, after whatever it says before."""
+    while True:
+        try:
+            socket.receive_json()
+        except WebSocketDisconnect as ended:
+            return ended
+
+
+def newest(inbox: PhoneInbox) -> Inbound:
+    entry = inbox.newest()
+    assert entry is not None
+    return entry[1]
+
+
+def test_images_reach_the_inbox_with_their_time_and_each_one_grants_the_next(
+    door: TestClient, inbox: PhoneInbox
+) -> None:
+    with connected(door) as socket:
+        phone = Phone(socket)
+        welcome = phone.begin()
+        assert (welcome["width_px"], welcome["height_px"], welcome["rate_hz"]) == (1280, 720, 30.0)
+        before_s = time.monotonic()
+        for number in range(5):
+            phone.send(jpeg_of(100 + number))
+            note = phone.note_after(number + 1)
+            assert note["credit"] == number + 1 + 2
+        image = newest(inbox).image
+        assert isinstance(image, PhoneImage)
+        assert image.jpeg == jpeg_of(104)
+        assert (image.number, image.clock, image.camera) == (4, ImageClock.BROWSER, CAMERA_WITHOUT_ZOOM)
+        assert before_s - 5.0 < image.captured_at_s <= time.monotonic()
+        assert note["delay_ms"] >= 0.0
+        assert note["trouble"] is None
+    # The page is closed: nobody is there, and that is told at once.
+    assert newest(inbox) == Inbound(sender="")
+
+
+def test_a_page_hears_what_the_server_has_against_its_images(
+    door: TestClient, inbox: PhoneInbox, hub: LiveHub, instant_of: Callable[..., Any]
+) -> None:
+    with connected(door) as socket:
+        phone = Phone(socket)
+        phone.begin()
+        phone.send(b"no picture")
+        while (note := phone.told("note"))["trouble"] is None:
+            pass
+        assert note["trouble"]["code"] == "PHONE_IMAGE_BROKEN"
+        told = newest(inbox)
+        assert told.problem is not None
+        assert (told.image, told.problem.code) == (None, "PHONE_IMAGE_BROKEN")
+        phone.send(jpeg_of(80))
+        assert phone.note_after(1)["trouble"] is None
+        trouble = Trouble(code="PHONE_FOCUS_NOT_LOCKED", message="it is not", remedy="None.")
+        hub.publish(
+            instant_of(1, source=SourceStatus(name="phone", state=SourceState.RUNNING, trouble=trouble))
+        )
+        while (note := phone.told("note"))["trouble"] is None:
+            pass
+        assert (note["trouble"]["code"], note["source_state"]) == ("PHONE_FOCUS_NOT_LOCKED", "running")
+
+
+def test_a_second_device_is_refused_with_a_sentence_and_the_first_goes_on(
+    door: TestClient, inbox: PhoneInbox
+) -> None:
+    with connected(door) as socket:
+        phone = Phone(socket)
+        phone.begin()
+        with connected(door) as second:
+            refused = Phone(second, OTHER_KEY).told("refused")
+            assert refused["code"] == "PHONE_TAKEN"
+            assert "STOP" in refused["remedy"]
+            assert ending(second).code == 1008
+        phone.send(jpeg_of(50))
+        phone.note_after(1)
+        assert newest(inbox).sender
+    with connected(door) as socket:
+        assert Phone(socket, OTHER_KEY).begin()
+
+
+def test_the_page_that_lost_its_connection_gets_its_place_back(door: TestClient, inbox: PhoneInbox) -> None:
+    # Its first connection hangs in the air: the server has not seen it end.
+    with connected(door) as hanging, connected(door) as socket:
+        first = Phone(hanging)
+        first.begin()
+        again = Phone(socket)
+        again.begin()
+        assert ending(hanging).code == phone_socket.REPLACED
+        again.send(jpeg_of(50))
+        again.note_after(1)
+        # The end of the first one has not taken the place from the second.
+        assert newest(inbox).sender
+
+
+def test_a_page_of_which_nothing_comes_is_gone(
+    door: TestClient, inbox: PhoneInbox, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(phone_socket, "SILENT_AFTER_S", 0.05)
+    with connected(door) as socket:
+        socket.send_text(json.dumps({"hello": {"key": KEY}}))
+        assert ending(socket).code == 1013
+    assert newest(inbox) == Inbound(sender="")
+
+
+def test_a_page_that_misbehaves_is_told_and_its_place_is_free(door: TestClient, inbox: PhoneInbox) -> None:
+    with connected(door) as socket:
+        phone = Phone(socket)
+        phone.begin()
+        socket.send_bytes(b"x")
+        ended = ending(socket)
+        assert (ended.code, "announced" in ended.reason) == (1008, True)
+    assert newest(inbox) == Inbound(sender="")
+
+
+def test_a_server_with_another_camera_says_how_to_start_it(client: TestClient) -> None:
+    with connected(client) as socket:
+        refused = socket.receive_json()["refused"]
+    assert refused["code"] == "PHONE_NOT_ASKED"
+    assert "rehearsal" in refused["message"]
+    assert "--source phone" in refused["remedy"]
+
+
+def received(captured_at_s: float, age_s: float = 0.05) -> Received:
+    return Received(
+        jpeg=jpeg_of(1),
+        captured_at_s=captured_at_s,
+        arrived_s=captured_at_s + age_s,
+        clock=ImageClock.BROWSER,
+        camera=CAMERA,
+    )
+
+
+@pytest.mark.parametrize(
+    ("second", "code"),
+    [
+        pytest.param(received(10.1), None, id="newer"),
+        pytest.param(received(10.0), "PHONE_IMAGE_REPEATED", id="the-same-again"),
+        pytest.param(received(9.9), "PHONE_IMAGE_REPEATED", id="older"),
+        pytest.param(received(10.1, MAX_AGE_S + 0.1), "PHONE_IMAGE_OLD", id="too-long-on-its-way"),
+    ],
+)
+def test_an_old_image_is_not_handed_on(
+    receiver: Receiver, inbox: PhoneInbox, second: Received, code: str | None
+) -> None:
+    with receiver.sending(KEY, ITO) as place:
+        receiver.deliver(place, received(10.0))
+        receiver.deliver(place, second)
+        told = newest(inbox)
+        assert (told.image is None) == (code is not None)
+        assert (None if place.problem is None else place.problem.code) == code
+
+
+def test_an_image_of_a_connection_that_was_replaced_is_not_handed_on(
+    receiver: Receiver, inbox: PhoneInbox
+) -> None:
+    with receiver.sending(KEY, ITO) as before, receiver.sending(KEY, ITO):
+        assert before.replaced.is_set()
+        receiver.deliver(before, received(10.0))
+        assert newest(inbox) == Inbound(sender="Dr. Ito")
+
+
+def test_a_key_alone_takes_nobodys_place(receiver: Receiver) -> None:
+    with receiver.sending(KEY, ITO), pytest.raises(PhoneTaken, match="Ito"), receiver.sending(KEY, GUEST):
+        pass
+
+
+def test_a_page_is_asked_for_what_the_calibration_in_use_was_made_with(inbox: PhoneInbox) -> None:
+    calibrated = CalibratedCamera(size_wh_px=(1920, 1080), controls={CameraControl.FOCUS: 430})
+    receiver = Receiver(inbox, SETTINGS)
+    receiver.calibrated = calibrated
+    welcome = receiver.welcome()
+    assert (welcome.width_px, welcome.height_px, welcome.focus_mm, welcome.lock_focus) == (
+        1920,
+        1080,
+        430,
+        True,
+    )
+    settings = CameraConfig(source="phone", width=640, height=480, rate_hz=15.0, lock_controls=False)
+    receiver = Receiver(inbox, settings)
+    receiver.calibrated = calibrated
+    welcome = receiver.welcome()
+    assert (welcome.width_px, welcome.height_px, welcome.rate_hz, welcome.lock_focus) == (
+        640,
+        480,
+        15.0,
+        False,
+    )
