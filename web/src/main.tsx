@@ -43,6 +43,7 @@ import "./theme/supervisor.css";
 import "./theme/people.css";
 import "./theme/line.css";
 import "./theme/latency.css";
+import "./theme/phone.css";
 
 import { MantineProvider } from "@mantine/core";
 import { StrictMode } from "react";

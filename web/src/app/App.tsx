@@ -1,4 +1,4 @@
-import { lazy, Suspense, type ComponentType, type ReactNode } from "react";
+import { lazy, Suspense, useEffect, type ComponentType, type ReactNode } from "react";
 import { useLocation } from "wouter";
 import { EnterPage } from "../enter/EnterPage";
 import { LiveProvider } from "../live/LiveContext";
@@ -6,7 +6,7 @@ import { RoomProvider } from "../room/RoomContext";
 import { TheatreView } from "../theatre/TheatreView";
 import { ProcedureProvider } from "./procedure";
 import { useSession } from "./session";
-import { viewAt, type ViewName } from "./views";
+import { CAMERA_PATH, isCameraAt, viewAt, type ViewName } from "./views";
 
 // A screen in theatre loads nothing of the pages that only a tablet shows.
 const VIEWS: Record<ViewName, ComponentType> = {
@@ -15,11 +15,18 @@ const VIEWS: Record<ViewName, ComponentType> = {
   supervisor: lazy(async () => ({ default: (await import("../supervisor/SupervisorView")).SupervisorView })),
 };
 
+const CameraPage = lazy(async () => ({ default: (await import("../phone/CameraPage")).CameraPage }));
+// The browser asks for a camera only in a page that was loaded at the address whose answer allows it.
+const LOADED_AT = location.pathname;
+
 /** Who is signed in sees a view; everybody else the door. */
 export function App(): ReactNode {
   const { session } = useSession();
   const [path] = useLocation();
   if (session.state !== "in" || path === "/enter") return <EnterPage />;
+  if (isCameraAt(path, session.who.role)) {
+    return <Suspense fallback={null}>{LOADED_AT === CAMERA_PATH ? <CameraPage /> : <LoadedAnew />}</Suspense>;
+  }
   const view = viewAt(path, session.who.role);
   const View = VIEWS[view];
   return (
@@ -33,4 +40,11 @@ export function App(): ReactNode {
       </RoomProvider>
     </LiveProvider>
   );
+}
+
+function LoadedAnew(): ReactNode {
+  useEffect(() => {
+    location.replace(CAMERA_PATH + location.search);
+  }, []);
+  return null;
 }

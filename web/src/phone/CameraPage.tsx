@@ -1,0 +1,66 @@
+import { Button } from "@mantine/core";
+import { useRef, type ReactNode } from "react";
+import { SignedIn } from "../app/SignedIn";
+import { useSession } from "../app/session";
+import { useWords } from "../words/WordsContext";
+import { unfit } from "./noCamera";
+import { SendingFacts } from "./SendingFacts";
+import { SendingTroubles } from "./SendingTroubles";
+import { useSending } from "./useSending";
+
+/** This device as camera: its picture, one button, and what is sent and said. */
+export function CameraPage(): ReactNode {
+  const all = useWords();
+  const words = all.phone;
+  const { session } = useSession();
+  const video = useRef<HTMLVideoElement>(null);
+  const { sending, start, stop } = useSending(video);
+  const lacks = unfit(
+    isSecureContext,
+    "mediaDevices" in navigator,
+    "requestVideoFrameCallback" in HTMLVideoElement.prototype,
+  );
+  const isOn = sending.state !== "idle";
+  return (
+    <main className="phone" data-testid="phone" data-state={sending.state}>
+      <header className="phone-top">
+        <h1>{words.title}</h1>
+        <SignedIn />
+      </header>
+      <div className="phone-preview" data-on={isOn}>
+        <video ref={video} playsInline muted aria-label={words.preview} />
+        {!isOn && <p>{words.noPreview}</p>}
+      </div>
+      <div className="phone-panel">
+        <p className="phone-state" role="status">
+          {words.state[sending.state]}
+        </p>
+        <SendingTroubles sending={sending} lacks={lacks} />
+        {isOn ? <SendingFacts sending={sending} /> : <p className="phone-lead">{words.lead}</p>}
+        <Button
+          className="phone-button"
+          variant={isOn ? "default" : "filled"}
+          fullWidth
+          disabled={lacks !== null}
+          onClick={isOn ? stop : start}
+          data-testid="phone-button"
+        >
+          {isOn ? words.stop : words.start}
+        </Button>
+        <details>
+          <summary>{words.limits}</summary>
+          <ul>
+            {Object.entries(words.limitList).map(([key, text]) => (
+              <li key={key}>{text}</li>
+            ))}
+          </ul>
+        </details>
+        <footer>
+          {/* Loaded anew: other pages may not ask for a camera. */}
+          {session.state === "in" && session.who.role === "operator" && <a href="/">{words.dashboard}</a>}
+          <span className="notice">{all.notice}</span>
+        </footer>
+      </div>
+    </main>
+  );
+}

@@ -1,0 +1,70 @@
+import type { ReactNode } from "react";
+import { shownNumber } from "../live/rounding";
+import { shownBytes } from "../operator/parts/shown";
+import { filled } from "../words/filled";
+import { useWords } from "../words/WordsContext";
+import type { Sending } from "./useSending";
+
+/** What is sent, and what the server says; what is not known yet has no line. */
+export function SendingFacts({ sending }: { sending: Sending }): ReactNode {
+  const all = useWords();
+  const words = all.phone;
+  const { welcome, facts, last, note } = sending;
+  const isSent = last !== null && sending.state === "sending";
+  return (
+    <dl className="phone-facts">
+      {facts !== null && welcome !== null && isSent && (
+        <Fact name={words.image}>
+          {filled(words.imageValue, {
+            width: facts.width_px,
+            height: facts.height_px,
+            size: shownBytes(last.bytes),
+            quality: Math.round(welcome.quality_ratio * 100),
+          })}
+        </Fact>
+      )}
+      {isSent && (
+        <Fact name={words.rate} id="sent">
+          {filled(words.perSecond, { rate: shownNumber(last.rateHz, 1) })}
+        </Fact>
+      )}
+      {facts !== null && (
+        <Fact name={words.focus} id="focus" bad={facts.focus !== "locked"}>
+          {words.focusState[facts.focus]}
+          {facts.focus_mm !== null &&
+            ` ${filled(words.focusAt, { distance: shownNumber(facts.focus_mm / 1000, 2) })}`}
+        </Fact>
+      )}
+      {isSent && (
+        <Fact name={words.times} bad={last.clock !== "capture"}>
+          {words.clock[last.clock]}
+        </Fact>
+      )}
+      {note !== null && (
+        <Fact name={words.server} id="server">
+          {filled(words.serverValue, {
+            state: all.cameraState[note.source_state ?? "unknown"],
+            rate: shownNumber(note.rate_hz, 1),
+          })}
+        </Fact>
+      )}
+      {note?.delay_ms != null && note.clock_error_ms !== null && (
+        <Fact name={words.delay}>
+          {filled(words.delayValue, {
+            least: Math.max(0, Math.floor(note.delay_ms - note.clock_error_ms)),
+            most: Math.ceil(note.delay_ms),
+          })}
+        </Fact>
+      )}
+    </dl>
+  );
+}
+
+function Fact(props: { name: string; id?: string; bad?: boolean; children: ReactNode }): ReactNode {
+  return (
+    <div className="fact" data-mood={props.bad === true ? "bad" : undefined}>
+      <dt>{props.name}</dt>
+      <dd data-testid={props.id === undefined ? undefined : `phone-${props.id}`}>{props.children}</dd>
+    </div>
+  );
+}

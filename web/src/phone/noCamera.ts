@@ -1,0 +1,16 @@
+// Why a browser gives no camera, as one of the reasons that the page has words for.
+
+export type NoCamera = "insecure" | "denied" | "none" | "busy" | "old" | "other";
+
+/** Null where this browser can send a camera. Without https it hides cameras from pages altogether. */
+export function unfit(isSecure: boolean, hasCameras: boolean, hasFrames: boolean): NoCamera | null {
+  if (!isSecure) return "insecure";
+  return hasCameras && hasFrames ? null : "old";
+}
+
+export function noCameraOf(error: unknown): NoCamera {
+  const name = error instanceof Error || error instanceof DOMException ? error.name : "";
+  if (name === "NotAllowedError" || name === "SecurityError") return "denied";
+  if (name === "NotFoundError" || name === "OverconstrainedError") return "none";
+  return name === "NotReadableError" || name === "AbortError" ? "busy" : "other";
+}

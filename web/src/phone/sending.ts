@@ -1,0 +1,180 @@
+// Joins the pure parts to the browser: camera, video frames, canvas, WebSocket, and the screen that stays on.
+import { factsOf, wanted, withLockedFocus, type Capabilities } from "./camera";
+import { frameTime, type FrameTimes } from "./frameTime";
+import type { CameraFacts, FrameTime, Note, Trouble, Welcome } from "./messages";
+import { PhoneLine, type PhoneSocket } from "./phoneLine";
+import { keepScreenOn } from "./screenOn";
+
+/** Automatic focus needs this long to find what suits the room; the server waits as long for other cameras. */
+const FOCUS_SETTLES_MS = 3000;
+const LOOK_EVERY_MS = 500;
+
+export interface Sent {
+  images: number;
+  bytes: number;
+  clock: FrameTime["clock"];
+}
+
+export interface Listener {
+  onWelcome(welcome: Welcome): void;
+  onFacts(facts: CameraFacts): void;
+  onSent(sent: Sent): void;
+  onNote(note: Note | null): void;
+  onScreenKept(kept: boolean): void;
+  /** It is over: the server refused, or the browser gave no camera. */
+  onRefused(trouble: Trouble): void;
+  onNoCamera(error: unknown): void;
+}
+
+/** Sends this device's camera, shown in `video`, until the answer is called. */
+export function startSending(video: HTMLVideoElement, listener: Listener): () => void {
+  const stop = new AbortController();
+  const { signal } = stop;
+  let track: MediaStreamTrack | null = null;
+  const line = new PhoneLine(pageKey(), {
+    open: () => new WebSocket(address()) as PhoneSocket,
+    later: (action, waitMs) => {
+      setTimeout(action, waitMs);
+    },
+    nowMs: () => performance.now(),
+    onWelcome: (welcome) => {
+      listener.onWelcome(welcome);
+      // One camera for all lines: who comes back after a loss goes on with what runs.
+      if (track === null) void begin(welcome).catch(fail);
+    },
+    onNote: listener.onNote.bind(listener),
+    onRefused: (trouble) => {
+      end();
+      listener.onRefused(trouble);
+    },
+    onLost: () => {
+      listener.onNote(null);
+    },
+  });
+
+  const begin = async (welcome: Welcome): Promise<void> => {
+    const opened = await openCamera(video, welcome);
+    track = opened;
+    if (signal.aborted) {
+      opened.stop();
+      video.srcObject = null;
+      return;
+    }
+    opened.addEventListener("ended", () => {
+      fail(new DOMException("", "NotReadableError"));
+    });
+    describe();
+    sendFrames(video, line, welcome, listener, signal);
+    const waitMs = welcome.focus_mm === null ? FOCUS_SETTLES_MS : 0;
+    setTimeout(() => void lockFocus(opened, welcome, signal), waitMs);
+  };
+  const describe = (): void => {
+    if (track === null || video.videoWidth === 0) return;
+    const size = { width: video.videoWidth, height: video.videoHeight };
+    const facts = factsOf(track.label, size, track.getSettings());
+    line.describe(facts);
+    listener.onFacts(facts);
+  };
+  const end = (): void => {
+    if (signal.aborted) return;
+    stop.abort();
+    clearInterval(timer);
+    line.stop();
+    track?.stop();
+    video.srcObject = null;
+  };
+  const fail = (error: unknown): void => {
+    if (signal.aborted) return;
+    end();
+    listener.onNoCamera(error);
+  };
+
+  const timer = setInterval(() => {
+    line.look();
+    describe();
+  }, LOOK_EVERY_MS);
+  video.addEventListener("resize", describe, { signal });
+  keepScreenOn(signal, listener.onScreenKept.bind(listener));
+  line.start();
+  return end;
+}
+
+async function openCamera(video: HTMLVideoElement, welcome: Welcome): Promise<MediaStreamTrack> {
+  const stream = await navigator.mediaDevices.getUserMedia({ audio: false, video: wanted(welcome) });
+  const track = stream.getVideoTracks()[0];
+  if (track === undefined) throw new DOMException("", "NotFoundError");
+  video.srcObject = stream;
+  await video.play();
+  return track;
+}
+
+async function lockFocus(track: MediaStreamTrack, welcome: Welcome, signal: AbortSignal): Promise<void> {
+  // Safari and Firefox have no capabilities of this kind, or none at all.
+  const capabilities = "getCapabilities" in track ? (track.getCapabilities() as Capabilities) : {};
+  const constraints = withLockedFocus(welcome, capabilities, track.getSettings());
+  if (constraints === null || signal.aborted) return;
+  try {
+    await track.applyConstraints(constraints);
+  } catch {
+    // What the camera then does is read from its settings, and told.
+  }
+}
+
+function sendFrames(
+  video: HTMLVideoElement,
+  line: PhoneLine,
+  welcome: Welcome,
+  listener: Listener,
+  signal: AbortSignal,
+): void {
+  const canvas = document.createElement("canvas");
+  const context = canvas.getContext("2d", { alpha: false });
+  let encoding = false;
+  let images = 0;
+  const take = (times: FrameTimes): void => {
+    if (encoding || !line.isFree || context === null) return;
+    const time = frameTime(times);
+    if (canvas.width !== video.videoWidth || canvas.height !== video.videoHeight) {
+      canvas.width = video.videoWidth;
+      canvas.height = video.videoHeight;
+    }
+    context.drawImage(video, 0, 0);
+    encoding = true;
+    void jpegOf(canvas, welcome.quality_ratio).then((jpeg) => {
+      encoding = false;
+      if (jpeg === null || signal.aborted || !line.send(jpeg, time)) return;
+      images += 1;
+      listener.onSent({ images, bytes: jpeg.byteLength, clock: time.clock });
+    });
+  };
+  const onFrame = (_now: number, times: FrameTimes): void => {
+    if (signal.aborted) return;
+    video.requestVideoFrameCallback(onFrame);
+    take(times);
+  };
+  video.requestVideoFrameCallback(onFrame);
+}
+
+async function jpegOf(canvas: HTMLCanvasElement, quality: number): Promise<ArrayBuffer | null> {
+  const blob = await new Promise<Blob | null>((resolve) => {
+    canvas.toBlob(resolve, "image/jpeg", quality);
+  });
+  return blob === null ? null : blob.arrayBuffer();
+}
+
+const KEY_NAME = "coaxial-camera";
+
+/** The same for as long as this page's tab lives, so that a reload finds its place again. */
+function pageKey(): string {
+  const known = sessionStorage.getItem(KEY_NAME);
+  if (known !== null) return known;
+  const key = [...crypto.getRandomValues(new Uint8Array(16))]
+    .map((byte) => byte.toString(16).padStart(2, "0"))
+    .join("");
+  sessionStorage.setItem(KEY_NAME, key);
+  return key;
+}
+
+function address(): string {
+  return `${location.protocol === "https:" ? "wss:" : "ws:"}//${location.host}/ws/camera`;
+}

@@ -1,0 +1,90 @@
+// What the page shows of its sending; started and stopped by touch, and stopped with the page.
+import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
+import type { CameraFacts, FrameTime, Note, Trouble, Welcome } from "./messages";
+import { noCameraOf, type NoCamera } from "./noCamera";
+import { Rate } from "./rate";
+import { startSending } from "./sending";
+
+export type SendingState = "idle" | "connecting" | "opening" | "sending" | "lost" | "none";
+
+export interface Sending {
+  state: SendingState;
+  welcome: Welcome | null;
+  facts: CameraFacts | null;
+  last: { bytes: number; clock: FrameTime["clock"]; rateHz: number } | null;
+  note: Note | null;
+  screenKept: boolean;
+  refused: Trouble | null;
+  noCamera: NoCamera | null;
+}
+
+const IDLE: Sending = {
+  state: "idle",
+  welcome: null,
+  facts: null,
+  last: null,
+  note: null,
+  screenKept: true,
+  refused: null,
+  noCamera: null,
+};
+
+export function useSending(video: RefObject<HTMLVideoElement | null>): {
+  sending: Sending;
+  start: () => void;
+  stop: () => void;
+} {
+  const [sending, setSending] = useState<Sending>(IDLE);
+  const running = useRef<(() => void) | null>(null);
+
+  const stop = useCallback(() => {
+    running.current?.();
+    running.current = null;
+    setSending(IDLE);
+  }, []);
+  const start = (): void => {
+    if (video.current === null || running.current !== null) return;
+    const change = (part: Partial<Sending>): void => {
+      setSending((before) => ({ ...before, ...part }));
+    };
+    const over = (part: Partial<Sending>): void => {
+      running.current = null;
+      setSending({ ...IDLE, ...part });
+    };
+    const rate = new Rate();
+    setSending({ ...IDLE, state: "connecting" });
+    running.current = startSending(video.current, {
+      onWelcome: (welcome) => {
+        change({ welcome, state: "opening" });
+      },
+      onFacts: (facts) => {
+        change({ facts });
+      },
+      onSent: ({ bytes, clock }) => {
+        rate.count(performance.now());
+        change({ state: "sending", last: { bytes, clock, rateHz: rate.hz(performance.now()) } });
+      },
+      onNote: (note) => {
+        // What went out before is not what goes out now.
+        const isSilent = rate.hz(performance.now()) === 0;
+        setSending((before) => ({
+          ...before,
+          note,
+          ...(before.last !== null && isSilent ? { state: "none", last: null } : {}),
+          ...(note === null ? { state: "lost", last: null } : {}),
+        }));
+      },
+      onScreenKept: (screenKept) => {
+        change({ screenKept });
+      },
+      onRefused: (refused) => {
+        over({ refused });
+      },
+      onNoCamera: (error) => {
+        over({ noCamera: noCameraOf(error) });
+      },
+    });
+  };
+  useEffect(() => stop, [stop]);
+  return { sending, start, stop };
+}
