@@ -14,10 +14,13 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from tracker.camera import CameraControl
+from tracker.camera import CameraControl, LampFlicker
 from tracker.errors import NavigationError
 from tracker.navigation import NavigationSnapshot
 from tracker.navigation.alarms import QUIET, AlarmPicture
+
+# V4L2_EXPOSURE_MANUAL, and the unit of V4L2_CID_EXPOSURE_ABSOLUTE.
+EXPOSURE_FIXED, EXPOSURE_UNIT_MS = 1, 0.1
 
 
 class SourceState(StrEnum):
@@ -86,6 +89,7 @@ class CameraStatus:
         granted: the mode that it granted; None where it is not known.
         controls: their values when they were last read, in the driver's own units; empty where none is known.
         trigger: the input that starts each image; empty where the camera runs freely.
+        flicker: lamps that beat with the images, as last seen; None where they do not, or it is not known.
     """
 
     clock: ImageClock
@@ -93,6 +97,14 @@ class CameraStatus:
     granted: CameraMode | None = None
     controls: Mapping[CameraControl, int] = field(default_factory=dict)
     trigger: str = ""
+    flicker: LampFlicker | None = None
+
+    @property
+    def exposure_ms(self) -> float | None:
+        """How long each image is exposed; None where it is not known, as while the camera sets it itself."""
+        exposure = self.controls.get(CameraControl.EXPOSURE)
+        is_fixed = self.controls.get(CameraControl.AUTO_EXPOSURE) == EXPOSURE_FIXED
+        return exposure * EXPOSURE_UNIT_MS if exposure and is_fixed else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,7 +21,7 @@ from server.capture.v4l2 import VideoDevice, VideoDevices, devices_here
 from server.capture.v4l2.structs import fourcc_text
 from server.errors import CaptureError
 from server.live import CameraMode, CameraStatus, ImageClock
-from tracker.camera import CameraControl
+from tracker.camera import CameraControl, FlickerMonitor
 
 log = structlog.get_logger(__name__)
 
@@ -102,6 +102,7 @@ class LocalCameraSource:
         self._asked: CameraMode | None = None
         self._check: ModeCheck | None = None
         self._keeper: ControlKeeper | None = None
+        self._lamps = FlickerMonitor()
 
     @property
     def defect(self) -> CaptureError | None:
@@ -116,6 +117,7 @@ class LocalCameraSource:
             asked=self._asked,
             granted=None if self._check is None else self._check.granted,
             controls={} if self._keeper is None else self._keeper.values,
+            flicker=self._lamps.flicker,
         )
 
     def adopt(self, calibration: CalibratedCamera | None) -> None:
@@ -141,6 +143,7 @@ class LocalCameraSource:
         self._camera = camera
         self._device = self._opened_device()
         self._stamps.restart()
+        self._lamps = FlickerMonitor()
         self._ask(camera)
         self._keep_controls()
 
@@ -164,6 +167,7 @@ class LocalCameraSource:
             self._check.take((width, height), captured_at_s)
         if self._keeper is not None:
             self._keeper.poll(self._clock())
+        self._look_at_light(image, captured_at_s)
         shot = Shot(
             image=np.asarray(image, dtype=np.uint8),
             number=self._number,
@@ -182,6 +186,23 @@ class LocalCameraSource:
             self._device.close()
             self._device = None
         self._keeper = None
+
+    def _look_at_light(self, image: np.ndarray, at_s: float) -> None:
+        """Look for lamps that flicker, and log when they begin to or end."""
+        before = self._lamps.flicker
+        self._lamps.take(np.asarray(image, dtype=np.uint8), at_s)
+        flicker = self._lamps.flicker
+        if flicker is not None and before is None:
+            log.warning(
+                "lamps flicker in the images",
+                code="LAMP_FLICKER",
+                camera=self.name,
+                mains_hz=flicker.mains_hz,
+                depth_percent=round(100.0 * flicker.depth_ratio, 1),
+                remedy="The page says which exposures even it out.",
+            )
+        elif flicker is None and before is not None:
+            log.info("lamps do not flicker any more", camera=self.name)
 
     def _use_adopted(self) -> None:
         """Take up the calibration that was adopted last, if it is another one."""

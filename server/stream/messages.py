@@ -17,10 +17,10 @@ from server.live import (
     Trouble,
 )
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
-from server.stream.assessment_messages import HeadlineMessage, headline_message
+from server.stream.assessment_messages import HeadlineMessage, TextMessage, headline_message, text_message
 from server.stream.message import Message as Message  # noqa: PLC0414  the doors take it from here
 from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
-from server.texts import headline_of
+from server.texts import flicker_note, headline_of
 
 
 class TroubleMessage(Message):
@@ -43,6 +43,14 @@ class CameraModeMessage(Message):
     """0 where it is not known."""
 
 
+class CameraNoteMessage(Message):
+    """Something about the camera that is worth mending, and stops nothing."""
+
+    code: str
+    message: TextMessage
+    remedy: TextMessage
+
+
 class CameraStatusMessage(Message):
     """What is known of a camera beside its images."""
 
@@ -53,6 +61,8 @@ class CameraStatusMessage(Message):
     granted: CameraModeMessage | None
     controls: dict[str, int]
     """Their values, in the driver's own units; without those that the camera does not have."""
+    note: CameraNoteMessage | None
+    """Lamps that flicker in its images; null while none do."""
 
 
 class SourceMessage(Message):
@@ -133,6 +143,17 @@ def _camera_message(camera: CameraStatus | None) -> CameraStatusMessage | None:
         asked=_mode_message(camera.asked),
         granted=_mode_message(camera.granted),
         controls={control.value: value for control, value in camera.controls.items()},
+        note=_note_message(camera),
+    )
+
+
+def _note_message(camera: CameraStatus) -> CameraNoteMessage | None:
+    if camera.flicker is None:
+        return None
+    rate_hz = 0.0 if camera.granted is None else camera.granted.rate_hz
+    note = flicker_note(camera.flicker, exposure_ms=camera.exposure_ms, rate_hz=rate_hz)
+    return CameraNoteMessage(
+        code=note.code, message=text_message(note.message), remedy=text_message(note.remedy)
     )
 
 

@@ -2,6 +2,7 @@
 
 from tracker.camera.boards import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 from tracker.camera.controls import GEOMETRIC, CameraControl, ControlChange, control_changes
+from tracker.camera.flicker import FlickerMonitor, LampFlicker
 from tracker.camera.model import CameraModel
 
 __all__ = [
@@ -15,5 +16,7 @@ __all__ = [
     "ControlChange",
     "DotBoard",
     "DotLayout",
+    "FlickerMonitor",
+    "LampFlicker",
     "control_changes",
 ]

@@ -1,8 +1,10 @@
 """What the wire says of the source of images."""
 
+import pytest
+
 from server.live import CameraMode, CameraStatus, ImageClock, SourceState, SourceStatus
 from server.stream.messages import source_message
-from tracker.camera import CameraControl
+from tracker.camera import CameraControl, LampFlicker
 
 GRANTED = CameraMode(fourcc="YUYV", size_wh_px=(640, 480), rate_hz=15.0)
 
@@ -17,7 +19,28 @@ def test_a_camera_says_whose_clock_it_is_what_it_granted_and_how_it_is_set() -> 
         "asked": None,
         "granted": {"fourcc": "YUYV", "width_px": 640, "height_px": 480, "rate_hz": 15.0},
         "controls": {"focus": 30, "gain": 7},
+        "note": None,
     }
+
+
+@pytest.mark.parametrize(
+    ("automatic", "exposure"),
+    # The unit of the driver is a tenth of a millisecond. What automatic exposure sets it does not always say.
+    [(1, ", exposure 7.0 ms"), (3, "")],
+)
+def test_lamps_that_flicker_are_told_as_a_note_with_the_exposure(automatic: int, exposure: str) -> None:
+    camera = CameraStatus(
+        clock=ImageClock.DRIVER,
+        granted=GRANTED,
+        controls={CameraControl.AUTO_EXPOSURE: automatic, CameraControl.EXPOSURE: 70},
+        flicker=LampFlicker(mains_hz=(50,), depth_ratio=0.03),
+    )
+    message = source_message(SourceStatus(name="camera 0", state=SourceState.RUNNING, camera=camera))
+    assert message.trouble is None
+    assert message.camera is not None
+    assert message.camera.note is not None
+    assert message.camera.note.message.en == f"Lamps flicker by 3.0 % in the image (50 Hz mains){exposure}."
+    assert "10.0 or 20.0 ms" in message.camera.note.remedy.en
 
 
 def test_a_file_has_no_camera() -> None:

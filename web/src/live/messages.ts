@@ -24,6 +24,7 @@ export type AbsentReason = Schemas["AbsentReason"];
 export type UnseenReason = Schemas["UnseenReason"];
 export type SourceState = Schemas["SourceState"];
 export type CameraModeMessage = Schemas["CameraModeMessage"];
+export type CameraNoteMessage = Schemas["CameraNoteMessage"];
 export type CameraStatusMessage = Schemas["CameraStatusMessage"];
 export type ImageClock = Schemas["ImageClock"];
 export type ProcessState = Schemas["ProcessState"];

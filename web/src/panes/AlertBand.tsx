@@ -1,13 +1,15 @@
 import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { useWords } from "../words/WordsContext";
-import { troublesOf } from "./troubles";
+import { textOf } from "../words/text";
+import { noteOf, troublesOf } from "./troubles";
 
 /** What is wrong, in the server's words: what happened, and what to do. Nothing wrong, no band. */
 export function AlertBand(): ReactNode {
   const words = useWords();
   const { view } = useLive();
   const troubles = view.link === "open" ? troublesOf(view) : [];
+  const note = view.link === "open" ? noteOf(view) : null;
   return (
     <div className="alerts" role="region" aria-label={words.alerts.title} aria-live="polite">
       {troubles.map(({ code, message, remedy }) => (
@@ -20,6 +22,13 @@ export function AlertBand(): ReactNode {
           </span>
         </p>
       ))}
+      {note !== null && (
+        <p className="alert note" data-testid="camera-note">
+          <span aria-hidden="true">▲</span>
+          <strong>{textOf(note.message, words)}</strong>
+          <span>{textOf(note.remedy, words)}</span>
+        </p>
+      )}
     </div>
   );
 }

@@ -1,4 +1,4 @@
-import type { TroubleMessage } from "../live/messages";
+import type { CameraNoteMessage, TroubleMessage } from "../live/messages";
 import type { View } from "../live/live";
 
 /** What the server says is wrong now: tracking first, then the camera. Nothing while the server is gone. */
@@ -7,6 +7,11 @@ export function troublesOf({ newest }: View): TroubleMessage[] {
   return [newest.process.trouble, newest.source.trouble]
     .filter((trouble) => trouble !== null)
     .map((trouble) => ({ ...trouble, message: capitalised(trouble.message) }));
+}
+
+/** What is worth mending about the camera and stops nothing; null while nothing is. */
+export function noteOf({ newest }: View): CameraNoteMessage | null {
+  return newest?.source.camera?.note ?? null;
 }
 
 /** The server's messages begin small and have no full stop, so that they stand in a sentence as well. */
