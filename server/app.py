@@ -30,6 +30,7 @@ from server.api.page import mount_page, page_addresses, page_folder
 from server.api.people import people_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
+from server.api.readout import readout_router
 from server.api.refused_uploads import RefusedUploads
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
@@ -230,6 +231,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
         app.include_router(jobs_router(parts.jobs))
     if parts.steps is not None and parts.store is not None:
         app.include_router(camera_router(parts.steps.camera, parts.store.home))
+        app.include_router(readout_router(parts.steps.readout))
         app.include_router(latency_router(parts.steps.latency))
         app.include_router(markers_router(parts.steps.markers, parts.store.home))
         app.include_router(tools_router(parts.steps.tool))

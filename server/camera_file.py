@@ -15,6 +15,8 @@ REMEDY = (
     "and size_wh_px (width, height)."
 )
 
+LONGEST_READOUT_MS = 200.0
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraFile:
@@ -25,12 +27,14 @@ class CameraFile:
         camera_name: which camera it is, as `camera.name` in the settings; None where it does not say.
         camera_source: its source, as `camera.source` in the settings; None where it does not say.
         controls: of the camera at the calibration, in its driver's own units; empty where it does not say.
+        readout_ms: from when the first row of an image is read to the last one; None where it does not say.
     """
 
     model: CameraModel
     camera_name: str | None = None
     camera_source: str | None = None
     controls: Mapping[CameraControl, int] = field(default_factory=dict)
+    readout_ms: float | None = None
 
 
 def load_camera_file(path: Path) -> CameraModel:
@@ -54,7 +58,7 @@ def read_camera_file(path: Path) -> CameraFile:
     whose = camera if isinstance(camera, dict) else {}
     try:
         model = CameraModel.from_mapping(values)
-        controls = controls_in(whose)
+        controls, readout_ms = controls_in(whose), readout_in(whose)
     except InvalidInput as error:
         raise InvalidInput(
             error.code, f"{path}: {error.message}", error.remedy, {**error.context, **context}
@@ -64,6 +68,7 @@ def read_camera_file(path: Path) -> CameraFile:
         camera_name=_text(whose.get("name")),
         camera_source=_text(whose.get("source")),
         controls=controls,
+        readout_ms=readout_ms,
     )
 
 
@@ -85,6 +90,26 @@ def controls_in(camera: Mapping[str, object]) -> Mapping[CameraControl, int]:
         f"the controls of a camera are {values!r}, needed are whole numbers by name",
         f"Leave controls out, or name some of these with their values: {', '.join(known)}.",
         {"controls": str(values)},
+    )
+
+
+def readout_in(camera: Mapping[str, object]) -> float | None:
+    """The readout time of a camera's rows under `readout_ms`; None where there is no such key.
+
+    Raises:
+        InvalidInput: CAMERA_FILE_INVALID, it is no number from 0 to 200.
+    """
+    value = camera.get("readout_ms")
+    if value is None:
+        return None
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if is_number and 0.0 <= float(str(value)) <= LONGEST_READOUT_MS:
+        return float(str(value))
+    raise InvalidInput(
+        "CAMERA_FILE_INVALID",
+        f"the readout of a camera is {value!r}, needed is a number of ms from 0 to {LONGEST_READOUT_MS:g}",
+        "Leave readout_ms out where it is not known; 0 is a global shutter.",
+        {"readout_ms": str(value)},
     )
 
 
@@ -112,7 +137,11 @@ def camera_file_text(file: CameraFile, facts: Mapping[str, object]) -> str:
         "distortion": file.model.distortion.tolist(),
         "size_wh_px": list(file.model.size_wh_px),
     }
-    whose: dict[str, object] = {"name": file.camera_name, "source": file.camera_source}
+    whose: dict[str, object] = {
+        "name": file.camera_name,
+        "source": file.camera_source,
+        "readout_ms": file.readout_ms,
+    }
     if file.controls:
         whose["controls"] = controls_values(file.controls)
     if any(whose.values()):

@@ -65,6 +65,7 @@ class CaseSetup:
     Attributes:
         camera: calibrated in this case.
         camera_controls: their values at that calibration; empty where they were not kept.
+        readout_ms: see `CameraFile`.
         models: markers whose picture was sent into this case.
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
@@ -78,6 +79,7 @@ class CaseSetup:
 
     camera: CameraModel | None = None
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
+    readout_ms: float | None = None
     models: tuple[MarkerModel, ...] = ()
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
@@ -112,8 +114,7 @@ class Preparation:
         smoothing: how much poses are steadied.
         readout_s: from when the first row of an image is read to the last one; 0 of a global shutter.
         theatre: the rehearsal's, None for every other source.
-        withheld: why no number is given although all is known; None when nothing is in the way.
-        registered_from_s: see `CaseSetup`.
+        withheld, registered_from_s: see `CaseSetup`.
         guide: what is known of the pedicle besides its channel; None takes the channel alone.
         camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
         same_sensor_area: images of all sizes show the same area of the sensor, as the settings say.
@@ -165,11 +166,7 @@ class Preparation:
         return None if self.camera is None else self._setup(self.camera, calibrated=True)
 
     def setup_for(self, size_wh_px: tuple[int, int], *, image: str | None = None) -> Setup:
-        """The setup for images of this size.
-
-        Args:
-            size_wh_px: width and height.
-            image: which one has it, if that can be told.
+        """The setup for images of this size, which `image` has, if that can be told.
 
         Raises:
             CalibrationError: CAMERA_SIZE_MISMATCH, the camera was calibrated at another size.
@@ -186,9 +183,8 @@ class Preparation:
     def with_case(self, case: CaseSetup) -> "Preparation":
         """The same with what a case knows in the place of what the settings say.
 
-        A channel of the case is not registered by whatever registered the one before: numbers against it wait
-        for a registration of their own. A marker of the settings stays what it is; a tool whose marker is not
-        looked for is left out.
+        A channel of the case is not registered by what registered another. A marker of the settings stays
+        what it is; a tool whose marker is not looked for is left out.
         """
         settled = {model.name for model in self.models}
         models = (*self.models, *(model for model in case.models if model.name not in settled))
@@ -200,6 +196,7 @@ class Preparation:
             camera_controls=self.camera_controls if case.camera is None else case.camera_controls,
             models=models,
             tools={**self.tools, **known},
+            readout_s=self._readout_s(case.readout_ms),
         )
         if case.channel is None:
             return changed
@@ -211,6 +208,10 @@ class Preparation:
             registered_from_s=case.registered_from_s,
             guide=case.guide,
         )
+
+    def _readout_s(self, readout_ms: float | None) -> float:
+        # The rehearsal's camera has a global shutter, whatever is said of a real one.
+        return self.readout_s if readout_ms is None or self.theatre is not None else readout_ms / 1000.0
 
     def tracker_for(self, setup: Setup) -> Tracker:
         """A new tracker of these markers, which knows nothing of images before."""
@@ -271,13 +272,12 @@ def build_setup(config: Config) -> Preparation:
             warning_distance_mm=config.alarms.warning_distance_mm, breach_ratio=config.alarms.breach_ratio
         ),
         smoothing=smoothing,
-        readout_s=config.camera.readout_ms / 1000.0,
+        readout_s=(config.camera.readout_ms or (camera.readout_ms if camera else None) or 0.0) / 1000.0,
     )
     if source_from_text(config.camera.source).kind is SourceKind.REHEARSAL:
         theatre = theatre_of(config.rehearsal)
         brought = (theatre.marker,) if theatre.reference is None else (theatre.marker, theatre.reference)
         named = config.reference.marker or ("" if theatre.reference is None else theatre.reference.name)
-        # Its camera has a global shutter, whatever the settings say of a real one.
         unknowing = replace(bare, models=(*brought, *models), theatre=theatre, reference=named, readout_s=0.0)
         return _with_what_it_brings(unknowing, theatre) if config.rehearsal.brings_setup else unknowing
     return bare
@@ -298,9 +298,9 @@ def _with_what_it_brings(unknowing: Preparation, theatre: "Theatre") -> Preparat
 
 @lru_cache(maxsize=1)
 def _rehearsed_guide(theatre: "Theatre") -> Guide:
-    """The bone of a theatre in software: known exactly, and worth a second of work once."""
-    chosen = choose_wall(theatre.channels[0], theatre.surface, None, radius_mm=theatre.tool.radius_mm)
-    return Guide(wall=chosen.wall)
+    """The bone of a theatre in software: known exactly."""
+    radius_mm = theatre.tool.radius_mm
+    return Guide(wall=choose_wall(theatre.channels[0], theatre.surface, None, radius_mm=radius_mm).wall)
 
 
 def camera_for_size(
@@ -311,7 +311,7 @@ def camera_for_size(
     Args:
         camera: as it was calibrated.
         size_wh_px: of the images.
-        same_sensor_area: somebody said that images of all sizes show the same area of the sensor.
+        same_sensor_area: images of all sizes show the same area of the sensor.
         image: which one has that size, if that can be told.
 
     Raises:

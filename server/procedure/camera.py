@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from server.calibration import accuracy_values, coverage_svg, report_values, residuals_svg, view_values
-from server.camera_file import CameraFile, controls_in, controls_values
+from server.camera_file import CameraFile, controls_in, controls_values, readout_in
 from server.config import CalibrationConfig
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import Job, Jobs, Report
@@ -23,6 +23,7 @@ from tracker.errors import CalibrationError, InvalidInput
 # There is one camera yet; its document has the name that it has in addresses.
 MAIN_CAMERA = "main"
 ACCURACY = "accuracy of the camera"
+READOUT_KEYS = ("readout_ms", "readout_sd_ms", "readout_found_by")
 
 
 class CameraStep:
@@ -188,6 +189,7 @@ class CameraStep:
         camera = {key: report[key] for key in ("matrix", "distortion", "size_wh_px")}
         if controls:
             camera["controls"] = controls_values(controls)
+        camera.update(self._readout_so_far(case, report["size_wh_px"]))
         return self._store.put(
             case.id,
             DocumentKind.CAMERA,
@@ -196,6 +198,16 @@ class CameraStep:
             made_by=made_by,
             files=list(files.values()),
         )
+
+    def _readout_so_far(self, case: Case, size_wh_px: object) -> dict[str, object]:
+        """The readout that is kept with the calibration before: it belongs to the mode, not to the lens."""
+        before = self._store.latest(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
+        camera = None if before is None else before.content.get("camera")
+        if not isinstance(camera, Mapping) or camera.get("source") != self._source:
+            return {}
+        if list(camera.get("size_wh_px", ())) != list(size_wh_px) if isinstance(size_wh_px, list) else True:
+            return {}
+        return {key: camera[key] for key in READOUT_KEYS if key in camera}
 
 
 def calibrate_views(
@@ -230,5 +242,8 @@ def kept_camera(document: Document, *, source: str) -> CameraFile:
             {"calibrated": made_for, "source": source},
         )
     return CameraFile(
-        model=CameraModel.from_mapping(values), camera_source=source, controls=controls_in(values)
+        model=CameraModel.from_mapping(values),
+        camera_source=source,
+        controls=controls_in(values),
+        readout_ms=readout_in(values),
     )

@@ -136,6 +136,7 @@ class CaseInUse:
         return CaseSetup(
             camera=None if camera is None else camera.model,
             camera_controls={} if camera is None else camera.controls,
+            readout_ms=None if camera is None else camera.readout_ms,
             models=self._markers.of_case,
             tools=tools,
             channel=channel,

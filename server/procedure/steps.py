@@ -18,6 +18,7 @@ from server.procedure.in_use import CaseInUse
 from server.procedure.latency import LatencyStep
 from server.procedure.markers import MarkerStep
 from server.procedure.plan import PlanStep
+from server.procedure.readout import ReadoutStep
 from server.procedure.registration import RegistrationSteps
 from server.procedure.state import Brought, Procedure
 from server.procedure.surface import SurfaceStep
@@ -51,6 +52,7 @@ class Steps:
     """
 
     camera: CameraStep
+    readout: ReadoutStep
     latency: LatencyStep
     markers: MarkerStep
     tool: ToolStep
@@ -105,6 +107,7 @@ class Steps:
         plan = PlanStep(store=store, jobs=jobs, opened=opened_ct, config=config.plan)
         return cls(
             camera=_camera_step(hub, store, jobs, config, brought),
+            readout=ReadoutStep(hub=hub, store=store, jobs=jobs, source=brought.source),
             latency=_latency_step(hub, store, brought),
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),
@@ -120,6 +123,7 @@ class Steps:
     def close(self) -> None:
         """Collect no more."""
         self.camera.end()
+        self.readout.end()
         self.latency.end()
         self.tool.end()
         self.registration.close()

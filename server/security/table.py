@@ -75,6 +75,8 @@ GET     /api/gates
 GET     /api/camera
 GET     /api/camera/collection
 GET     /api/camera/calibration
+GET     /api/camera/readout
+GET     /api/camera/readout/collection
 GET     /api/latency/measurement
 GET     /api/markers
 GET     /api/markers/{name}/picture
@@ -140,6 +142,10 @@ POST    /api/camera/collection/images
 POST    /api/camera/calibration
 POST    /api/camera/accuracy
 POST    /api/camera/board
+PUT     /api/camera/readout
+POST    /api/camera/readout/collection
+DELETE  /api/camera/readout/collection
+POST    /api/camera/readout/measurement
 POST    /api/latency/measurement
 DELETE  /api/latency/measurement
 POST    /api/latency/measurement/conclusion

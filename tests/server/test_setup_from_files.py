@@ -142,6 +142,11 @@ def test_how_long_a_camera_reads_its_rows_reaches_the_tracker_and_not_the_rehear
         assert preparation.readout_s == readout_s
         assert preparation.setup is not None
         assert preparation.tracker_for(preparation.setup).readout_s == readout_s
+        # What is kept with the case's calibration comes before the settings, also a global shutter.
+        for kept_ms in (21.0, 0.0):
+            expected_s = 0.0 if source == "rehearsal" else kept_ms / 1000.0
+            assert preparation.with_case(CaseSetup(readout_ms=kept_ms)).readout_s == expected_s
+        assert preparation.with_case(CaseSetup()).readout_s == readout_s
 
 
 def test_without_plan_and_registration_both_are_absent_with_their_reason(tmp_path: Path) -> None:

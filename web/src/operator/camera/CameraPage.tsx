@@ -14,6 +14,7 @@ import { CalibrationReport } from "./CalibrationReport";
 import { CameraTest } from "./CameraTest";
 import { Collection } from "./Collection";
 import { Markers } from "./Markers";
+import { ReadoutCard } from "./ReadoutCard";
 
 const ASK_EVERY_MS = 2000;
 
@@ -80,7 +81,10 @@ export function CameraPage(): ReactNode {
               />
             )}
             {data.calibration?.heading.current === true && (
-              <Accuracy board={board} check={data.accuracy} gate={gates.calibration} onChecked={changed} />
+              <>
+                <ReadoutCard board={board} onChange={changed} />
+                <Accuracy board={board} check={data.accuracy} gate={gates.calibration} onChecked={changed} />
+              </>
             )}
           </>
         )}

@@ -1,8 +1,10 @@
+import { readoutDe } from "./readout";
 import type { CameraWords } from "./en";
 
 export const cameraDe: CameraWords = {
   title: "Kamera",
   noCase: "Öffnen Sie zuerst einen Fall: darin wird die Kalibrierung gespeichert.",
+  readout: readoutDe,
   testTitle: "Kameratest",
   age: "Alter des Bildes",
   searchTime: "Suchzeit pro Bild",

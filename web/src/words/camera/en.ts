@@ -1,6 +1,9 @@
+import { readoutEn } from "./readout";
+
 export const cameraEn = {
   title: "Camera",
   noCase: "Open a case first: what is calibrated is kept in it.",
+  readout: readoutEn,
   testTitle: "Camera test",
   age: "Age of the picture",
   searchTime: "Search time per image",

@@ -1,0 +1,56 @@
+import { Button } from "@mantine/core";
+import { useEffect, useRef, type ReactNode } from "react";
+import { answered, Refusal, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
+import { useAsked } from "../../rest/useAsked";
+import { filled } from "../../words/filled";
+import { useWords } from "../../words/WordsContext";
+
+const ASK_EVERY_MS = 350;
+
+interface BurstProgressProps {
+  working: boolean;
+  onReady: () => void;
+  onEnd: () => void;
+}
+
+/** What to do with the board now, and how far its images have been taken and read. */
+export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): ReactNode {
+  const words = useWords().camera.readout;
+  const asked = useAsked((signal) => answered(server.GET("/api/camera/readout/collection", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const { data } = asked;
+  const ready = useRef(false);
+  useEffect(() => {
+    // Once a burst: what was refused is taken anew, not fitted again.
+    if (data?.stage === "ready" && !ready.current) {
+      ready.current = true;
+      onReady();
+    }
+  }, [data?.stage, onReady]);
+  if (data === null) return <Unanswered asked={asked} />;
+  const done = data.stage === "taking" ? data.taken_images : data.read_images;
+  return (
+    <>
+      <p className="newest" role="status" data-testid="burst-stage">
+        {words.stages[data.stage]}
+      </p>
+      {(data.stage === "taking" || data.stage === "reading") && (
+        <>
+          <progress max={data.images} value={done} aria-label={words.stages[data.stage]} />
+          <p className="soft">
+            {filled(words.progress, { done, all: data.images, found: data.found_images })}
+          </p>
+        </>
+      )}
+      <RefusalNote refusal={data.trouble === null ? null : new Refusal(data.trouble)} />
+      <div>
+        <Button size="lg" variant="default" disabled={working} onClick={onEnd}>
+          {words.end}
+        </Button>
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,103 @@
+import { Button } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { shownNumber } from "../../live/rounding";
+import { answered, Refusal, server } from "../../rest/client";
+import { JobProgress } from "../../rest/JobProgress";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { Unanswered } from "../../rest/Unanswered";
+import { useAsked } from "../../rest/useAsked";
+import { useDo } from "../../rest/useDo";
+import { isOver, useJob } from "../../rest/useJob";
+import { filled } from "../../words/filled";
+import { useWords } from "../../words/WordsContext";
+import { Card } from "../parts/Card";
+import { useMaker } from "../parts/useMaker";
+import { isBoard, type Board } from "./board";
+import { BurstProgress } from "./BurstProgress";
+import { readoutText } from "./readoutText";
+import { StatedReadout } from "./StatedReadout";
+
+const ASK_EVERY_MS = 2000;
+
+interface ReadoutCardProps {
+  board: Board;
+  onChange: () => void;
+}
+
+/** The readout of a rolling shutter: out of the data sheet, or measured with a board that is shaken. */
+export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
+  const words = useWords().camera.readout;
+  const madeBy = useMaker();
+  const doing = useDo();
+  const [refused, setRefused] = useState<Refusal | null>(null);
+  const asked = useAsked((signal) => answered(server.GET("/api/camera/readout", { signal })), {
+    everyMs: ASK_EVERY_MS,
+  });
+  const { data, again } = asked;
+  const changed = (): void => {
+    again();
+    onChange();
+  };
+  const end = (): void => {
+    void doing
+      .run(async () => {
+        await answered(server.DELETE("/api/camera/readout/collection"));
+      })
+      .then(again);
+  };
+  const followed = useJob((job) => {
+    // What the motion did not determine is said, and another burst is taken.
+    if (job.state !== "done" && job.trouble !== null) setRefused(new Refusal(job.trouble));
+    if (job.state !== "done") end();
+    changed();
+  });
+  const begin = (): void => {
+    setRefused(null);
+    void doing
+      .run(async () => {
+        await answered(server.POST("/api/camera/readout/collection", { body: { board } }));
+      })
+      .then(again);
+  };
+  const measure = (): void => {
+    void doing.run(async () => {
+      const body = { made_by: madeBy };
+      followed.follow(await answered(server.POST("/api/camera/readout/measurement", { body })));
+    });
+  };
+  if (data === null) return <Unanswered asked={asked} />;
+  const working = followed.job !== null && !isOver(followed.job);
+  return (
+    <Card title={words.title} testId="readout">
+      <p>{words.lead}</p>
+      <p data-testid="readout-kept">
+        {readoutText(data, words)}
+        {data.found_by === "measured" && ` ${filled(words.spread, { sd: shownNumber(data.sd_ms ?? NaN) })}`}
+      </p>
+      {data.collecting ? (
+        <>
+          <BurstProgress working={working} onReady={measure} onEnd={end} />
+          <JobProgress followed={followed} />
+        </>
+      ) : (
+        <>
+          <StatedReadout readoutMs={data.readout_ms} onKept={changed} />
+          <div>
+            <Button
+              size="lg"
+              variant="default"
+              disabled={!isBoard(board)}
+              loading={doing.busy}
+              data-testid="measure-readout"
+              onClick={begin}
+            >
+              {words.measure}
+            </Button>
+          </div>
+          <p className="soft">{words.versionHint}</p>
+        </>
+      )}
+      <RefusalNote refusal={refused ?? doing.refusal} />
+    </Card>
+  );
+}

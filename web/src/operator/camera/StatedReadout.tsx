@@ -1,0 +1,52 @@
+import { Button, NumberInput } from "@mantine/core";
+import { useState, type ReactNode } from "react";
+import { answered, server } from "../../rest/client";
+import { RefusalNote } from "../../rest/RefusalNote";
+import { useDo } from "../../rest/useDo";
+import { useWords } from "../../words/WordsContext";
+import { useMaker } from "../parts/useMaker";
+
+interface StatedReadoutProps {
+  readoutMs: number | null;
+  onKept: () => void;
+}
+
+/** A readout out of the data sheet; an empty field is one that is not known. */
+export function StatedReadout({ readoutMs, onKept }: StatedReadoutProps): ReactNode {
+  const words = useWords().camera.readout;
+  const madeBy = useMaker();
+  const keeping = useDo();
+  const [typed, setTyped] = useState<number | string>(readoutMs ?? "");
+  const keep = (): void => {
+    const readout_ms = typeof typed === "number" ? typed : null;
+    void keeping
+      .run(async () => {
+        await answered(server.PUT("/api/camera/readout", { body: { readout_ms, made_by: madeBy } }));
+      })
+      .then(onKept);
+  };
+  return (
+    <>
+      <NumberInput
+        hideControls
+        inputMode="decimal"
+        size="lg"
+        label={words.field}
+        description={words.fieldHint}
+        placeholder={words.unknown}
+        min={0}
+        max={200}
+        decimalScale={2}
+        value={typed}
+        data-testid="readout-ms"
+        onChange={setTyped}
+      />
+      <div>
+        <Button size="lg" variant="default" loading={keeping.busy} data-testid="keep-readout" onClick={keep}>
+          {words.keep}
+        </Button>
+      </div>
+      <RefusalNote refusal={keeping.refusal} />
+    </>
+  );
+}
