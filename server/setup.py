@@ -64,14 +64,13 @@ class CaseSetup:
 
     Attributes:
         camera: calibrated in this case.
-        camera_controls: their values at that calibration; empty where they were not kept.
-        readout_ms: see `CameraFile`.
+        camera_controls, readout_ms: see `CameraFile`; of that calibration.
+        latency_ms: from light to page, 99 % are within; None where it was not measured.
         models: markers whose picture was sent into this case.
         tools: calibrated in this case, by name.
         channel: the one that is to be drilled.
         registration: of that channel's vertebra.
-        registered_from_s: when its first landmark was touched, or it was checked for the last time, by the
-            clock that images are stamped with; None where that was before this server.
+        registered_from_s: when it was first touched or last checked; None where that was before this run.
         guide: what is known of that pedicle besides its channel.
         withheld: why no number may be given yet, although all is known.
         believed_from_s: see `unconfirmed`.
@@ -80,6 +79,7 @@ class CaseSetup:
     camera: CameraModel | None = None
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
     readout_ms: float | None = None
+    latency_ms: float | None = None
     models: tuple[MarkerModel, ...] = ()
     tools: Mapping[str, ToolModel] = field(default_factory=dict)
     channel: Channel | None = None
@@ -109,12 +109,11 @@ class Preparation:
         registration: of plan and patient, or why there is none.
         reference: name of the marker that is fixed to the patient; empty when there is none.
         score_settings: when a marker counts as found.
-        most_tip_sd_mm: how unsure a tip may be that is shown.
-        limits: of a drill, beside those of its pedicle.
+        most_tip_sd_mm, limits: see `tracker.navigation.Setup`.
         smoothing: how much poses are steadied.
         readout_s: from when the first row of an image is read to the last one; 0 of a global shutter.
         theatre: the rehearsal's, None for every other source.
-        withheld, registered_from_s: see `CaseSetup`.
+        withheld, registered_from_s, latency_ms: see `CaseSetup`.
         guide: what is known of the pedicle besides its channel; None takes the channel alone.
         camera_controls: see `CaseSetup`; of the camera file, where the camera is that of the settings.
         same_sensor_area: images of all sizes show the same area of the sensor, as the settings say.
@@ -133,6 +132,7 @@ class Preparation:
     theatre: "Theatre | None" = None
     withheld: AbsentReason | None = None
     registered_from_s: float | None = None
+    latency_ms: float | None = None
     guide: Guide | None = None
     limits: DrillLimits = field(default_factory=DrillLimits)
     camera_controls: Mapping[CameraControl, int] = field(default_factory=dict)
@@ -197,6 +197,7 @@ class Preparation:
             models=models,
             tools={**self.tools, **known},
             readout_s=self._readout_s(case.readout_ms),
+            latency_ms=case.latency_ms,
         )
         if case.channel is None:
             return changed
@@ -314,8 +315,7 @@ def camera_for_size(
         same_sensor_area: images of all sizes show the same area of the sensor.
         image: which one has that size, if that can be told.
 
-    Raises:
-        CalibrationError: CAMERA_SIZE_MISMATCH.
+    Raises CalibrationError: CAMERA_SIZE_MISMATCH.
     """
     if camera.size_wh_px == tuple(size_wh_px):
         return camera

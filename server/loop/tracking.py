@@ -12,7 +12,16 @@ from server.live import Trouble
 from server.setup import CaseSetup, Preparation
 from tracker.camera import CameraControl, ControlChange, control_changes
 from tracker.errors import CalibrationError
-from tracker.navigation import Absent, Guide, NavigationSnapshot, Setup, Steadying, Watching, navigate
+from tracker.navigation import (
+    Absent,
+    Guide,
+    Lagging,
+    NavigationSnapshot,
+    Setup,
+    Steadying,
+    Watching,
+    navigate,
+)
 from tracker.pipeline import Tracker
 from tracker.plan import Channel
 from tracker.registration import Registration
@@ -30,6 +39,7 @@ class Tracking:
         self._tracker: Tracker | None = None
         self._steadying = Steadying(preparation.smoothing)
         self._watching = Watching()
+        self._lagging = Lagging()
         self._watched_registration: tuple[bytes, float | None] | None = None
         self._guide: Guide | None = None
         self._size_trouble: Trouble | None = None
@@ -91,6 +101,7 @@ class Tracking:
             guide=self._guide,
             watched=watched,
         )
+        snapshot = self._lagging.take(snapshot, latency_ms=self._preparation.latency_ms)
         stage_ms = {
             "waiting": (started_s - shot.captured_at_s) * 1000.0,
             **tracker.stage_ms,
@@ -109,7 +120,7 @@ class Tracking:
             self._size_trouble = Trouble.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
         self._tracker = self._preparation.tracker_for(setup)
-        self._steadying = Steadying(self._preparation.smoothing)
+        self._steadying, self._lagging = Steadying(self._preparation.smoothing), Lagging()
         channel = setup.channel
         self._guide = self._preparation.guide_along(channel) if isinstance(channel, Channel) else None
         self._watch_registration(setup, at_s)

@@ -50,6 +50,7 @@ class CaseInUse:
         brought: by the settings: a calibration of another camera's source, or what is fixed to another
             reference, is not used.
         markers: reads the markers that the case keeps.
+        latency_ms: of the camera, as it was measured last; None where it was not.
         know: told what the alarms shall know of the procedure, whenever the case has changed.
     """
 
@@ -63,6 +64,7 @@ class CaseInUse:
         brought: Brought,
         markers: MarkerStep,
         know: Callable[[ProcedureFacts], None],
+        latency_ms: Callable[[], float | None] = lambda: None,
     ) -> None:
         self._store = store
         self._adopt = adopt
@@ -72,7 +74,8 @@ class CaseInUse:
         self._guiding = guiding
         self._markers = markers
         self._know = know
-        self._in_use: tuple[tuple[str, ...], Guide | None] = ((), None)
+        self._latency_ms = latency_ms
+        self._in_use: tuple[tuple[str, ...], Guide | None, float | None] = ((), None, None)
         guiding.tell = self.refresh
 
     def refresh(self) -> None:
@@ -82,9 +85,10 @@ class CaseInUse:
             ids = tuple(document.id for document in documents)
             active = [document for document in documents if document.kind is DocumentKind.PLAN]
             guide = self._guiding.guide_for(active[0]) if active else None
-            if ids != self._in_use[0] or guide is not self._in_use[1]:
-                self._adopt(replace(self._setup_of(documents), guide=guide))
-                self._in_use = (ids, guide)
+            latency_ms = self._latency_ms()
+            if (ids, latency_ms) != (self._in_use[0], self._in_use[2]) or guide is not self._in_use[1]:
+                self._adopt(replace(self._setup_of(documents), guide=guide, latency_ms=latency_ms))
+                self._in_use = (ids, guide, latency_ms)
                 self._know(facts_of(self._procedure.state(), now_s=time.monotonic()))
 
     def _documents(self) -> list[Document]:

@@ -178,6 +178,7 @@ class LatencyStep:
         camera: the source in words, as its results name it.
         clock: monotonic.
         wall: the wall clock, for the date of a result.
+        tell: called when another result is kept.
     """
 
     def __init__(
@@ -189,6 +190,7 @@ class LatencyStep:
         camera: str,
         clock: Callable[[], float] = time.monotonic,
         wall: Clock = utc_now,
+        tell: Callable[[], None] = lambda: None,
     ) -> None:
         self._hub = hub
         self._store = store
@@ -196,6 +198,7 @@ class LatencyStep:
         self._camera = camera
         self._clock = clock
         self._wall = wall
+        self._tell = tell
         self._case_id: str | None = None
         self._held: Held[LatencyMeasurement] = Held(
             "codes for the latency are", remedy="Begin a measurement on the camera's page."
@@ -270,6 +273,7 @@ class LatencyStep:
             report=report,
         )
         self._file.put(result)
+        self._tell()
         return result
 
     def newest(self) -> LatencyResult | None:

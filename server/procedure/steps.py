@@ -5,6 +5,8 @@ import secrets
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import structlog
+
 from server.alarms import ProcedureFacts
 from server.capture.address import SourceKind, source_from_text
 from server.config import Config
@@ -24,13 +26,15 @@ from server.procedure.state import Brought, Procedure
 from server.procedure.surface import SurfaceStep
 from server.procedure.tool import ToolStep
 from server.setup import CaseSetup
-from server.store import CaseStore
+from server.store import CaseStore, StoreError
 from server.store.latency_file import LatencyFile
 from tracker.marker import MarkerModel
 from tracker.pose.tool import ToolGate
 
 # As the rehearsal's theatre calls them; to load the theatre for a name takes time.
 REHEARSED_TOOL, REHEARSED_REFERENCE = "drill", "reference"
+
+log = structlog.get_logger(__name__)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,6 +96,7 @@ class Steps:
         brought = brought_by(config)
         marker_step = MarkerStep(store=store, brought=markers)
         procedure = _procedure(store, config, brought, tracked_from_s)
+        latencies = LatencyFile(store.home.folder)
         in_use = CaseInUse(
             store,
             adopt,
@@ -100,6 +105,7 @@ class Steps:
             brought=brought,
             markers=marker_step,
             know=know,
+            latency_ms=lambda: _latency_ms(latencies, brought.source),
         )
         _keep_in_use(in_use, store)
         opened_ct = OpenedCt(store)
@@ -108,7 +114,9 @@ class Steps:
         return cls(
             camera=_camera_step(hub, store, jobs, config, brought),
             readout=ReadoutStep(hub=hub, store=store, jobs=jobs, source=brought.source),
-            latency=_latency_step(hub, store, brought),
+            latency=LatencyStep(
+                hub=hub, store=store, file=latencies, camera=brought.source, tell=in_use.refresh
+            ),
             markers=marker_step,
             tool=_tool_step(hub, store, config, marker_step),
             ct=CtStep(store=store, jobs=jobs),
@@ -174,8 +182,14 @@ def _camera_step(hub: LiveHub, store: CaseStore, jobs: Jobs, config: Config, bro
     )
 
 
-def _latency_step(hub: LiveHub, store: CaseStore, brought: Brought) -> LatencyStep:
-    return LatencyStep(hub=hub, store=store, file=LatencyFile(store.home.folder), camera=brought.source)
+def _latency_ms(latencies: LatencyFile, camera: str) -> float | None:
+    """What 99 % of the latency measured last are within; None where there is none, or it cannot be read."""
+    try:
+        result = latencies.of(camera)
+    except StoreError as error:
+        log.warning(error.message, code=error.code, remedy=error.remedy)
+        return None
+    return None if result is None else result.report.p99_ms
 
 
 def _tool_step(hub: LiveHub, store: CaseStore, config: Config, markers: MarkerStep) -> ToolStep:

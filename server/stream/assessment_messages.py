@@ -12,6 +12,7 @@ from tracker.navigation import (
     Direction,
     Figure,
     FigureName,
+    Lag,
     Status,
     Verdict,
 )
@@ -59,6 +60,17 @@ class CorrectionMessage(Message):
     towards: Direction
 
 
+class LagMessage(Message):
+    """How far the shown tip may lag behind one that moves; beside the figures, and in no verdict."""
+
+    speed_mm_s: float | None
+    """Of the tip in the vertebra, 0 at rest; null where it is not known yet."""
+    latency_ms: float | None
+    """From light to page, 99 % are within; null where it was not measured."""
+    margin_mm: float | None
+    """Product of both, to be added to the 95 % error; null where either is not known."""
+
+
 class AssessmentMessage(Message):
     """All figures of a drill, and the verdict that follows from them."""
 
@@ -73,6 +85,8 @@ class AssessmentMessage(Message):
     """The wall that the screw would come nearest to; null where it misses the pedicle."""
     against: MeasuredAgainst | None
     """What the wall was measured against; null where none is known."""
+    lag: LagMessage | None
+    """Null where nobody looked for it."""
 
 
 class HeadlineMessage(Message):
@@ -99,6 +113,15 @@ def assessment_message(assessment: Assessment | Absent) -> AssessmentMessage | A
         wall=assessment.wall,
         end_wall=assessment.end_wall,
         against=assessment.against,
+        lag=_lag(assessment.lag),
+    )
+
+
+def _lag(lag: Lag | None) -> LagMessage | None:
+    if lag is None:
+        return None
+    return LagMessage(
+        speed_mm_s=finite(lag.speed_mm_s), latency_ms=finite(lag.latency_ms), margin_mm=finite(lag.margin_mm)
     )
 
 

@@ -102,12 +102,16 @@ def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> Non
     )
     assert (result["made_by"], result["screen"]) == ("ito", SCREEN)
     assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": result}
+    # What moves is told with it from the next image on, also without a case.
+    assert server.adopted[-1].latency_ms == LATENCY_MS
 
 
 def test_a_result_outlasts_a_start_of_the_server(server: Server, restarted: Callable[[], Server]) -> None:
     begun(server)
     result = server.ask("POST", CONCLUSION, 201, json=film(server, list(range(CODES))))
-    assert restarted().ask("GET", "/api/latency", 200)["result"] == result
+    again = restarted()
+    assert again.ask("GET", "/api/latency", 200)["result"] == result
+    assert again.adopted[-1].latency_ms == LATENCY_MS
 
 
 def test_a_camera_that_looks_elsewhere_is_refused_in_numbers_and_leaves_what_was_kept(server: Server) -> None:

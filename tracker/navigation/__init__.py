@@ -1,11 +1,12 @@
 """From poses to what the surgeon needs: deviation from the channel, and the snapshot of one instant."""
 
 from tracker.navigation.along import AlongChannel, half_axes_95_mm, seen_along
-from tracker.navigation.assessment import Assessment, Correction, Direction, Verdict, assess
+from tracker.navigation.assessment import Assessment, Correction, Direction, Lag, Verdict, assess
 from tracker.navigation.concluding import navigate
 from tracker.navigation.deviation import Deviation, deviation_from_channel
 from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status
 from tracker.navigation.guide import Guide, ScrewSize
+from tracker.navigation.lag import Lagging
 from tracker.navigation.moves import MovesSeen, moves_seen_by
 from tracker.navigation.snapshot import (
     Absent,
@@ -31,6 +32,8 @@ __all__ = [
     "Figure",
     "FigureName",
     "Guide",
+    "Lag",
+    "Lagging",
     "MovesSeen",
     "NavigationSnapshot",
     "PlacedVertebra",

@@ -9,7 +9,15 @@ from tracker.navigation.certainty import Judged
 from tracker.navigation.clearance import Closest, MeasuredAgainst, Nearest
 from tracker.navigation.deviation import Deviation
 from tracker.navigation.directions import Wall
-from tracker.navigation.figures import DrillLimits, Figure, FigureName, Status, figures_of, rounded
+from tracker.navigation.figures import (
+    DrillLimits,
+    Figure,
+    FigureName,
+    Status,
+    figures_of,
+    rounded,
+    rounded_up,
+)
 from tracker.plan import Channel
 
 # The second component of a correction is stated from this share of the first one on.
@@ -74,6 +82,30 @@ class Correction:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Lag:
+    """How far a shown tip may be behind.
+
+    Attributes:
+        speed_mm_s: of the tip in the vertebra, with two standard deviations; 0 at rest, NaN where it is not
+            known yet.
+        latency_ms: from light to page, which 99 % are within; NaN where it was not measured.
+        margin_mm: product of both, rounded up; to be added to the 95 % error. NaN where either is not known.
+    """
+
+    speed_mm_s: float
+    latency_ms: float
+    margin_mm: float
+
+    @classmethod
+    def of(cls, speed_mm_s: float, latency_ms: float | None) -> "Lag":
+        """The lag of a tip with this speed."""
+        known_ms = nan if latency_ms is None else latency_ms
+        # A tip at rest does not lag, however late its picture is.
+        margin_mm = 0.0 if speed_mm_s == 0.0 else rounded_up(speed_mm_s * known_ms / 1000.0)
+        return cls(speed_mm_s=rounded_up(speed_mm_s, decimals=0), latency_ms=known_ms, margin_mm=margin_mm)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
     """All figures of a drill, and their verdict.
 
@@ -86,6 +118,7 @@ class Assessment:
         wall: the nearest wall; None while the drill is outside the bone.
         end_wall: the wall that the screw would come nearest to; None where it misses the pedicle.
         against: what the wall was measured against; None where none is known.
+        lag: beside the figures, of a tip that moves; None where nobody looked for it.
     """
 
     verdict: Verdict
@@ -94,6 +127,7 @@ class Assessment:
     wall: Wall | None = None
     end_wall: Wall | None = None
     against: MeasuredAgainst | None = None
+    lag: Lag | None = None
 
     @property
     def rank(self) -> tuple[float, float]:

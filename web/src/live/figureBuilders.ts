@@ -29,6 +29,7 @@ export function assessment(
     wall: "medial",
     end_wall: "medial",
     against: "bone",
+    lag: null,
     ...changes,
   };
 }

@@ -7,7 +7,7 @@ import type { Words } from "../words/en";
 import { textOf } from "../words/text";
 import { useWords } from "../words/WordsContext";
 import { setData, setText } from "./setText";
-import { errorText, riskText, TONE_SYMBOL } from "./verdictText";
+import { errorText, lagText, riskText, TONE_SYMBOL } from "./verdictText";
 
 /** The headline of the image whose figures stand here, with what is behind it; or why there are none. */
 export function NumbersState(): ReactNode {
@@ -82,7 +82,8 @@ function eventText(numbers: NumbersVerdict, words: Words): string {
 function errorLine(numbers: NumbersVerdict, words: Words): string {
   if (!numbers.live) return "";
   const { tool, assessment, lagMs } = numbers.reading;
-  const line = `${tool} · ${errorText(assessment, words)}`;
+  const lag = lagText(assessment, words);
+  const line = `${tool} · ${errorText(assessment, words)}${lag === "" ? "" : ` · ${lag}`}`;
   // The age of the image does not hold this delay: it is said beside the numbers that have it.
   return lagMs > 0 ? `${line} · ${words.numbers.steadied} ${Math.max(Math.round(lagMs), 1)} ms` : line;
 }

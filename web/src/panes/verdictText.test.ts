@@ -1,7 +1,8 @@
 import { expect, test } from "vitest";
+import type { AssessmentMessage } from "../live/messages";
 import { assessment, figure } from "../live/figureBuilders";
 import { en } from "../words/en";
-import { errorText, riskText, TONE_SYMBOL, wallSide } from "./verdictText";
+import { errorText, lagText, riskText, TONE_SYMBOL, wallSide } from "./verdictText";
 
 test("every tone has a shape of its own", () => {
   expect(new Set(Object.values(TONE_SYMBOL)).size).toBe(5);
@@ -25,4 +26,15 @@ test("the nearest wall is named, and a drill outside has none", () => {
   expect(wallSide(assessment(), en)).toBe("medial");
   const outside = assessment({ wall: null }, { wall: figure(null, { limit: 1, status: "outside" }) });
   expect(wallSide(outside, en)).toBe("outside");
+});
+
+test("what a moving tip lags by stands beside the error, and never in it", () => {
+  const lagging = (lag: AssessmentMessage["lag"]): string => lagText(assessment({ lag }), en);
+  expect(lagging(null)).toBe("");
+  expect(lagging({ speed_mm_s: 0, latency_ms: 95, margin_mm: 0 })).toBe("");
+  expect(lagging({ speed_mm_s: null, latency_ms: 95, margin_mm: null })).toBe("");
+  expect(lagging({ speed_mm_s: 40, latency_ms: 95, margin_mm: 3.8 })).toBe(
+    "while moving +3.8 mm (40 mm/s × 95 ms)",
+  );
+  expect(lagging({ speed_mm_s: 40, latency_ms: null, margin_mm: null })).toBe("moving, latency not measured");
 });

@@ -31,6 +31,15 @@ export function errorText({ figures }: AssessmentMessage, words: Words): string 
   return `${words.numbers.error} ±${shownNumber(value, 2)} mm${of}`;
 }
 
+/** How far the shown tip may lag behind one that moves, to be added to the error; empty at rest. */
+export function lagText({ lag }: AssessmentMessage, words: Words): string {
+  const speedMmS = lag?.speed_mm_s ?? 0;
+  if (lag === null || speedMmS === 0) return "";
+  if (lag.margin_mm === null || lag.latency_ms === null) return words.numbers.latencyUnknown;
+  const by = `${shownNumber(speedMmS, 0)} mm/s × ${shownNumber(lag.latency_ms, 0)} ms`;
+  return `${words.numbers.whileMoving} +${shownNumber(lag.margin_mm)} mm (${by})`;
+}
+
 /** Which wall is the nearest; that the drill is outside, where none is. */
 export function wallSide({ wall, figures }: AssessmentMessage, words: Words): string {
   if (wall !== null) return words.wall.side[wall];

@@ -45,6 +45,8 @@ export const de: Words = {
     error: "95-%-Fehler",
     errorUnknown: "95-%-Fehler unbekannt",
     steadied: "beruhigt, verzögert um",
+    whileMoving: "in Bewegung",
+    latencyUnknown: "in Bewegung, Latenz nicht gemessen",
     numbersOf: "Zahlen sind von Bild",
     pictureOf: "Bild ist Nummer",
   },

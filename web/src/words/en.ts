@@ -47,6 +47,8 @@ export const en: Words = {
     error: "95 % error",
     errorUnknown: "95 % error unknown",
     steadied: "steadied, behind by",
+    whileMoving: "while moving",
+    latencyUnknown: "moving, latency not measured",
     numbersOf: "numbers are of image",
     pictureOf: "picture of image",
   },

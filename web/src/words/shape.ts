@@ -44,6 +44,8 @@ export interface Words {
     error: string;
     errorUnknown: string;
     steadied: string;
+    whileMoving: string;
+    latencyUnknown: string;
     numbersOf: string;
     pictureOf: string;
   };

@@ -1,0 +1,91 @@
+"""How far the tip that is shown may lag behind a tip that moves: its speed times the measured latency.
+
+A snapshot is of the time of its capture, and is seen a latency later. Meanwhile a moving tip has gone on, by
+as much as this where it keeps its speed. It is a margin beside the 95 % error of the figures, and no part of
+any verdict: a hand on its way to the bone would be "uncertain" at once, which hides what else is to be said.
+"""
+
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import replace
+from math import nan
+
+import numpy as np
+
+from tracker.geometry import Array
+from tracker.navigation.assessment import Assessment, Lag
+from tracker.navigation.snapshot import Absent, NavigationSnapshot
+
+# | threshold | unit | source | what breaks when it moves |
+# |---|---|---|---|
+# | WINDOW_S | s | half of a quick to-and-fro | longer: a stroke is averaged away; shorter: noise |
+# | MIN_IMAGES | 1 | 9 residuals to know the noise by | lower: noise of four images is taken for a speed |
+# | MAX_WINDOW_S | s | five images of a camera of 6 Hz | longer: speeds of slow cameras are of the past |
+# | MAX_GAP_S | s | a tool that was out of view begins anew | higher: its way in between is a speed |
+# | MIN_SPEED_SD | sd | F(3, 9) at 99.9 % is 13.9, x3, root | lower: a tool at rest has a margin at times |
+# | MIN_SPEED_MM_S | mm/s | 0.1 mm in 100 ms | lower: drift of a pose is a motion |
+WINDOW_S, MAX_WINDOW_S, MAX_GAP_S = 0.2, 0.8, 0.5
+MIN_IMAGES = 5
+MIN_SPEED_SD, MIN_SPEED_MM_S = 6.5, 1.0
+
+
+class TipSpeed:
+    """The speed of one tip from its last places. Mutable."""
+
+    def __init__(self) -> None:
+        self._places: deque[tuple[float, Array]] = deque()
+
+    def forget(self) -> None:
+        """What comes next is another motion."""
+        self._places.clear()
+
+    def take(self, tip_mm: Array, *, at_s: float) -> float:
+        """The speed in mm/s with one more place (3,); 0 at rest, NaN while too few are known."""
+        if self._places and not 0.0 < at_s - self._places[-1][0] <= MAX_GAP_S:
+            self.forget()
+        self._places.append((at_s, tip_mm))
+        while len(self._places) > MIN_IMAGES and at_s - self._places[0][0] > WINDOW_S:
+            self._places.popleft()
+        if len(self._places) < MIN_IMAGES or at_s - self._places[0][0] > MAX_WINDOW_S:
+            return nan
+        times_s = np.array([time_s for time_s, _ in self._places])
+        tips_mm = np.array([tip for _, tip in self._places])
+        from_mean_s = times_s - times_s.mean()
+        spread_s2 = float(from_mean_s @ from_mean_s)
+        velocity = from_mean_s @ tips_mm / spread_s2
+        residual = tips_mm - tips_mm.mean(axis=0) - np.outer(from_mean_s, velocity)
+        sd_mm_s = float(np.sqrt((residual**2).sum() / (3 * (len(times_s) - 2)) / spread_s2))
+        speed_mm_s = float(np.linalg.norm(velocity))
+        is_at_rest = speed_mm_s < max(MIN_SPEED_MM_S, MIN_SPEED_SD * sd_mm_s)
+        return 0.0 if is_at_rest else speed_mm_s + 2.0 * sd_mm_s
+
+
+class Lagging:
+    """Gives each assessment of a snapshot its lag. Mutable: one `TipSpeed` for each tool."""
+
+    def __init__(self) -> None:
+        self._tips: dict[str, TipSpeed] = {}
+
+    def take(self, snapshot: NavigationSnapshot, *, latency_ms: float | None) -> NavigationSnapshot:
+        """The same with the lag of each tool that has figures.
+
+        Args:
+            snapshot: of the next image.
+            latency_ms: from light to page, which 99 % are within; None where it was not measured.
+        """
+        assessments: Mapping[str, Assessment | Absent] = {
+            name: self._with_lag(snapshot, name, one, latency_ms)
+            for name, one in snapshot.assessments.items()
+        }
+        return replace(snapshot, assessments=assessments)
+
+    def _with_lag(
+        self, snapshot: NavigationSnapshot, name: str, one: Assessment | Absent, latency_ms: float | None
+    ) -> Assessment | Absent:
+        tip = self._tips.setdefault(name, TipSpeed())
+        vertebra_from_tool = snapshot.vertebra_from_tool(name)
+        if isinstance(one, Absent) or isinstance(vertebra_from_tool, Absent):
+            tip.forget()
+            return one
+        speed_mm_s = tip.take(vertebra_from_tool.translation_mm, at_s=snapshot.captured_at_s)
+        return replace(one, lag=Lag.of(speed_mm_s, latency_ms))
