@@ -49,6 +49,7 @@ class Script:
         self.entries = entries
         self.now_s = 0.0
         self._sequence = 0 if before is None else 1
+        self._last = before
 
     def clock(self) -> float:
         return self.now_s
@@ -57,10 +58,12 @@ class Script:
         return None if self.before is None else (self._sequence, self.before)
 
     def next_after(self, sequence: int, timeout_s: float) -> tuple[int, Inbound] | None:
-        assert sequence <= self._sequence
+        if sequence < self._sequence and self._last is not None:
+            return self._sequence, self._last
         entry = self.entries.pop(0) if self.entries else None
         if entry is None:
             self.now_s += timeout_s
             return None
         self._sequence += 1
+        self._last = entry
         return self._sequence, entry

@@ -25,6 +25,8 @@ from tests.server.capture.sent_by_phone import CAMERA, jpeg_of
 from tests.server.stream.test_phone_sender import CAMERA as CAMERA_SAID
 from tracker.camera import CameraControl
 
+# The server speaks twice a second at least.
+MAX_MESSAGES = 20
 KEY, OTHER_KEY = "0" * 32, "1" * 32
 ITO = Person(id="ito", name="Dr. Ito", role=Role.OPERATOR)
 GUEST = Person(id="guest", name="Guest", role=Role.CAMERA)
@@ -68,7 +70,7 @@ class Phone:
 
     def told(self, what: str) -> dict[str, Any]:
         """The next message of this kind; each ping on the way is answered."""
-        while True:
+        for _ in range(MAX_MESSAGES):
             message = self.socket.receive_json()
             if "note" in message:
                 self.credit = message["note"]["credit"]
@@ -76,12 +78,21 @@ class Phone:
             if what in message:
                 told: dict[str, Any] = message[what]
                 return told
+        pytest.fail(f"the server says no {what}")
 
     def note_after(self, images: int) -> dict[str, Any]:
         """The note that counts this many images."""
-        while (note := self.told("note"))["images"] < images:
-            pass
-        return note
+        for _ in range(MAX_MESSAGES):
+            if (note := self.told("note"))["images"] >= images:
+                return note
+        pytest.fail(f"no {images} images were handed on")
+
+    def trouble(self) -> dict[str, Any]:
+        """The next note that tells of something wrong."""
+        for _ in range(MAX_MESSAGES):
+            if (note := self.told("note"))["trouble"] is not None:
+                return note
+        pytest.fail("nothing is said to be wrong")
 
     def begin(self) -> dict[str, Any]:
         welcome = self.told("welcome")
@@ -97,11 +108,12 @@ class Phone:
 
 def ending(socket: WebSocketTestSession) -> WebSocketDisconnect:
     """How the server ends it, after whatever it says before."""
-    while True:
+    for _ in range(MAX_MESSAGES):
         try:
             socket.receive_json()
         except WebSocketDisconnect as ended:
             return ended
+    pytest.fail("the server does not end it")
 
 
 def newest(inbox: PhoneInbox) -> Inbound:
@@ -140,9 +152,7 @@ def test_a_page_hears_what_the_server_has_against_its_images(
         phone = Phone(socket)
         phone.begin()
         phone.send(b"no picture")
-        while (note := phone.told("note"))["trouble"] is None:
-            pass
-        assert note["trouble"]["code"] == "PHONE_IMAGE_BROKEN"
+        assert phone.trouble()["trouble"]["code"] == "PHONE_IMAGE_BROKEN"
         told = newest(inbox)
         assert told.problem is not None
         assert (told.image, told.problem.code) == (None, "PHONE_IMAGE_BROKEN")
@@ -152,8 +162,7 @@ def test_a_page_hears_what_the_server_has_against_its_images(
         hub.publish(
             instant_of(1, source=SourceStatus(name="phone", state=SourceState.RUNNING, trouble=trouble))
         )
-        while (note := phone.told("note"))["trouble"] is None:
-            pass
+        note = phone.trouble()
         assert (note["trouble"]["code"], note["source_state"]) == ("PHONE_FOCUS_NOT_LOCKED", "running")
 
 
