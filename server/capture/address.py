@@ -36,7 +36,7 @@ class SourceAddress:
 
 
 def source_from_text(text: str | int) -> SourceAddress:
-    """Tell what a source is: rehearsal, phone, camera (number, device, serial), stream's address, or a path."""
+    """Tell what a source is: rehearsal, phone, a camera by number, device or serial, a stream, or a path."""
     plain = str(text).strip()
     if plain.lower() == "rehearsal":
         return SourceAddress(kind=SourceKind.REHEARSAL, text="rehearsal", name="rehearsal")
