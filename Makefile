@@ -1,5 +1,6 @@
 # Coaxial. `make help` lists what there is; `make run` and `make test` do all their own set-up.
 # Everything that is made lies in .venv, web/node_modules and web/dist; `make clean` takes it away again.
+# The home folder is neither read nor written; with the stamps in .venv a second start is immediate and needs no network.
 # Cases lie in .coaxial, if COAXIAL_HOME names no other folder; nothing here takes them away.
 
 .DEFAULT_GOAL := help
@@ -184,6 +185,7 @@ $(STAMPS)/page: $(PAGE_SOURCES) $(STAMPS)/page-packages
 		$(NPM) run build
 	@touch $@
 
+# Numba keys its cache by the file of the called function alone: after a change of what it calls, old code would run.
 $(STAMPS)/warm: $(TRACKER_SOURCES) $(STAMPS)/project
 	@find tracker -name "*.nb[ic]" -delete
 	@$(STEP) warm "Compiling the tracker for this machine (once)" "Look at the log." \

@@ -1,4 +1,8 @@
-"""Tool files: where pivot and spin found the tip and the axis of a tool, and behind which marker."""
+"""Tool files: where pivot and spin found the tip and the axis of a tool, and behind which marker.
+
+It names its marker and that marker's side, and is not written when the gate fails: a tip in another
+marker's frame, or behind a larger print, is a wrong number that looks right.
+"""
 
 from datetime import UTC, datetime
 from pathlib import Path

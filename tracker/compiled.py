@@ -4,6 +4,10 @@ Kept on disk (`cache`), so that nothing compiles in theatre; without the interpr
 capture goes on meanwhile; with IEEE division (`error_model="numpy"`), so that a division by zero is inf, not
 an exception from a place without a sentence. Sums may be taken in another order (`fastmath`), so that several
 are taken at once; what is not a number stays one.
+
+Loops are untyped (their types are those of their calls), live in the `kernels.py` of their package, and
+solve their own small linear systems: NumPy's raise an exception in compiled code where a singular matrix is
+an ordinary answer, and are slower for so few unknowns.
 """
 
 from collections.abc import Callable

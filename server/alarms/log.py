@@ -2,6 +2,8 @@
 
 It belongs to the case that is open, as documents of it; without one, to the folder of all cases. A thread
 writes, so that a slow disk delays no picture; whoever must be sure waits for it.
+
+So it is copied and deleted with its case, and what a person acknowledged is on the disk before the answer.
 """
 
 import json

@@ -1,4 +1,7 @@
-"""Numbers for Prometheus, from following the newest instant."""
+"""Numbers for Prometheus, from following the newest instant.
+
+It requires a session (a script's), on loopback too: behind a proxy every client comes from loopback.
+"""
 
 import time
 from collections.abc import Iterable

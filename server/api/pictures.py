@@ -1,4 +1,8 @@
-"""Pictures of the CT: what may be asked of them, and how a browser keeps them until the CT changes."""
+"""Pictures of the CT: what may be asked of them, and how a browser keeps them until the CT changes.
+
+The server cuts the slices, and each comes with its place in the patient: pixels and numbers are from one
+reader, only what is looked at is sent, and a tablet's GPU is not needed. Scrolling needs a connection.
+"""
 
 import hashlib
 from collections.abc import Callable, Mapping

@@ -2,6 +2,9 @@
 
 A stream has no time of its own that could be believed: after a pause of the network or of this machine, what
 was held back arrives all at once, and by its arrival it would look new.
+
+The price is one image after each pause. Bursts closer than a quarter of a second look like the rhythm
+itself and are not noticed.
 """
 
 # From one image to the next: more periods than this, and more time than this, is a pause.

@@ -1,4 +1,9 @@
-"""A camera's focus, exposure, gain and white balance: locked at the start, and read once a second."""
+"""A camera's focus, exposure, gain and white balance: locked at the start, and read once a second.
+
+Values are stored with the calibration, set when the camera is opened or a calibration is adopted, and read
+once a second. They are compared in the tracking process, so that picture, numbers and alarm agree.
+Exposure, gain and white balance void nothing: each pose fits brightness for itself.
+"""
 
 from collections.abc import Iterable, Mapping
 from typing import Protocol

@@ -1,4 +1,9 @@
-"""When an image was taken: by the driver's clock where that is plausible, else when the image arrived."""
+"""When an image was taken: by the driver's clock where that is plausible, else when the image arrived.
+
+OpenCV's V4L2 backend reports the buffer's time as `CAP_PROP_POS_MSEC`. A time in the future, not after the
+last one or older than a second is replaced by the arrival; after 15 of those the clock is not used again.
+An image that waited while the machine was suspended keeps its age.
+"""
 
 import math
 

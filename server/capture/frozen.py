@@ -1,4 +1,11 @@
-"""A camera that gives the same image again and again: frozen, or a card that has no signal."""
+"""A camera that gives the same image again and again: frozen, or a card that has no signal.
+
+A capture card repeats its last image, or a test picture, when the camera is unplugged; its times are
+current, so video and numbers would look live. After a quarter of a second repeated images are dropped, and
+the checks for a silent camera apply; after two seconds the source is opened again (`SOURCE_FROZEN`). Files,
+folders and rehearsals may repeat. A stream compressed so strongly that a still scene repeats exactly counts
+as silent.
+"""
 
 from server.capture.shot import Shot
 from tracker.pipeline import is_same_image

@@ -1,4 +1,10 @@
-"""A network stream (RTSP, HTTP) as a source."""
+"""A network stream (RTSP, HTTP) as a source.
+
+OpenCV's FFmpeg backend silently scales images that change their size to the first size, whatever their
+shape; a calibration would then hold for stretched images. Of MJPEG it hands over the packets, so those are
+decoded here in their own size, and truncated ones are dropped. H.264 and H.265 streams that change their
+size are still stretched.
+"""
 
 import math
 import socket

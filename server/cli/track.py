@@ -1,4 +1,8 @@
-"""`coaxial track`: every image of a video through the tracker, and what it says as JSON lines."""
+"""`coaxial track`: every image of a video through the tracker, and what it says as JSON lines.
+
+The output file gets its name when every image was processed; images that cannot be read are listed, with
+exit status 2, since no further image would come. Only an interrupted run leaves a `.part` file.
+"""
 
 import contextlib
 import json

@@ -1,4 +1,7 @@
-"""Serves the web application on a socket that is already listening."""
+"""Serves the web application on a socket that is already listening.
+
+uvloop is not used: it saves under a fifth of a server that takes a sixth of a core.
+"""
 
 import logging
 import socket

@@ -2,6 +2,8 @@
 
 Nothing is ever unpacked onto the disk, and no name inside is used as a path or told to anybody: folders on
 discs from a hospital are often named after the patient.
+
+Messages count files and never quote their names; which file is at fault is therefore not named.
 """
 
 import lzma

@@ -1,4 +1,8 @@
-"""Long work: started, watched, cancelled, and remembered by its id."""
+"""Long work: started, watched, cancelled, and remembered by its id.
+
+The result comes back to the web process, which stores it: the database then has a single writer. Large
+results go through a file in the job's folder.
+"""
 
 import secrets
 import shutil

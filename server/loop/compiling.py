@@ -2,6 +2,10 @@
 
 Numba keeps what is compiled beside the source (or in NUMBA_CACHE_DIR), so this is needed once after an
 installation or an update. Several processes may ask for it at the same time: one does it, the others wait.
+
+Numba keys its cache by the file of the called function, not by the files of the functions that it calls in
+turn; after a change of sources old machine code would go on running. So `make` deletes the cache before it
+compiles again, which costs a minute after each update.
 """
 
 import subprocess

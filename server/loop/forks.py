@@ -1,4 +1,8 @@
-"""The process from which all others are forked, with everything loaded that takes time to load."""
+"""The process from which all others are forked, with everything loaded that takes time to load.
+
+Jobs are forked from the same process as tracking, at a lower priority: what takes seconds to load is loaded
+already, and pose and video keep the cores.
+"""
 
 import multiprocessing
 import signal

@@ -1,4 +1,10 @@
-"""What of the rehearsal is played in the tracking process, and how another scene takes its place."""
+"""What of the rehearsal is played in the tracking process, and how another scene takes its place.
+
+The next scene is prepared beside the running one in the same process, so a whole procedure is rehearsed
+with one camera, patient and store. Still scenery is rendered once for all scenes. The truth of an image
+follows from its number and the first number of its scene. On a busy machine a scene takes seconds to
+appear.
+"""
 
 import threading
 from dataclasses import dataclass

@@ -1,4 +1,7 @@
-"""The still scenery of the rehearsal in files, so that the next start need not render it."""
+"""The still scenery of the rehearsal in files, so that the next start need not render it.
+
+The next start shows its first image a second sooner. At most 8 files of up to 32 MB are kept.
+"""
 
 import contextlib
 import hashlib

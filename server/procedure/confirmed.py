@@ -1,4 +1,14 @@
-"""That a person stands for a registration after a start: touched, checked or confirmed, in this run."""
+"""That a person stands for a registration after a start: touched, checked or confirmed, in this run.
+
+Nobody saw whether camera, marker or patient were moved while the server was down, and opening a case says
+which case, not that its patient lies there. So each registration of an earlier run asks once in each run;
+what is touched or checked in this run asks nothing. Each run has a name that registrations and checks
+store, because clocks may go back.
+
+A new tracking process asks likewise where the registration is fixed to the camera: it watches only from its
+own first image. Beside a marker on the patient a moved camera changes nothing, and numbers come back by
+themselves.
+"""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,9 @@
-"""What the open case knows, kept in use: each change of it reaches the tracking process at once."""
+"""What the open case knows, kept in use: each change of it reaches the tracking process at once.
+
+A new calibration or plan takes effect with the next image, without a restart, and is part of the order from
+which a restarted tracking process begins. What was registered for one camera, marker or plan is never used
+with another.
+"""
 
 import threading
 import time

@@ -1,4 +1,9 @@
-"""The markers that are looked for: those of the settings, and those whose picture was sent into the case."""
+"""The markers that are looked for: those of the settings, and those whose picture was sent into the case.
+
+A case adds markers to those of the settings and never replaces them. A picture is a document with its file,
+so a tool behind a changed marker goes out of date by the rule that applies to every document. The marker on
+the patient is named in the settings only.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

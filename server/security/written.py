@@ -1,4 +1,9 @@
-"""What is done is in the audit log before its answer begins."""
+"""What is done is in the audit log before its answer begins.
+
+It is written before the answer and not before the act, so that on a full disk an alarm is still silenced
+and a case still deleted. A reserve on the disk keeps room for the line; the next request is refused before
+it begins.
+"""
 
 import asyncio
 import json

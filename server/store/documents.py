@@ -1,4 +1,9 @@
-"""Documents: added version by version, read, withdrawn; never changed."""
+"""Documents: added version by version, read, withdrawn; never changed.
+
+A changed plan puts what was registered on it out of date without anybody having to remember to do it, and
+the history remains for the report. A withdrawn newest version leaves none, because an older one must not
+come back.
+"""
 
 import json
 from collections import defaultdict

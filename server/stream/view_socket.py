@@ -11,6 +11,9 @@ older ones. A second `{"next": true}` before the answer changes nothing. `{"next
 also says how long the client needed to show the last image: that time does not count against its line.
 `{"size": "half"}` asks for another size from the next image on: full, half, quarter, or auto for the one that
 the line carries. `{"largest": "half"}`: with auto, send none larger, because the client cannot show it.
+
+Picture and pose cannot belong to different images, and the client sets the rate. MJPEG has neither, and
+browsers show a part only when the next one begins; it remains for programs that show pictures only.
 """
 
 import asyncio

@@ -1,4 +1,9 @@
-"""Who asks to hold, on the disk: a small file that is written anew, whole, with each change."""
+"""Who asks to hold, on the disk: a small file that is written anew, whole, with each change.
+
+It is a file of the home and not of a case, because a hold is about the theatre: it can be asked for without
+an open case, and stays when another case is opened or the server starts again. It is announced before it is
+written, so a full disk silences nobody. A case's archive has holds in its alarm log only.
+"""
 
 import json
 from collections.abc import Iterable, Mapping

@@ -1,4 +1,7 @@
-"""Pointers and drawings on the picture; each belongs to the image that it was made on, and goes with it."""
+"""Pointers and drawings on the picture; each belongs to the image that it was made on, and goes with it.
+
+Marks are kept nowhere but as lines in the log; they do not outlast the process.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

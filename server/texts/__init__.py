@@ -7,6 +7,10 @@ headline.py     the verdict of an image, or why it has no figures, with the alar
 flicker.py      lamps that flicker, and the exposures that even them out
 states.py       why there are no figures
 places.py       walls and directions
+
+Headline, alarms and the reasons for missing figures are written here in both languages. Error messages stay
+English, because they carry numbers, names and remedies that no catalogue by code could hold; the page marks
+them with `lang="en"` so that a screen reader pronounces them.
 """
 
 from server.texts.alarms import AlarmText, alarm_text, alarm_title, without_live_figures

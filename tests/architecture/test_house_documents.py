@@ -11,6 +11,7 @@ DOCUMENTS = sorted(
 )
 FIRST_SCREEN = 30  # lines
 LARGEST_PICTURE_BYTES = 300_000
+MAX_LINES_OF_ARCHITECTURE = 150
 
 
 def text_of(path: Path) -> str:
@@ -55,6 +56,10 @@ def test_the_first_screen_says_what_a_stranger_must_know() -> None:
     assert "Research software, not a medical device" in screen
     assert "](web/dashboard.png)" in screen
     assert {"run", "test"} <= commands(screen)
+
+
+def test_the_architecture_is_read_in_one_sitting() -> None:
+    assert len(text_of(ROOT / "ARCHITECTURE.md").splitlines()) <= MAX_LINES_OF_ARCHITECTURE
 
 
 def test_the_picture_is_small() -> None:

@@ -1,4 +1,10 @@
-"""Light that varies over the marker: which kind of it explains the pixels."""
+"""Light that varies over the marker: which kind of it explains the pixels.
+
+Shadows and lamps stay where they are from image to image, so the light of one image serves the next ten as
+long as it leaves no larger residuals; a step under a shadow's edge or a highlight then takes 3 to 8 ms
+instead of 6 to 24. It is used only where one planar solution is possible, because fitted light belongs to
+one pose. A light that changes its kind may be noticed some images late.
+"""
 
 from dataclasses import dataclass
 

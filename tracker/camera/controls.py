@@ -1,4 +1,9 @@
-"""A camera's controls, and which of them void a calibration when they change."""
+"""A camera's controls, and which of them void a calibration when they change.
+
+An autofocus moves the focal length by a percent, and with it every depth, without any sign in the image. So
+a changed geometric control withholds millimetres. A camera whose driver reports a wavering focus gives no
+numbers at all.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,4 +1,9 @@
-"""The best of many proposed shapes, in three sieves: likeness, then score and precision, then the tracker."""
+"""The best of many proposed shapes, in three sieves: likeness, then score and precision, then the tracker.
+
+Most of many random shapes are discarded. Correlation with all squares of a background is one matrix product
+for hundreds of shapes; the tracker itself judges only the last twelve, so that the printed figure is the
+tracker's own. The result is no optimum: shapes are polygons, and the seed decides.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,4 +1,11 @@
-"""The verdict on a drill, which follows from its figures and their limits and from nothing else."""
+"""The verdict on a drill, which follows from its figures and their limits and from nothing else.
+
+Headline, figures, alarms, overlay, wire and log follow this one assessment; the page compares nothing.
+Whether a condition is present is decided without hysteresis, and only a present one gets a present tense
+and an instruction. A drill that leaves the planned cylinder and stays within all limits is therefore on
+path, and a screw with more than `alarms.breach_ratio` probability of a breach at its end is not.
+`tests/server/texts/contradictions.py` states the rule; `random_drilling.py` searches for violations.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

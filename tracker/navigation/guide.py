@@ -1,4 +1,9 @@
-"""What a drill is measured against in one pedicle: wall, room and screw."""
+"""What a drill is measured against in one pedicle: wall, room and screw.
+
+It is sent to the tracking process once for each channel and is never part of a snapshot: the distances take
+a second or three in a job, and until they are there the pedicle's outline is the wall. A replay therefore
+needs the plan and the surface beside the snapshots.
+"""
 
 from dataclasses import dataclass
 

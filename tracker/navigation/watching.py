@@ -1,4 +1,10 @@
-"""All watches of one theatre, fed image by image."""
+"""All watches of one theatre, fed image by image.
+
+What moved stays moved until a new registration; a check on one landmark clears it only beside a reference,
+because a rotation about that landmark is not seen there. A registration that was disturbed by a cable must
+be repeated, however small the shift. While hands cover the scene there is no answer, and that state is
+reported as such.
+"""
 
 from collections.abc import Mapping
 

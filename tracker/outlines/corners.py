@@ -1,4 +1,9 @@
-"""Outlines: where a dark square could be of which no more than a corner is seen."""
+"""Outlines: where a dark square could be of which no more than a corner is seen.
+
+Motion blurs all sides but those along it, and with them all four corners. So two sides that face each other
+also make an outline: where they end is tried, and the coarse match uses templates blurred along them, which
+rank the true outline first in nearly all images; sharp templates rank it up to three hundredth.
+"""
 
 from typing import TypeAlias
 

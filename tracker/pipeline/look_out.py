@@ -2,6 +2,9 @@
 
 An image is searched part after part while others pass. What is found in it has come into view: only then the
 image at hand is searched as a whole.
+
+This runs in two of five images; a covered marker may take up to a second to be found again. Lost markers,
+and all markers when none is in view, are searched for at once.
 """
 
 from collections.abc import Callable, Mapping, Sequence

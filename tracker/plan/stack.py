@@ -1,4 +1,9 @@
-"""The slices of a CT put in order: one affine for all of them, or a sentence why there is none."""
+"""The slices of a CT put in order: one affine for all of them, or a sentence why there is none.
+
+Slices that are uneven, missing or contradictory are rejected, neither resampled nor filled in: a pedicle
+would be measured where nothing was scanned. Deviations up to a tenth of the spacing, at most 0.2 mm, are
+accepted and reported.
+"""
 
 from dataclasses import dataclass
 

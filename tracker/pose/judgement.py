@@ -1,4 +1,9 @@
-"""Is what was fitted the marker? By its edges, by its pixels, and by what light and covers explain."""
+"""Is what was fitted the marker? By its edges, by its pixels, and by what light and covers explain.
+
+What light and covers explain only nearly is accepted from a search where it is large and nearly uncovered,
+otherwise only once it is tracked: the other squares that come through are all small or half covered, while
+bent paper, which is what is nearly explained, is mostly large in the image.
+"""
 
 from dataclasses import dataclass, replace
 

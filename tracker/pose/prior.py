@@ -1,4 +1,14 @@
-"""What the last images let expect of the next."""
+"""What the last images let expect of the next.
+
+A repeated image adds no evidence: 25 copies from a frozen camera would make a doubtful pose certain, and a
+capture card that repeats each image of a slower camera would show a marker at rest and then at twice its
+speed. An image whose pixels around the marker equal the last ones is ignored. Two alternating images are
+not noticed.
+
+A residual that is no noise (`Seen.unexplained_ratio`), as of a drop on the marker or of doubled rows,
+repeats in every image and would make the wrong tilt certain within a few. So images that agree count as
+fewer by that share; tilts of small markers in poor video stay uncertain for longer.
+"""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,11 @@
-"""A marker that moves while a camera reads its image row by row (a rolling shutter)."""
+"""A marker that moves while a camera reads its image row by row (a rolling shutter).
+
+Rows that are read one after another shear what moves, and a small sheared marker looks like another pose:
+the tip is off by a millimetre and more. The shift is undone on four points of the pose, with the motion
+since the last image; the uncertainty of that motion, for a first image that of any hand, goes into the
+covariance. Inside the fits it would cost a time for every pixel and change the result by a few hundredths.
+The readout time must be given (`camera.readout_ms`); nothing measures it.
+"""
 
 from dataclasses import dataclass, replace
 

@@ -1,4 +1,14 @@
-"""The pose that lays all active edges on the edges of the image, with its covariance."""
+"""The pose that lays all active edges on the edges of the image, with its covariance.
+
+All active edges are fitted along their normals, with the lens model inside the fit and one shift common to
+all edges, because the camera's response and the ink move every edge alike. Four corners use a tenth of what
+the pixels hold. Both planar solutions are refined, and the mirror image of the accepted one is always
+tried. Cost: 1 ms an image.
+
+Without the error that does not average out along a side (`SIDE_BIAS_PX`), the tip of a marker 27 px wide
+lies inside its stated 95 % ellipsoid in a third of the images only; the price is a covariance that is wider
+than necessary for large markers.
+"""
 
 from dataclasses import dataclass, replace
 

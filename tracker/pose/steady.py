@@ -4,6 +4,9 @@ Noise makes a drawn line tremble. A mean over the last images takes most of it a
 where it was a moment ago: by how much is stated with every pose. A pose that differs from one before it by
 more than their covariances and a hand that holds still admit (about a millimetre, or half a degree) is shown
 in its own image, and what was before is forgotten.
+
+A plain mean has an exact lag at any image rate; a jump or a fast hand empties the window in the same image.
+What moves is not steadied.
 """
 
 from collections import deque

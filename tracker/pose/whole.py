@@ -1,4 +1,19 @@
-"""A pose from edges, made as exact as the pixels allow by fitting the whole shape to them."""
+"""A pose from edges, made as exact as the pixels allow by fitting the whole shape to them.
+
+Edges use the position of a gradient peak, pixels its whole profile: so the pose by edges is then fitted to
+all pixels, with blur, response and light. What that fit cannot explain keeps its pose by edges. Cost: 1 to
+3 ms.
+
+The pixels choose among all fits. Edges of a motion-blurred marker stand at either end of the motion and
+often fit the wrong planar solution; a reach that does not allow half of the motion more would reject the
+right one unseen, and state half a degree for a tip that is off by decimetres (7 of 41 hard scenes of camera
+B). Where the best fit ends elsewhere and leaves something unexplained, the pose by edges stays and the
+covariance spans both: with a cover along one side the edges are wrong and the pixels right.
+`tests/tracker/test_limits.py` holds that no error exceeds ten stated standard deviations.
+
+Covered pixels have no weight: a round finger passes for a shadow, and with a third of the marker under it
+(cover30, camera A) tips would be off by 1.37 mm instead of 0.37.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

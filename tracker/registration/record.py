@@ -1,4 +1,13 @@
-"""Where the vertebra of the plan is on the patient, and how sure that is."""
+"""Where the vertebra of the plan is on the patient, and how sure that is.
+
+One record and one covariance serve all methods. It is fixed to an anchor, the camera or the patient's
+reference, and carried into each image; where the vertebra is now (`PlacedVertebra`) belongs to the image,
+so video, numbers and 3-D lose it in the same image.
+
+`tip_slope` is kept because one tip both touches the landmarks and drills: its error cancels where the drill
+is turned as it was at the touches, and doubles where it is turned round. Taken as independent, the stated
+95 % covers 88 to 100 % of the truths; with it, 95 to 97.
+"""
 
 from dataclasses import dataclass, field
 from enum import StrEnum

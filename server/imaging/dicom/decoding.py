@@ -1,4 +1,8 @@
-"""Compressed images decoded on several cores, in processes that may die of a damaged one."""
+"""Compressed images decoded on several cores, in processes that may die of a damaged one.
+
+GDCM ends its process on some damaged streams and holds the interpreter lock while it decodes. Two workers
+use both cores and run at a lower priority than the tracker; they take half a second to start.
+"""
 
 import os
 import queue

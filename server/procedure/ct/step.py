@@ -1,4 +1,9 @@
-"""The step in which a CT is sent, read and kept in the open case."""
+"""The step in which a CT is sent, read and kept in the open case.
+
+A job reads the CT into its own folder, and the voxels are moved into the case when all are there. Both lie
+in one home, so nothing is copied, and a cancelled, killed or failed job leaves nothing behind. An upload
+that waits for a choice among several series does not outlast a restart.
+"""
 
 import secrets
 import shutil

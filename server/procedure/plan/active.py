@@ -1,4 +1,8 @@
-"""Which of the planned channels is to be drilled now: a document of its own, which stands on the plan."""
+"""Which of the planned channels is to be drilled now: a document of its own, which stands on the plan.
+
+Going from the left to the right pedicle must not put the registration out of date; a changed channel must.
+A change of the plan that leaves the channel as it is renews the choice in the same transaction.
+"""
 
 from dataclasses import dataclass
 from typing import cast

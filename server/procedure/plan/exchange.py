@@ -1,4 +1,9 @@
-"""A plan as a file: written with who made it, when and on which CT, and read with distrust."""
+"""A plan as a file: written with who made it, when and on which CT, and read with distrust.
+
+What a person chose is read from the file; grades, clearances, bone, tolerances and lines are computed again
+on the CT of the case, which must be the one that the file names by the checksum of its voxels. A plan
+cannot be viewed without its CT.
+"""
 
 import json
 from collections.abc import Mapping

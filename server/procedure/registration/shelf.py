@@ -1,4 +1,9 @@
-"""Registrations as the open case keeps them, version by version, each of one vertebra."""
+"""Registrations as the open case keeps them, version by version, each of one vertebra.
+
+A vertebra has one registration for all its channels. It depends on the plan, the camera and the tool that
+touched: going to the other side keeps it, and any new version of the plan ends it, because landmarks may
+have moved. A failed check is stored and counts even where no check is required.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,7 @@
-"""Withdraws a registration, or its check, when tracking keeps saying that camera or reference were moved."""
+"""Withdraws a registration, or its check, when tracking keeps saying that camera or reference were moved.
+
+It withdraws once all images have said so for `registration.moved_after_s`.
+"""
 
 import structlog
 

@@ -1,4 +1,9 @@
-"""Co-signatures: that a second person has looked at exactly this version of a plan or registration."""
+"""Co-signatures: that a second person has looked at exactly this version of a plan or registration.
+
+A co-signature is a document that depends on the signed version and holds its hash, so a changed plan is
+unsigned at once by the rule that applies to every document. Where it is required, numbers are withheld and
+every earlier step stays possible. Where nobody signs in, a signature counts as nobody's.
+"""
 
 import hashlib
 import json

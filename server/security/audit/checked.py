@@ -1,4 +1,8 @@
-"""The log is verified while it grows: what was verified once is told by one sum of it, and not read anew."""
+"""The log is verified while it grows: what was verified once is told by one sum of it, and not read anew.
+
+Nobody who writes or asks waits for a reader, and a log of years costs a moment. Refusals are written at
+most sixty times a minute; the log itself is never truncated.
+"""
 
 import hashlib
 import threading

@@ -1,4 +1,9 @@
-"""People on the disk: one small file that is written anew, whole, with each change."""
+"""People on the disk: one small file that is written anew, whole, with each change.
+
+People and the audit log are kept outside of the cases' database: a database restored from a backup brings
+back no ended session, and a copied case carries no token. A change and its audit line are therefore not one
+transaction.
+"""
 
 import json
 from collections.abc import Iterable, Mapping

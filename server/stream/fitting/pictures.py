@@ -1,4 +1,8 @@
-"""The picture of an instant in each size: made once for all who watch, and only when somebody does."""
+"""The picture of an instant in each size: made once for all who watch, and only when somebody does.
+
+The finished picture is scaled, so that figures and image are of one instant; the small print is not
+readable in a quarter of the width, the surgeon's figures are.
+"""
 
 import asyncio
 import time

@@ -2,6 +2,9 @@
 
 Two cameras of one make, or one whose zoom was touched, agree to within tenths of a pixel: each view alone
 fits, and the camera that comes out is none of both.
+
+Two cameras of one make fit together to 0.22 px, and the result is neither of them. A bent board pulls views
+apart in the same way, so this is a warning and no error.
 """
 
 from collections.abc import Sequence

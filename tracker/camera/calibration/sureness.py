@@ -1,4 +1,8 @@
-"""How sure each number of a camera is, from what its residuals themselves show."""
+"""How sure each number of a camera is, from what its residuals themselves show.
+
+With independent errors, residuals and Student's t cover the truth in 95 of 100 cameras. Real boards bend
+and blur; there the jackknife over views is used, and is never narrower.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

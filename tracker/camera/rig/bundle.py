@@ -1,4 +1,9 @@
-"""All cameras of a rig and all poses of the board, fitted to all points at once."""
+"""All cameras of a rig and all poses of the board, fitted to all points at once.
+
+Lenses are fitted with the places of the cameras, after most pairs agree on them (`consensus`): the
+uncertainty of the lens is then part of the baseline's, and a swapped pair is reported instead of averaged
+in. `cv2.stereoCalibrate` takes two cameras only and ignores the uncertainty of earlier fits.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -4,6 +4,9 @@ Two markers may differ in one small field only. Nine tenths of their edges are t
 threshold on a score tells them apart; but the field itself contradicts. Light that varies over the marker
 does not, and something that covers the marker comes over its border, where the outline is missing too: only
 what lies wholly inside, within an outline that is there, contradicts.
+
+A marker with dirt inside its square is therefore rejected (`SHAPE_DIFFERS`); what reaches over its border
+is a cover and does not reject it.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,9 @@
-"""All alarms as one state machine: moments and commands in, pictures out. The same in, the same out."""
+"""All alarms as one state machine: moments and commands in, pictures out. The same in, the same out.
+
+The publisher steps it with each image before it is drawn, so picture, message and sound state the same
+image, and a recording gives the same alarms again. It runs in the web process and is stepped twenty times a
+second without an image, because the tracking process cannot announce its own death.
+"""
 
 from collections.abc import Collection
 from math import inf, isfinite

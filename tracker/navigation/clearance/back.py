@@ -1,4 +1,9 @@
-"""The bone's back: the surface through which a drill comes in, as it is seen along the channel."""
+"""The bone's back: the surface through which a drill comes in, as it is seen along the channel.
+
+A drill enters through the bone's back, so only the other walls warn. Places of the drill count from the
+back as it is seen along the channel, or from 7 mm past the entry where there is none. A side wall seen
+under less than 75 degrees from behind is therefore no wall.
+"""
 
 from dataclasses import dataclass
 

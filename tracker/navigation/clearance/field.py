@@ -1,4 +1,8 @@
-"""The signed distance to the bone's wall around a channel: made once, looked up in each image."""
+"""The signed distance to the bone's wall around a channel: made once, looked up in each image.
+
+Steps of 0.5 mm in 16 bits are exact to a hundredth of a millimetre on flat bone, and 5 MB to send to the
+tracking process.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum

@@ -1,4 +1,9 @@
-"""Fits the bar to the voxels themselves, so that walls are placed far below a voxel, in thick slices too."""
+"""Fits the bar to the voxels themselves, so that walls are placed far below a voxel, in thick slices too.
+
+A wall of 1 mm is blurred to half of its Hounsfield units, in thick slices to a third, so no threshold finds
+it; a fit that contains the voxel's box places it to a tenth of a voxel. Rays give the start only. It takes
+a second for each click.
+"""
 
 from dataclasses import dataclass
 

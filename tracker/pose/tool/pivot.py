@@ -1,4 +1,10 @@
-"""Pivot calibration: the tool is tilted with its tip held, and its marker tells where that tip is."""
+"""Pivot calibration: the tool is tilted with its tip held, and its marker tells where that tip is.
+
+Distances alone give 383 mm to the tip of a real pointer, rotations alone 394: the tracker errs
+systematically, and noise models that trust one of the two were more certain and farther off. So every
+millimetre counts alike unless covariances are stated, at the price of half of the error where noise is of
+angles only.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum

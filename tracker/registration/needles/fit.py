@@ -1,4 +1,10 @@
-"""Three needles in one image become the registration, with what it cannot know beside it."""
+"""Three needles in one image become the registration, with what it cannot know beside it.
+
+Image, ruler and touched points are one fit, each with its own spread. Three needles in one image leave
+depth to the ruler, and bone often hides where they go in: P3P took the visible rim for the entry. So the
+rim is an entry with a spread (3 mm, sd 4), unless a person marks the entry itself. Depth is never known
+from needles alone.
+"""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,9 @@
-"""Whether points fit better in another order, or mirrored: a landmark was taken for another."""
+"""Whether points fit better in another order, or mirrored: a landmark was taken for another.
+
+Left and right of a vertebra look alike, so most true landmarks also fit swapped; to reject those would
+reject the common case. A given order is rejected only where another order or the mirror image fits better,
+and the check on anatomy finds the rest.
+"""
 
 from dataclasses import dataclass
 from functools import cache

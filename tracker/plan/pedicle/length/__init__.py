@@ -1,4 +1,9 @@
-"""How far a pedicle's axis runs in bone: from the entry behind to the front wall of the body."""
+"""How far a pedicle's axis runs in bone: from the entry behind to the front wall of the body.
+
+The length ends at outlines of the whole bone: a contrast-filled vessel that touches the body is a wall's
+width away along the axis but lies outside of the body's outline, and a process is more slender than the
+arch, whose back is where half of the bone around the axis ends.
+"""
 
 from tracker.plan.pedicle.length.walls import WallAhead, back_wall, front_wall
 
