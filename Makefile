@@ -1,5 +1,5 @@
 # Coaxial. `make help` lists what there is; `make run` and `make test` do all their own set-up.
-# Everything that is made lies in .venv, web/node_modules and web/dist; `make clean` takes it away again.
+# Everything that is made lies in .venv, web/node_modules, web/dist and docs/site; `make clean` takes it away again.
 # The home folder is neither read nor written; with the stamps in .venv a second start is immediate and needs no network.
 # Cases lie in .coaxial, if COAXIAL_HOME names no other folder; nothing here takes them away.
 
@@ -37,6 +37,8 @@ TRACKER_SOURCES := $(shell find tracker -name '*.py')
 # Folders are listed too: their time changes when a file in them goes away. The schema's types are made, not written.
 PAGE_SOURCES := $(shell find web/src web/public -not -name schema.d.ts 2>/dev/null) \
 	$(filter-out web/dist web/node_modules,$(wildcard web/*.json web/*.ts web/*.js web/*.html))
+
+GUIDE_SOURCES := docs/zensical.toml $(shell find docs/guide 2>/dev/null)
 
 # An environment that was made elsewhere, or whose Python has gone, is made again.
 SOUND := $(shell [ "$$(cat $(STAMPS)/place 2>/dev/null)" = "$$(pwd)" ] \
@@ -121,13 +123,16 @@ test-python: ready $(STAMPS)/dev ## Python and browser tests alone (TESTS="tests
 benchmark: ready $(STAMPS)/dev ## how true and how fast the tracker is, beside its peers, and what got worse
 	@$(PYTHON_IN_VENV) -m tests.benchmarks $(ARGS)
 
+.PHONY: docs
+docs: $(STAMPS)/guide ## build the user guide, which the server shows at /docs/
+
 .PHONY: lock
 lock: $(STAMPS)/dev ## write the locks again (UPGRADE=--upgrade takes the newest of everything)
 	@UPGRADE="$(UPGRADE)" sh .make/lock
 
 .PHONY: clean
 clean: ## take away everything that was made, but no case
-	rm -rf .venv web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	rm -rf .venv docs/site docs/.cache web/node_modules web/dist web/*.tsbuildinfo .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 	find tracker server tests -name __pycache__ -type d -prune -exec rm -rf {} +
 	@if [ -e .coaxial ]; then echo "Kept: .coaxial, the folder with the cases. Remove it by hand to lose them."; fi
 
@@ -172,6 +177,18 @@ $(STAMPS)/dev: requirements-dev.lock $(STAMPS)/project
 	@$(STEP) dev "Installing what the tests need" \
 		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
 		sh .make/install requirements-dev.lock
+	@touch $@
+
+# Only for `make docs`: nobody waits for the guide at a start.
+$(STAMPS)/docs-packages: requirements-docs.lock $(STAMPS)/project
+	@$(STEP) docs-packages "Installing what builds the guide" \
+		"Look whether this machine reaches its package index, and whether its Python is 3.11 to 3.14." \
+		sh .make/install requirements-docs.lock
+	@touch $@
+
+$(STAMPS)/guide: $(GUIDE_SOURCES) $(STAMPS)/docs-packages
+	@$(STEP) guide "Building the guide" "Look at the log; the guide's sources are in docs/guide." \
+		.venv/bin/zensical build --strict --clean --config-file docs/zensical.toml
 	@touch $@
 
 $(STAMPS)/page-packages: web/package-lock.json requirements-node.lock $(STAMPS)/place

@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-DOCUMENTS = sorted(
-    [*ROOT.glob("*.md"), *(ROOT / room / "README.md" for room in ("tracker", "server", "web", "tests"))]
-)
+READMES = [
+    ROOT / room / "README.md" for room in ("tracker", "server", "web", "tests", "docs", "tests/benchmarks")
+]
+DOCUMENTS = sorted([*ROOT.glob("*.md"), *READMES, *(ROOT / "docs" / "guide").glob("*.md")])
 FIRST_SCREEN = 30  # lines
 LARGEST_PICTURE_BYTES = 300_000
 MAX_LINES_OF_ARCHITECTURE = 150
@@ -23,9 +24,15 @@ def targets(makefile: str) -> set[str]:
 
 
 def links(text: str) -> list[str]:
-    """Where the document's links to files of this project point."""
+    """Where the document's links to files of this project point; those that begin with / are the server's."""
     found = re.findall(r"\]\(([^)\s]+)\)", text)
-    return [link.split("#")[0] for link in found if "://" not in link and not link.startswith("#")]
+    return [link.split("#")[0] for link in found if "://" not in link and not link.startswith(("#", "/"))]
+
+
+def headings(text: str) -> set[str]:
+    """The names by which links reach the document's headings."""
+    named = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in named}
 
 
 def commands(text: str) -> set[str]:
@@ -39,6 +46,17 @@ def test_every_link_leads_to_a_file(document: Path) -> None:
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_every_link_to_a_part_leads_to_its_heading(document: Path) -> None:
+    parts = re.findall(r"\]\(([^)\s#:]*\.md)?#([^)\s]+)\)", text_of(document))
+    dead = [
+        part
+        for file, part in parts
+        if part not in headings(text_of(document.parent / file if file else document))
+    ]
+    assert dead == []
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_every_command_can_be_made(document: Path) -> None:
     assert commands(text_of(document)) - targets(text_of(ROOT / "Makefile")) == set()
 
@@ -49,6 +67,7 @@ def test_a_dead_link_and_a_dead_command_are_seen() -> None:
     )
     assert links(text) == ["nowhere.md"]
     assert commands(text) == {"coffee", "tea"}
+    assert headings("# Cases, and settings\n## `/ws/view`\n") == {"cases-and-settings", "wsview"}
 
 
 def test_the_first_screen_says_what_a_stranger_must_know() -> None:

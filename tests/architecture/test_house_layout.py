@@ -10,10 +10,10 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 TOP = {
-    *("pyproject.toml", "server", "tracker", "web", "tests", "config.yaml", "Dockerfile", "Makefile"),
+    *("pyproject.toml", "server", "tracker", "web", "tests", "docs", "config.yaml", "Dockerfile", "Makefile"),
     *("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE"),
 }
-ROOMS = ("tracker", "server", "tests", "web")
+ROOMS = ("tracker", "server", "tests", "web", "docs")
 PACKAGES = ("tracker", "server")
 SAYS_NOTHING = {"utils", "util", "helpers", "helper", "common", "manager", "data", "info", "misc"}
 MOST_LINES = 350

@@ -14,6 +14,7 @@ LOCKS = (
     "requirements-build.lock",
     "requirements-installer.lock",
     "requirements-node.lock",
+    "requirements-docs.lock",
     "requirements-dev.lock",
 )
 PIN = re.compile(r"^([a-z0-9][a-z0-9.-]*)==(\S+)")
@@ -63,7 +64,9 @@ def asked_for() -> dict[str, list[str]]:
         "requirements-build.lock": names(groups["build"]),
         "requirements-installer.lock": names(groups["installer"]),
         "requirements-node.lock": names(groups["node"]),
-        "requirements-dev.lock": runtime + names(groups["build"] + groups["installer"] + groups["dev"]),
+        "requirements-docs.lock": names(groups["docs"]),
+        "requirements-dev.lock": runtime
+        + names(groups["build"] + groups["installer"] + groups["docs"] + groups["dev"]),
     }
 
 
@@ -93,7 +96,13 @@ def test_a_lock_holds_what_the_project_asks_for(lock: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "lock", ["requirements.lock", "requirements-build.lock", "requirements-installer.lock"]
+    "lock",
+    [
+        "requirements.lock",
+        "requirements-build.lock",
+        "requirements-installer.lock",
+        "requirements-docs.lock",
+    ],
 )
 def test_what_runs_is_what_was_tested(lock: str) -> None:
     tested = versions("requirements-dev.lock")
