@@ -11,6 +11,15 @@ RUN npm ci --no-audit --no-fund
 COPY web ./
 RUN npm run build && test -s dist/index.html
 
+# ---------------------------------------------------------------- the guide
+FROM python:3.13-slim-bookworm AS guide
+ENV PIP_NO_CACHE_DIR=1 PIP_DISABLE_PIP_VERSION_CHECK=1
+WORKDIR /build
+COPY requirements-docs.lock ./
+RUN python -m pip install --require-hashes --no-deps -r requirements-docs.lock
+COPY docs docs
+RUN python -m zensical build --strict --clean --config-file docs/zensical.toml && test -s docs/site/index.html
+
 # ---------------------------------------------------------------- the packages
 FROM python:3.13-slim-bookworm AS packages
 ENV PIP_NO_CACHE_DIR=1 PIP_DISABLE_PIP_VERSION_CHECK=1
@@ -23,6 +32,7 @@ COPY pyproject.toml README.md LICENSE ./
 COPY tracker tracker
 COPY server server
 COPY --from=page /build/web/dist web/dist
+COPY --from=guide /build/docs/site docs/site
 RUN python -m hatchling build -t wheel -d wheels \
     && python -m pip --python /opt/coaxial install --no-index --no-deps wheels/*.whl
 

@@ -19,6 +19,7 @@ from server.api.documentation import DocumentedApi, documentation_router
 from server.api.doing import know_who_asks
 from server.api.errors import install_errors, refusals
 from server.api.gates import gates_router
+from server.api.guide import guide_folder, is_guide, mount_guide
 from server.api.health import health_router
 from server.api.jobs import jobs_router
 from server.api.latency import latency_router
@@ -157,7 +158,7 @@ def create_app(parts: AppParts) -> FastAPI:
     )
     if parts.store is not None:
         ShownBone(parts.store, app.state.scene.show_surface, own=parts.surface)
-    mount_page(app, camera=config.camera.name, folder=page_folder())
+    _mount_files(app, config)
     return app
 
 
@@ -180,16 +181,23 @@ def _add_streams(app: FastAPI, parts: AppParts, viewers: Viewers, video: Video, 
     app.include_router(streams_router(camera_name=camera.name, video=video, view=view, phone=phone))
 
 
+def _mount_files(app: FastAPI, config: Config) -> None:
+    """The guide, and then the page, because that answers to every path."""
+    mount_guide(app, folder=guide_folder())
+    mount_page(app, camera=config.camera.name, folder=page_folder())
+
+
 def _add_guards(app: FastAPI, parts: AppParts) -> None:
     """What everything that is asked passes before it reaches a door; the last one here is passed first."""
     server = parts.config.server
+    is_page = page_addresses(page_folder())
     install_errors(app)
     app.add_middleware(LimitedBodies)
     if parts.people is not None:
         app.add_middleware(
             SessionGuard,
             people=parts.people,
-            is_page=page_addresses(page_folder()),
+            is_page=lambda path: is_page(path) or is_guide(path),
             behind_proxy=server.behind_proxy is not None,
         )
     app.add_middleware(HostGuard, hosts=KnownHosts.of(server.host))

@@ -5,7 +5,7 @@
 
 from server.security.audit import AuditLog
 from server.security.guard import SessionGuard
-from server.security.headers import SecurityHeaders
+from server.security.headers import SecurityHeaders, page_policy
 from server.security.hosts import HostGuard, KnownHosts
 from server.security.people import PeopleDesk
 from server.security.person import ANYBODY, NOBODY, Person, Role, acting, person_of
@@ -22,5 +22,6 @@ __all__ = [
     "SecurityHeaders",
     "SessionGuard",
     "acting",
+    "page_policy",
     "person_of",
 ]

@@ -37,11 +37,15 @@ CAMERA_PAGE_PERMISSIONS = "camera=(self), microphone=(), geolocation=()"
 UNDER_TLS = {"Strict-Transport-Security": "max-age=31536000"}
 
 
-def page_policy(host: str) -> str:
-    """The Content-Security-Policy of an answer that was asked for at this `Host`."""
+def page_policy(host: str, *, scripts: tuple[str, ...] = ()) -> str:
+    """The Content-Security-Policy of an answer that was asked for at this `Host`.
+
+    `scripts`: sources of scripts beside the server's own files, such as `'sha256-...'`.
+    """
     # Older Safaris do not count a WebSocket of the same host as 'self'.
     sockets = f" ws://{host} wss://{host}" if HOST_SHAPE.fullmatch(host) else ""
     policy = PAGE_POLICY | {"connect-src": f"'self'{sockets}"}
+    policy["script-src"] = " ".join((policy["script-src"], *scripts))
     return "; ".join(f"{name} {value}" for name, value in policy.items())
 
 

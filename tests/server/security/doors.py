@@ -94,7 +94,7 @@ def guarded(
 
 
 def addresses_of(app: FastAPI) -> set[tuple[str, str]]:
-    """Every method and path that the application itself answers to, but for the page's files."""
+    """Every method and path that the application itself answers to, but for the files of page and guide."""
     return {found for route in app.router.routes for found in _addresses(route)}
 
 
@@ -105,7 +105,7 @@ def _addresses(route: BaseRoute) -> Iterator[tuple[str, str]]:
             yield from _addresses(one)
         return
     path = getattr(route, "path", "")
-    if getattr(route, "name", "") in {"page", "not_built"}:
+    if getattr(route, "name", "") in {"page", "not_built", "guide"}:
         return
     methods = getattr(route, "methods", None)
     if methods is None:

@@ -62,6 +62,11 @@ export function DetailsPane(): ReactNode {
           </a>
         </p>
       ))}
+      <p className="details-video">
+        <a href="/docs/" target="_blank" rel="noreferrer">
+          {d.guide}
+        </a>
+      </p>
     </Pane>
   );
 }

@@ -148,6 +148,7 @@ export const de: Words = {
     mode: "Kameramodus",
     version: "Version",
     plainVideo: "Einfaches Video für andere Bildschirme",
+    guide: "Anleitung (englisch)",
   },
   alerts: { title: "Meldungen", remedy: "Was zu tun ist:" },
   alarms: alarmsDe,

@@ -150,6 +150,7 @@ export const en: Words = {
     mode: "Camera mode",
     version: "Version",
     plainVideo: "Plain video for other screens",
+    guide: "User guide",
   },
   alerts: { title: "Alerts", remedy: "What to do:" },
   alarms: alarmsEn,

@@ -91,7 +91,8 @@ export interface Words {
     | "clock"
     | "mode"
     | "version"
-    | "plainVideo",
+    | "plainVideo"
+    | "guide",
     string
   >;
   alerts: { title: string; remedy: string };
