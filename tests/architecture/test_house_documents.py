@@ -10,6 +10,7 @@ READMES = [
     ROOT / room / "README.md" for room in ("tracker", "server", "web", "tests", "docs", "tests/benchmarks")
 ]
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *READMES, *(ROOT / "docs" / "guide").glob("*.md")])
+OF_TODAY = [document for document in DOCUMENTS if document.name != "CHANGELOG.md"]
 FIRST_SCREEN = 30  # lines
 LARGEST_PICTURE_BYTES = 300_000
 MAX_LINES_OF_ARCHITECTURE = 150
@@ -27,6 +28,17 @@ def links(text: str) -> list[str]:
     """Where the document's links to files of this project point; those that begin with / are the server's."""
     found = re.findall(r"\]\(([^)\s]+)\)", text)
     return [link.split("#")[0] for link in found if "://" not in link and not link.startswith(("#", "/"))]
+
+
+def files_named(text: str) -> list[str]:
+    """The files of this project that the document names by their whole path, `{en,de}` taken apart."""
+    named = re.findall(r"`((?:tracker|server|web|tests|docs)/[\w/.{},-]+\.\w+)`", text)
+    lists = [re.split(r"[{}]", name) for name in named]
+    return [
+        "".join((parts[0], choice, *parts[2:]))
+        for parts in lists
+        for choice in (parts[1].split(",") if len(parts) > 1 else [""])
+    ]
 
 
 def headings(text: str) -> set[str]:
@@ -61,12 +73,18 @@ def test_every_command_can_be_made(document: Path) -> None:
     assert commands(text_of(document)) - targets(text_of(ROOT / "Makefile")) == set()
 
 
+@pytest.mark.parametrize("document", OF_TODAY, ids=lambda path: str(path.relative_to(ROOT)))
+def test_every_file_that_is_named_exists(document: Path) -> None:
+    assert [file for file in files_named(text_of(document)) if not (ROOT / file).exists()] == []
+
+
 def test_a_dead_link_and_a_dead_command_are_seen() -> None:
     text = (
         "[there](nowhere.md#part), [out](https://example.org)\n```sh\nmake coffee   # now\n```\nor `make tea`"
     )
     assert links(text) == ["nowhere.md"]
     assert commands(text) == {"coffee", "tea"}
+    assert files_named("`web/{en,de}.ts` `server/a.py`") == ["web/en.ts", "web/de.ts", "server/a.py"]
     assert headings("# Cases, and settings\n## `/ws/view`\n") == {"cases-and-settings", "wsview"}
 
 
