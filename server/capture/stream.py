@@ -4,6 +4,11 @@ OpenCV's FFmpeg backend silently scales images that change their size to the fir
 shape; a calibration would then hold for stretched images. Of MJPEG it hands over the packets, so those are
 decoded here in their own size, and truncated ones are dropped. H.264 and H.265 streams that change their
 size are still stretched.
+
+Of an RTSP stream OpenCV gives each image's RTP time, which is mapped to this machine's clock like a camera's
+own (`device_clock`). The wall clock of the sender reports is not used: FFmpeg keeps the first report alone,
+and nothing in the stream says how far the sender's wall clock is from ours. Only video is requested, because
+beside sound FFmpeg shifts all times at the first report.
 """
 
 import math

@@ -1,7 +1,9 @@
 """A phone's images on their way to the tracking process: a ring in shared memory and a pipe that wakes.
 
 The web process never waits for the other, and what was not read is replaced by what is newer. Ring and pipe
-outlast a tracking process: the next one reads what comes after its start.
+outlast a tracking process: the next one reads what comes after its start. Images stay JPEG until the tracking
+process decodes them. Video coding between images would need less of the line, and WebRTC would bring it, but
+its buffers hide how old an image is.
 """
 
 import contextlib

@@ -3,6 +3,12 @@
 `device` is what both libraries have in common, `basler` and `gentl` are thin layers over them; `source`
 gives the images, with `camera_setup` (format, size, rate, trigger), `camera_controls` (exposure, gain,
 white balance), `clock_latch` (the camera's clock) and `pixel_formats`.
+
+Both libraries name GenICam's features alike, so mode, trigger, controls and clock are written once. pypylon's
+wheel is under the 3-clause BSD licence with Basler's runtime in it, and emulates cameras for the tests; the
+GenICam package below harvesters may be passed on only unchanged, so it is in no lock. A smaller image is a
+region of the sensor: its place counts as pan and tilt, binning as zoom. Formats of more than 8 bits and YUV
+are not read.
 """
 
 from server.capture.industrial.basler import BaslerCameras
