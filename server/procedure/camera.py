@@ -1,6 +1,6 @@
 """The step in which the camera is calibrated: views collected, the camera fitted, the result kept."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from server.calibration import accuracy_values, coverage_svg, report_values, residuals_svg, view_values
@@ -199,13 +199,13 @@ class CameraStep:
             files=list(files.values()),
         )
 
-    def _readout_so_far(self, case: Case, size_wh_px: object) -> dict[str, object]:
+    def _readout_so_far(self, case: Case, size_wh_px: Sequence[int]) -> dict[str, object]:
         """The readout that is kept with the calibration before: it belongs to the mode, not to the lens."""
         before = self._store.latest(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
         camera = None if before is None else before.content.get("camera")
         if not isinstance(camera, Mapping) or camera.get("source") != self._source:
             return {}
-        if list(camera.get("size_wh_px", ())) != list(size_wh_px) if isinstance(size_wh_px, list) else True:
+        if list(camera.get("size_wh_px", ())) != list(size_wh_px):
             return {}
         return {key: camera[key] for key in READOUT_KEYS if key in camera}
 

@@ -127,6 +127,25 @@ def test_the_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_
     assert server.adopted[-1].camera_controls == controls
 
 
+def test_another_calibration_of_the_same_mode_keeps_the_readout(server: Server) -> None:
+    open_a_case(server)
+    _, images = shown()
+
+    def calibrate() -> None:
+        server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
+        for image in images[:8]:
+            server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
+        job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
+        assert job["state"] == "done", job["trouble"]
+
+    calibrate()
+    server.ask("PUT", "/api/camera/readout", 200, json={"readout_ms": 16.5, "made_by": "ito"})
+    calibrate()
+    kept = server.ask("GET", "/api/camera/calibration", 200)
+    assert (kept["heading"]["version"], kept["content"]["camera"]["readout_ms"]) == (3, 16.5)
+    assert server.adopted[-1].readout_ms == 16.5
+
+
 def test_a_withdrawn_camera_is_used_no_more(server: Server) -> None:
     case_id = open_a_case(server)
     _, images = shown()
