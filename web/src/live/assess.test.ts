@@ -86,6 +86,14 @@ describe("age", () => {
     expect(videoVerdict(situation({ picture: taken(NOW - ageMs) }), NOW).live).toBe(live);
   });
 
+  test.each([
+    [500, "unread"],
+    [500.1, "old"],
+  ])("why there are no figures, %d ms old, is said as long as its picture may stand: %s", (ageMs, cause) => {
+    const numbers = taken(NOW - ageMs, { shown_tool: null });
+    expect(numbersVerdict(situation({ numbers }), NOW)).toMatchObject({ live: false, cause });
+  });
+
   test("an age that is no number is never live", () => {
     expect(numbersVerdict(situation({ numbers: taken(NaN) }), NOW).live).toBe(false);
     expect(videoVerdict(situation({ picture: taken(NaN) }), NOW).live).toBe(false);

@@ -114,8 +114,11 @@ export function numbersVerdict(situation: Situation, nowMs: number): NumbersVerd
   if (numbers === null || ageMs === null) {
     return { live: false, cause: "no-picture", unread: null, ageMs: null };
   }
-  if (!(ageMs <= limits.pose_stale_after_ms)) return { live: false, cause: "old", unread: null, ageMs };
   const reading = readingOf(numbers.snapshot, numbers.headline);
+  // Why there are no figures is no figure: as long as the picture of that image may stand, so may its reason. A marker
+  // that is searched for makes images late, and "too old" would hide that it is not seen.
+  const limitMs = reading.known ? limits.pose_stale_after_ms : limits.video_stale_after_ms;
+  if (!(ageMs <= limitMs)) return { live: false, cause: "old", unread: null, ageMs };
   if (!reading.known) return { live: false, cause: "unread", unread: reading, ageMs };
   return { live: true, reading, imageNumber: numbers.snapshot.image_number, ageMs };
 }
