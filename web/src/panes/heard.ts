@@ -8,7 +8,7 @@ export interface HeardOf {
   linkState: LinkState | "not-reached";
   source: LiveMessage["source"] | null;
   snapshot: LiveMessage["snapshot"];
-  /** Something of the newest image stands on the page: what is well is shown as well only then. */
+  /** The newest image is young enough for its figures: what is well is shown as well only then. */
   isOfNow: boolean;
 }
 
@@ -24,6 +24,6 @@ export function heardOf({ link, firstMessage, video, numbers, newest }: View): H
     linkState,
     source: isHeard ? (newest?.source ?? null) : null,
     snapshot: isHeard ? (newest?.snapshot ?? null) : null,
-    isOfNow: isHeard && (video.live || isOfNow(numbers)),
+    isOfNow: isHeard && isOfNow(numbers),
   };
 }
