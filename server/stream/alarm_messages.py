@@ -111,7 +111,9 @@ def alarms_message(picture: AlarmPicture, *, now_s: float) -> AlarmsMessage:
 
 def _alarm(alarm: Alarm, *, now_s: float, unix_offset_s: float) -> AlarmMessage:
     words = alarm_text(alarm, unix_offset_s=unix_offset_s)
-    without_figures = alarm_text(without_live_figures(alarm), unix_offset_s=unix_offset_s)
+    unseen = without_live_figures(alarm)
+    # Most alarms read the same: made once, because each image's message has them.
+    without_figures = words if unseen is alarm else alarm_text(unseen, unix_offset_s=unix_offset_s)
     peak, earlier = alarm.peak, alarm.earlier_peak
     return AlarmMessage(
         number=alarm.number,

@@ -58,7 +58,8 @@ def alarm_text(alarm: Alarm, *, unix_offset_s: float, of_now: bool = True) -> Al
 def without_live_figures(alarm: Alarm) -> Alarm:
     """The alarm beside figures that are too old to be shown: what figures show is not known then."""
     trait = TRAITS[alarm.condition]
-    if trait.kind is Kind.PHYSIOLOGICAL or trait.of_newest_image:
+    is_of_figures = trait.kind is Kind.PHYSIOLOGICAL or trait.of_newest_image
+    if is_of_figures and alarm.presence is not Showing.UNKNOWN:
         return replace(alarm, presence=Showing.UNKNOWN)
     return alarm
 
