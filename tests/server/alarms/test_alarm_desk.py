@@ -143,7 +143,13 @@ def test_a_camera_that_stalls_and_one_that_is_gone_are_one_alarm_each(room: Room
 @pytest.mark.parametrize(
     ("loss", "alarm"),
     [
-        ({"process": ProcessStatus(state=ProcessState.RESTARTING)}, Condition.TRACKING_STOPPED),
+        (
+            {
+                "process": ProcessStatus(state=ProcessState.RESTARTING),
+                "source": replace(RUNS, state=SourceState.OPENING),
+            },
+            Condition.TRACKING_STOPPED,
+        ),
         ({"source": replace(RUNS, state=SourceState.RECONNECTING)}, Condition.CAMERA_GONE),
         ({}, Condition.CAMERA_STALLED),
     ],
