@@ -103,7 +103,7 @@ class AppParts:
 def create_app(parts: AppParts) -> FastAPI:
     """The application, ready to be served."""
     hub, config, limits = parts.hub, parts.config, parts.config.limits
-    viewers = Viewers(most=config.video.most_viewers)
+    viewers = Viewers(most=config.video.max_viewers)
     pictures = Pictures(quality=config.video.jpeg_quality, language=config.video.language)
     metrics = Metrics(hub=hub, viewers=viewers, pictures=pictures)
     video = Video(hub=hub, viewers=viewers, pictures=pictures, stale_after_ms=limits.video_stale_after_ms)
@@ -249,7 +249,7 @@ def _add_procedure(app: FastAPI, parts: AppParts) -> None:
                 parts.steps.plan,
                 parts.steps.opened_ct,
                 parts.store.home,
-                least_landmarks=parts.config.registration.least_points,
+                min_landmarks=parts.config.registration.min_points,
             )
         )
         app.include_router(procedure_router(parts.steps.procedure, parts.steps.confirm))

@@ -172,48 +172,48 @@ class ReferenceConfig(Section):
 class ToolCalibrationConfig(Section):
     """What the calibration of a tool, and the check of its tip, must reach."""
 
-    most_rms_3d_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.8
+    max_rms_3d_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.8
     """3-D RMS of the tip about the pivot, of pivot and tip check alike."""
-    most_tip_sd_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.8
+    max_tip_sd_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.8
     """Standard deviation of the tip in the direction in which it is known least."""
-    least_tilt_deg: Annotated[float, Field(ge=5.0, le=120.0)] = 15.0
+    min_tilt_deg: Annotated[float, Field(ge=5.0, le=120.0)] = 15.0
     """How far the tool must be turned about each of two directions, from end to end."""
-    least_poses: Annotated[int, Field(ge=6, le=10_000)] = 10
-    least_used_ratio: Annotated[float, Field(ge=0.5, le=1.0)] = 0.6
+    min_poses: Annotated[int, Field(ge=6, le=10_000)] = 10
+    min_used_ratio: Annotated[float, Field(ge=0.5, le=1.0)] = 0.6
     """Share of the poses that must agree."""
-    least_spin_deg: Annotated[float, Field(ge=20.0, le=360.0)] = 60.0
-    most_wobble_deg: Annotated[float, Field(gt=0.0, le=45.0)] = 5.0
+    min_spin_deg: Annotated[float, Field(ge=20.0, le=360.0)] = 60.0
+    max_wobble_deg: Annotated[float, Field(gt=0.0, le=45.0)] = 5.0
     """RMS of what the axis moves while the tool is spun about it."""
-    most_axis_sd_deg: Annotated[float, Field(gt=0.0, le=45.0)] = 0.5
+    max_axis_sd_deg: Annotated[float, Field(gt=0.0, le=45.0)] = 0.5
 
 
 class RegistrationConfig(Section):
     """What a registration, and its check on anatomy, must reach before anybody navigates by it."""
 
-    least_points: Annotated[int, Field(ge=3, le=40)] = 3
+    min_points: Annotated[int, Field(ge=3, le=40)] = 3
     """Landmarks that are touched; four show a mistake that three hide."""
-    most_fre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.5
+    max_fre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.5
     """RMS distance of the landmarks from where the fit lays them."""
-    most_tre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
+    max_tre_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
     """The stated error (3-D RMS) at the entry point of every channel of the vertebra."""
-    most_left_out_mm: Annotated[float, Field(gt=0.0, le=50.0)] = 5.0
+    max_left_out_mm: Annotated[float, Field(gt=0.0, le=50.0)] = 5.0
     """Distance of any landmark from where all the others have it; known of four and more."""
     capture_images: Annotated[int, Field(ge=3, le=300)] = 12
     """Images in a row in which the tip rests on a landmark, and is seen in all of them."""
     capture_s: Annotated[float, Field(ge=0.05, le=10.0)] = 0.4
     """How long they last at least, so that a hand's tremor is in them."""
-    most_capture_gap_s: Annotated[float, Field(ge=0.05, le=10.0)] = 1.0
+    max_capture_gap_s: Annotated[float, Field(ge=0.05, le=10.0)] = 1.0
     """Between two of them at any image rate; else six image periods of the capture, or 0.25 s if longer."""
-    most_capture_sd_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 0.4
+    max_capture_sd_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 0.4
     """Standard deviation of the tip in them, along its worst axis."""
-    most_surface_rms_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0
+    max_surface_rms_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 1.0
     """RMS distance of a sweep from the bone's surface."""
-    most_nudge_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
+    max_nudge_mm: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
     """How far all nudges by hand together may lead, between the entry points."""
-    most_nudge_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
+    max_nudge_deg: Annotated[float, Field(ge=0.0, le=20.0)] = 5.0
     check_required: bool = True
     """false: navigate by a registration that was not checked on a landmark."""
-    most_check_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
+    max_check_mm: Annotated[float, Field(gt=0.0, le=20.0)] = 2.0
     """Distance of the tip on a landmark from where the plan has it."""
     check_again_after_min: Annotated[float, Field(ge=1.0, le=1440.0)] = 30
     """From then on the check is asked for again; navigation goes on."""
@@ -245,9 +245,9 @@ class SmoothingConfig(Section):
 class CalibrationConfig(Section):
     """When a calibration is good enough."""
 
-    most_rms_px: Annotated[float, Field(gt=0.0, le=100.0)] = 1.0
+    max_rms_px: Annotated[float, Field(gt=0.0, le=100.0)] = 1.0
     """Root mean square distance between seen and expected points of the board."""
-    most_error_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.5
+    max_error_mm: Annotated[float, Field(gt=0.0, le=100.0)] = 0.5
     """Of a known displacement, in an accuracy check."""
 
 
@@ -257,7 +257,7 @@ class LimitsConfig(Section):
     pose_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 150
     video_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 500
     scene_stale_after_ms: Annotated[float, Field(ge=20.0, le=10_000.0)] = 500
-    most_tip_sd_mm: Annotated[float, Field(ge=0.1, le=100.0)] = 3.0
+    max_tip_sd_mm: Annotated[float, Field(ge=0.1, le=100.0)] = 3.0
 
 
 class AlarmsConfig(Section):
@@ -278,7 +278,7 @@ class AlarmsConfig(Section):
     """A drill unseen for longer lies somewhere on purpose, and is no longer missed."""
     screen_lost_after_s: Annotated[float, Field(ge=3.0, le=600.0)] = 6
     """A screen with armed sound that says nothing for this long is lost."""
-    least_free_disk_mb: Annotated[float, Field(ge=0.0, le=1e7)] = 2000
+    min_free_disk_mb: Annotated[float, Field(ge=0.0, le=1e7)] = 2000
 
 
 class VideoConfig(Section):
@@ -287,7 +287,7 @@ class VideoConfig(Section):
     jpeg_quality: Annotated[int, Field(ge=1, le=100)] = 80
     language: Literal["en", "de"] = "en"
     """Of the words that are burned into the picture; a page has the language of its browser."""
-    most_viewers: Annotated[int, Field(ge=1, le=10_000)] = 64
+    max_viewers: Annotated[int, Field(ge=1, le=10_000)] = 64
     """Who may watch at once, of pictures and numbers; as many again may watch the 3-D scene."""
 
 

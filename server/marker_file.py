@@ -10,7 +10,7 @@ from tracker.errors import InvalidInput
 
 SMALLEST_SIDE_PX = 8
 SQUARE_TOLERANCE_RATIO = 0.02
-LEAST_CONTRAST_GREY = 32
+MIN_CONTRAST_GREY = 32
 REMEDY = "Give a PNG, JPEG or BMP picture which the marker's black square fills edge to edge, row 0 on top."
 
 
@@ -59,11 +59,11 @@ def marker_image(content: bytes, *, named: str) -> npt.NDArray[np.uint8]:
             context,
         )
     contrast = int(image.max()) - int(image.min())
-    if contrast < LEAST_CONTRAST_GREY:
+    if contrast < MIN_CONTRAST_GREY:
         raise InvalidInput(
             "MARKER_IMAGE_FLAT",
             f"the marker picture {named} spans {contrast} grey levels of 255, needed at least "
-            f"{LEAST_CONTRAST_GREY}",
+            f"{MIN_CONTRAST_GREY}",
             REMEDY,
             {**context, "contrast_grey": contrast},
         )

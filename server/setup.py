@@ -109,7 +109,7 @@ class Preparation:
         registration: of plan and patient, or why there is none.
         reference: name of the marker that is fixed to the patient; empty when there is none.
         score_settings: when a marker counts as found.
-        most_tip_sd_mm, limits: see `tracker.navigation.Setup`.
+        max_tip_sd_mm, limits: see `tracker.navigation.Setup`.
         smoothing: how much poses are steadied.
         readout_s: from when the first row of an image is read to the last one; 0 of a global shutter.
         theatre: the rehearsal's, None for every other source.
@@ -126,7 +126,7 @@ class Preparation:
     registration: Registration | Absent
     reference: str
     score_settings: ScoreSettings
-    most_tip_sd_mm: float
+    max_tip_sd_mm: float
     smoothing: SteadySettings = field(default_factory=SteadySettings)
     readout_s: float = 0.0
     theatre: "Theatre | None" = None
@@ -235,7 +235,7 @@ class Preparation:
             screw=None if self.guide is None else self.guide.screw,
             side=None if self.guide is None else self.guide.side,
             withheld=self.withheld,
-            most_tip_sd_mm=self.most_tip_sd_mm,
+            max_tip_sd_mm=self.max_tip_sd_mm,
             limits=self.limits,
         )
 
@@ -268,7 +268,7 @@ def build_setup(config: Config) -> Preparation:
         registration=Absent(reason=AbsentReason.NOT_REGISTERED),
         reference=config.reference.marker or "",
         score_settings=scores,
-        most_tip_sd_mm=config.limits.most_tip_sd_mm,
+        max_tip_sd_mm=config.limits.max_tip_sd_mm,
         limits=DrillLimits(
             warning_distance_mm=config.alarms.warning_distance_mm, breach_ratio=config.alarms.breach_ratio
         ),

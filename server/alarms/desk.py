@@ -65,7 +65,7 @@ def alarm_limits(config: Config) -> AlarmLimits:
         reference_unseen_after_s=alarms.reference_unseen_after_ms / 1000.0,
         camera_silent_after_s=config.limits.video_stale_after_ms / 1000.0,
         check_due_after_s=config.registration.check_again_after_min * 60.0,
-        least_free_disk_mb=alarms.least_free_disk_mb,
+        min_free_disk_mb=alarms.min_free_disk_mb,
     )
 
 

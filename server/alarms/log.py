@@ -26,8 +26,8 @@ from tracker.errors import InvalidInput, NavigationError
 NAME = "log"
 FILE_NAME = "alarms.jsonl"
 NOBODY = "Coaxial"
-MOST_WAITING = 10_000
-MOST_A_DOCUMENT = 200
+MAX_WAITING = 10_000
+MAX_A_DOCUMENT = 200
 TRY_AGAIN_S = 2.0
 FLUSH_TIMEOUT_S = 5.0
 
@@ -113,7 +113,7 @@ class StoredAlarmLog:
         if not entries:
             return
         with self._changed:
-            if len(self._waiting) >= MOST_WAITING:
+            if len(self._waiting) >= MAX_WAITING:
                 # The disk has been away for hours; what was first is the more telling.
                 return
             self._waiting.extend(entries)
@@ -166,7 +166,7 @@ class StoredAlarmLog:
         while True:
             with self._changed:
                 self._changed.wait_for(self._has_work, timeout=TRY_AGAIN_S)
-                batch = list(self._waiting)[:MOST_A_DOCUMENT]
+                batch = list(self._waiting)[:MAX_A_DOCUMENT]
             with suppress(OSError):
                 self._free_mb = shutil.disk_usage(self._folder).free / 1e6
             if batch:

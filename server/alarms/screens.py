@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-MOST_SCREENS = 100
+MAX_SCREENS = 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,7 +32,7 @@ class Screens:
 
     def said(self, name: str, *, armed: bool, at_s: float) -> None:
         """A screen says whether its sound is armed."""
-        if name not in self._screens and len(self._screens) >= MOST_SCREENS:
+        if name not in self._screens and len(self._screens) >= MAX_SCREENS:
             oldest = min(self._screens, key=lambda one: self._screens[one].heard_at_s)
             del self._screens[oldest]
         is_new = armed and not (name in self._screens and self._screens[name].armed)

@@ -13,7 +13,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from tracker.errors import NavigationError
 
 SIGN_IN: Final = "/api/session"
-MOST_TO_SIGN_IN_BYTES, MOST_BYTES = 16 * 2**10, 4 * 2**20
+MAX_TO_SIGN_IN_BYTES, MAX_BYTES = 16 * 2**10, 4 * 2**20
 SIGN_IN_WITHIN_S = 20.0
 # 13 kbit/s: whoever sends less holds a line, and means nothing else by it.
 PIECE_BYTES, PIECE_WITHIN_S = 32 * 2**10, 20.0
@@ -57,7 +57,7 @@ class LimitedBodies:
         signs_in = path == SIGN_IN
         body = _Body(
             receive,
-            most_bytes=None if path in UPLOADS else MOST_TO_SIGN_IN_BYTES if signs_in else MOST_BYTES,
+            max_bytes=None if path in UPLOADS else MAX_TO_SIGN_IN_BYTES if signs_in else MAX_BYTES,
             patience=Patience.once(SIGN_IN_WITHIN_S) if signs_in else Patience.anew(PIECE_WITHIN_S),
         )
         announced = dict(scope["headers"]).get(b"content-length", b"0")
@@ -114,9 +114,9 @@ class Patience:
 class _Body:
     """What comes of one body."""
 
-    def __init__(self, receive: Receive, *, most_bytes: int | None, patience: Patience) -> None:
+    def __init__(self, receive: Receive, *, max_bytes: int | None, patience: Patience) -> None:
         self._receive = receive
-        self._most_bytes = most_bytes
+        self._max_bytes = max_bytes
         self._patience = patience
         self._taken_bytes = 0
         self._is_whole = False
@@ -147,11 +147,11 @@ class _Body:
         return message
 
     def _refuse_above(self, size_bytes: int) -> None:
-        if self._most_bytes is not None and size_bytes > self._most_bytes:
-            size, allowed = size_bytes / 1024, self._most_bytes / 1024
+        if self._max_bytes is not None and size_bytes > self._max_bytes:
+            size, allowed = size_bytes / 1024, self._max_bytes / 1024
             raise BodyTooLarge(
                 "BODY_TOO_LARGE",
                 f"the request has {size:.0f} kB or more, allowed are {allowed:g} kB",
                 "Send less at once; files go to the addresses that take files.",
-                {"size_bytes": size_bytes, "allowed_bytes": self._most_bytes},
+                {"size_bytes": size_bytes, "allowed_bytes": self._max_bytes},
             )

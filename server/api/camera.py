@@ -118,7 +118,7 @@ def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
     async def add_image(request: Request, name: str = "sent") -> CollectionMessage:
         """Add the view in an image, which is the body of the request (PNG or JPEG)."""
         collection = step.collection
-        async with received(request, home, most_bytes=LARGEST_IMAGE_BYTES) as path:
+        async with received(request, home, max_bytes=LARGEST_IMAGE_BYTES) as path:
             content = await to_thread.run_sync(path.read_bytes)
         await to_thread.run_sync(lambda: collection.add(_picture(content, name[:100]), name=name[:100]))
         return collection_message(collection)

@@ -128,7 +128,7 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
         archive says. Signatures in it do not count here.
         """
         by = acting(request.scope, None)
-        async with received(request, store.home, most_bytes=LARGEST_ARCHIVE_BYTES) as path:
+        async with received(request, store.home, max_bytes=LARGEST_ARCHIVE_BYTES) as path:
             return case_message(await to_thread.run_sync(lambda: store.copy_in(path, by=by)))
 
 

@@ -86,7 +86,7 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         cannot be planned on is refused by the job, and nothing of it is kept.
         """
         await to_thread.run_sync(step.refuse_without_case)
-        async with received(request, home, most_bytes=LARGEST_CT_BYTES) as path:
+        async with received(request, home, max_bytes=LARGEST_CT_BYTES) as path:
             return upload_message(await to_thread.run_sync(lambda: step.receive(path, made_by=made_by)))
 
     @router.post(

@@ -16,10 +16,10 @@ from tracker.camera.collecting import CollectingSettings
 class CollectingMessage(Message):
     """When there are enough views of a board."""
 
-    least_views: int
-    least_coverage_ratio: float
+    min_views: int
+    min_coverage_ratio: float
     """How much of the image the board must have been in."""
-    least_tilt_deg: float
+    min_tilt_deg: float
     """To every side."""
 
 
@@ -40,9 +40,9 @@ def gates_router(config: Config) -> APIRouter:
     message = GatesMessage(
         tracker=config.tracker,
         collecting=CollectingMessage(
-            least_views=wanted.least_views,
-            least_coverage_ratio=wanted.least_coverage_ratio,
-            least_tilt_deg=wanted.least_tilt_deg,
+            min_views=wanted.min_views,
+            min_coverage_ratio=wanted.min_coverage_ratio,
+            min_tilt_deg=wanted.min_tilt_deg,
         ),
         calibration=config.calibration,
         tool_calibration=config.tool_calibration,

@@ -65,7 +65,7 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
         The black square must fill the picture edge to edge. One of the same name is replaced, and what was
         calibrated behind that is out of date; a marker of the settings is not replaced.
         """
-        async with received(request, home, most_bytes=LARGEST_PICTURE_BYTES) as path:
+        async with received(request, home, max_bytes=LARGEST_PICTURE_BYTES) as path:
 
             def kept() -> KnownMarkerMessage:
                 step.add(name, side_mm=side_mm, picture=path, named=file[:100], made_by=made_by)

@@ -43,10 +43,10 @@ CHANGED = refusals(404, 409, 422, 503, 507)
 On: TypeAlias = Annotated[Version | None, Query(alias="expected_version")]
 
 
-def plan_router(step: PlanStep, opened: OpenedCt, home: Home, *, least_landmarks: int) -> APIRouter:
+def plan_router(step: PlanStep, opened: OpenedCt, home: Home, *, min_landmarks: int) -> APIRouter:
     """Everything under `/api/plan`. Plain functions: they wait for the disk, in threads."""
     router = APIRouter(prefix="/api/plan", tags=["plan"])
-    _add_whole(router, step, least_landmarks)
+    _add_whole(router, step, min_landmarks)
     _add_files(router, step, opened, home)
     _add_vertebrae(router, step)
     _add_pedicles(router, step)
@@ -57,7 +57,7 @@ def plan_router(step: PlanStep, opened: OpenedCt, home: Home, *, least_landmarks
     return router
 
 
-def _add_whole(router: APIRouter, step: PlanStep, least_landmarks: int) -> None:
+def _add_whole(router: APIRouter, step: PlanStep, min_landmarks: int) -> None:
     @router.get("", responses=refusals(409, 503))
     def plan() -> PlanMessage:
         """The newest plan of the open case, and whether it still holds."""
@@ -77,7 +77,7 @@ def _add_whole(router: APIRouter, step: PlanStep, least_landmarks: int) -> None:
         return CatalogueMessage(
             diameters_mm=list(step.catalogue.diameters_mm),
             lengths_mm=list(step.catalogue.lengths_mm),
-            least_landmarks=least_landmarks,
+            min_landmarks=min_landmarks,
         )
 
 
@@ -108,7 +108,7 @@ def _add_files(router: APIRouter, step: PlanStep, opened: OpenedCt, home: Home) 
 
         It must have been made on the CT of the open case; `for_other_ct` takes it all the same.
         """
-        async with received(request, home, most_bytes=LARGEST_PLAN_BYTES) as path:
+        async with received(request, home, max_bytes=LARGEST_PLAN_BYTES) as path:
             content = await to_thread.run_sync(path.read_bytes)
 
         def take() -> PlanMessage:

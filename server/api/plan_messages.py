@@ -162,7 +162,7 @@ class CatalogueMessage(Message):
 
     diameters_mm: list[float]
     lengths_mm: list[float]
-    least_landmarks: int
+    min_landmarks: int
     """That a registration by touched points needs."""
 
 

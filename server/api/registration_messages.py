@@ -88,8 +88,8 @@ class NudgesMessage(Message):
     shift_mm: float
     """How far all of them lead, between the entry points."""
     turn_deg: float
-    most_mm: float
-    most_deg: float
+    max_mm: float
+    max_deg: float
 
 
 class TouchMessage(Message):
@@ -150,12 +150,12 @@ class RemarkMessage(Message):
 class PointLimitsMessage(Message):
     """What points must reach."""
 
-    least_points: int
-    most_spread_mm: float
+    min_points: int
+    max_spread_mm: float
     """Standard deviation of the tip held on a landmark, along its worst axis."""
-    most_fre_mm: float
-    most_left_out_mm: float
-    most_tre_mm: float
+    max_fre_mm: float
+    max_left_out_mm: float
+    max_tre_mm: float
     """Stated error (3-D RMS) at the entry points."""
 
 
@@ -183,9 +183,9 @@ class CheckMessage(Message):
     vertebra: str
     tool: str
     capture: TouchMessage
-    most_mm: float
+    max_mm: float
     """How far the tip may be from where the plan has the landmark."""
-    most_spread_mm: float
+    max_spread_mm: float
     """Standard deviation of the tip held on it, along its worst axis."""
     outcome: KeptCheck | None
     """What would be kept; null until the tip was captured."""
@@ -203,7 +203,7 @@ class CheckRuleMessage(Message):
     """What a check must reach, and how long it lasts."""
 
     required: bool
-    most_mm: float
+    max_mm: float
     again_after_min: float
     """From then on it is asked for again; navigation goes on."""
 
@@ -266,11 +266,11 @@ def points_message(
             for error in target_errors(status.ground, fit)
         ],
         limits=PointLimitsMessage(
-            least_points=gate.least_points,
-            most_spread_mm=gate.most_capture_sd_mm,
-            most_fre_mm=gate.most_fre_mm,
-            most_left_out_mm=gate.most_left_out_mm,
-            most_tre_mm=gate.most_tre_mm,
+            min_points=gate.min_points,
+            max_spread_mm=gate.max_capture_sd_mm,
+            max_fre_mm=gate.max_fre_mm,
+            max_left_out_mm=gate.max_left_out_mm,
+            max_tre_mm=gate.max_tre_mm,
         ),
         remarks=[] if fit is None else [remark_message(remark) for remark in fit.remarks],
         missing=missing,
@@ -302,8 +302,8 @@ def check_message(status: CheckStatus) -> CheckMessage:
         vertebra=status.vertebra,
         tool=status.tool,
         capture=touch_message(status.capture),
-        most_mm=status.most_mm,
-        most_spread_mm=status.most_spread_mm,
+        max_mm=status.max_mm,
+        max_spread_mm=status.max_spread_mm,
         outcome=status.outcome,
     )
 
@@ -316,8 +316,8 @@ def nudges_message(status: NudgesStatus) -> NudgesMessage:
         nudges=list(status.nudges),
         shift_mm=status.shift_mm,
         turn_deg=status.turn_deg,
-        most_mm=status.limits.most_mm,
-        most_deg=status.limits.most_deg,
+        max_mm=status.limits.max_mm,
+        max_deg=status.limits.max_deg,
     )
 
 
@@ -336,7 +336,7 @@ def registration_message(shelved: ShelvedRegistration, gate: RegistrationConfig)
         made_from=dict(kept.made_from),
         check=CheckRuleMessage(
             required=gate.check_required,
-            most_mm=gate.most_check_mm,
+            max_mm=gate.max_check_mm,
             again_after_min=gate.check_again_after_min,
         ),
     )

@@ -35,7 +35,7 @@ is gone.
 
 The first two are open to pages of this server and to programs that send no Origin. A client that sends
 anything else is closed with code 1008 or 1009 and the reason in words; one that is too many
-(`video.most_viewers`, eight of one person, and an eighth of all is kept for operators and screens), with
+(`video.max_viewers`, eight of one person, and an eighth of all is kept for operators and screens), with
 1013. The 3-D scene at `/scene/` has as many places of its own, given in the same way.
 """
 

@@ -18,8 +18,8 @@ Coordinate = Annotated[float, Field(ge=-1.0, le=8192.0, allow_inf_nan=False)]
 PixelMessage = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Seconds = Annotated[float, Field(ge=0.0, le=1e10, allow_inf_nan=False)]
 Number = Annotated[int, Field(ge=0, le=2**53)]
-MOST_POINTS_A_MESSAGE = 60
-Points = Annotated[list[PixelMessage], Field(min_length=1, max_length=MOST_POINTS_A_MESSAGE)]
+MAX_POINTS_A_MESSAGE = 60
+Points = Annotated[list[PixelMessage], Field(min_length=1, max_length=MAX_POINTS_A_MESSAGE)]
 
 
 class PersonMessage(Message):

@@ -22,7 +22,7 @@ from server.stream.errors import TooManyViewers
 from server.stream.socket import REFUSED, TRY_LATER, Misbehaviour, converse, turn_away
 from server.stream.viewers import ViewerKind, Viewers
 from server.supervision import Lobby, Unfair, View
-from server.supervision.lobby import HEARTBEAT_S, LEAST_BETWEEN_S, Waiting
+from server.supervision.lobby import HEARTBEAT_S, MIN_BETWEEN_S, Waiting
 from server.supervision.marks import Moment
 from server.supervision.room import RoomFull
 from server.supervision.told import Told
@@ -59,7 +59,7 @@ async def _talk(websocket: WebSocket, lobby: Lobby, viewers: Viewers, here: Wait
         while True:
             await granted.wait()
             await _until_news(here.woken, sent_at_s + HEARTBEAT_S - loop.time())
-            await asyncio.sleep(max(0.0, sent_at_s + LEAST_BETWEEN_S - loop.time()))
+            await asyncio.sleep(max(0.0, sent_at_s + MIN_BETWEEN_S - loop.time()))
             granted.clear()
             here.woken.clear()
             message = room_message(told.news(lobby.picture()), seat=here.seat)
@@ -82,9 +82,9 @@ async def _talk(websocket: WebSocket, lobby: Lobby, viewers: Viewers, here: Wait
     await converse(websocket, viewers, speak=speak, hear=hear)
 
 
-async def _until_news(woken: asyncio.Event, most_s: float) -> None:
+async def _until_news(woken: asyncio.Event, max_s: float) -> None:
     try:
-        async with asyncio.timeout(max(0.0, most_s)):
+        async with asyncio.timeout(max(0.0, max_s)):
             await woken.wait()
     except TimeoutError:
         return

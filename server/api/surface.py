@@ -42,7 +42,7 @@ class BoneRequest(Message):
     """The whole CT if left out."""
     largest_part_only: bool = True
     smoothing_rounds: Annotated[int, Field(ge=0, le=200)] = 10
-    most_faces: Annotated[int, Field(ge=100, le=2_000_000)] = 60_000
+    max_faces: Annotated[int, Field(ge=100, le=2_000_000)] = 60_000
 
 
 def surface_router(step: SurfaceStep, store: CaseStore, home: Home) -> APIRouter:
@@ -82,7 +82,7 @@ def _add_making(router: APIRouter, step: SurfaceStep, home: Home) -> None:
             region_lps_mm=None if region is None else (region.low_lps_mm, region.high_lps_mm),
             largest_part_only=asked.largest_part_only,
             smoothing_rounds=asked.smoothing_rounds,
-            most_faces=asked.most_faces,
+            max_faces=asked.max_faces,
         )
         return job_message(step.from_ct(order, made_by=asked.made_by))
 
@@ -106,6 +106,6 @@ def _add_making(router: APIRouter, step: SurfaceStep, home: Home) -> None:
         """
         await to_thread.run_sync(step.refuse_without_case)
         order = MeshOrder(file_format=file_format, unit=unit, space=space)
-        async with received(request, home, most_bytes=LARGEST_MESH_BYTES) as path:
+        async with received(request, home, max_bytes=LARGEST_MESH_BYTES) as path:
             job = await to_thread.run_sync(lambda: step.from_mesh(path, order, made_by=made_by))
         return job_message(job)

@@ -70,7 +70,7 @@ class OutcomeMessage(Message):
     axis_in_marker: list[float] | None
     axis_sd_deg: float | None
     wobble_deg: float | None
-    most_mm: float | None
+    max_mm: float | None
     """The largest distance of the tip from the pivot, in a check."""
 
 
@@ -204,5 +204,5 @@ def _outcome(outcome: Outcome) -> OutcomeMessage:
         axis_in_marker=None if spin is None else spin.axis_in_marker.tolist(),
         axis_sd_deg=None if spin is None else spin.axis_sd_deg,
         wobble_deg=None if spin is None else spin.wobble_deg,
-        most_mm=None if check is None else check.most_mm,
+        max_mm=None if check is None else check.max_mm,
     )

@@ -16,7 +16,7 @@ PIECE_BYTES = 2**20
 
 
 @asynccontextmanager
-async def received(request: Request, home: Home, *, most_bytes: int) -> AsyncIterator[Path]:
+async def received(request: Request, home: Home, *, max_bytes: int) -> AsyncIterator[Path]:
     """The body of a request as a file, which is gone at the end of the block, unless it was moved away.
 
     Raises:
@@ -24,24 +24,24 @@ async def received(request: Request, home: Home, *, most_bytes: int) -> AsyncIte
         StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
     """
     announced_bytes = _announced_bytes(request)
-    _refuse_above(announced_bytes, most_bytes)
+    _refuse_above(announced_bytes, max_bytes)
     home.refuse_without_room(announced_bytes)
     path = home.new_temporary()
     try:
-        await _write(request, path, home, most_bytes=most_bytes)
+        await _write(request, path, home, max_bytes=max_bytes)
         yield path
     finally:
         await to_thread.run_sync(lambda: path.unlink(missing_ok=True))
 
 
-async def _write(request: Request, path: Path, home: Home, *, most_bytes: int) -> None:
+async def _write(request: Request, path: Path, home: Home, *, max_bytes: int) -> None:
     taken_bytes, waiting = 0, bytearray()
     with told(home.folder, known_only=True):
         stream = await to_thread.run_sync(lambda: path.open("xb"))
         try:
             async for chunk in request.stream():
                 taken_bytes += len(chunk)
-                _refuse_above(taken_bytes, most_bytes)
+                _refuse_above(taken_bytes, max_bytes)
                 waiting += chunk
                 if len(waiting) >= PIECE_BYTES:
                     await to_thread.run_sync(stream.write, waiting)
@@ -67,11 +67,11 @@ def _announced_bytes(request: Request) -> int:
     return int(announced) if announced.isdecimal() else 0
 
 
-def _refuse_above(size_bytes: int, most_bytes: int) -> None:
-    if size_bytes > most_bytes:
+def _refuse_above(size_bytes: int, max_bytes: int) -> None:
+    if size_bytes > max_bytes:
         raise InvalidInput(
             "UPLOAD_TOO_LARGE",
-            f"the file has {size_bytes / 2**20:.1f} MB or more, allowed are {most_bytes / 2**20:g} MB",
+            f"the file has {size_bytes / 2**20:.1f} MB or more, allowed are {max_bytes / 2**20:g} MB",
             "Send a smaller one.",
-            {"size_bytes": size_bytes, "allowed_bytes": most_bytes},
+            {"size_bytes": size_bytes, "allowed_bytes": max_bytes},
         )

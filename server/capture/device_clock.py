@@ -37,7 +37,7 @@ class DeviceClock:
         self._last_arrived_s = -math.inf
         self._delay_s = 0.0
         self._latched_s: float | None = None
-        self._least_s: dict[int, float] = {}
+        self._min_s: dict[int, float] = {}
 
     def latch(self, device_s: float, *, monotonic_s: float) -> None:
         """Both clocks were read at one moment: from here on no lower envelope is needed."""
@@ -59,7 +59,7 @@ class DeviceClock:
             # Nothing that was known of it holds.
             self.jumps += 1
             self._latched_s = None
-            self._least_s.clear()
+            self._min_s.clear()
         at_s = device_s + self._offset_s(arrived_s - device_s, arrived_s)
         self._delay_s = arrived_s - at_s
         return at_s if went_on else 0.0
@@ -73,7 +73,7 @@ class DeviceClock:
         if self._latched_s is not None:
             return self._latched_s
         bucket = math.floor(arrived_s * BUCKETS / WINDOW_S)
-        self._least_s[bucket] = min(difference_s, self._least_s.get(bucket, math.inf))
-        for old in [one for one in self._least_s if one <= bucket - BUCKETS]:
-            del self._least_s[old]
-        return min(self._least_s.values())
+        self._min_s[bucket] = min(difference_s, self._min_s.get(bucket, math.inf))
+        for old in [one for one in self._min_s if one <= bucket - BUCKETS]:
+            del self._min_s[old]
+        return min(self._min_s.values())

@@ -19,7 +19,7 @@ from server.picture_file import decoded
 
 IMAGE_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm")
 DEFAULT_RATE_HZ = 30.0
-MOST_NAMED = 3
+MAX_NAMED = 3
 
 
 class FolderSource:
@@ -147,7 +147,7 @@ class FolderSource:
 
 def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
     """One sentence for all of them, the first ones by name."""
-    first = list(itertools.islice(reason_from_file.items(), MOST_NAMED))
+    first = list(itertools.islice(reason_from_file.items(), MAX_NAMED))
     context = {"file": str(first[0][0]), "files": [str(file) for file, _ in first]}
     count = len(reason_from_file)
     if count == 1:
@@ -157,7 +157,7 @@ def _unreadable(reason_from_file: Mapping[Path, str]) -> CaptureError:
             "Replace it or take it out of the folder; it is left out until then.",
             {**context, "images": count},
         )
-    rest = f" and {count - MOST_NAMED} more" if count > MOST_NAMED else ""
+    rest = f" and {count - MAX_NAMED} more" if count > MAX_NAMED else ""
     return CaptureError(
         "FOLDER_IMAGE_UNREADABLE",
         f"{count} images cannot be used: {', '.join(f'{file} ({reason})' for file, reason in first)}{rest}",

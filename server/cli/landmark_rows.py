@@ -15,7 +15,7 @@ import numpy as np
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
-MOST_BYTES = 20 * 2**20
+MAX_BYTES = 20 * 2**20
 COMMENT = ("#", "%", "//")
 REMEDY = "Give a text file with a point a line, as x,y,z in mm, or with a header that names x, y and z."
 AXES = ("x", "y", "z")
@@ -76,8 +76,8 @@ def read_landmarks(path: Path) -> LandmarkRows:
 
 def _text(path: Path) -> str:
     try:
-        if path.stat().st_size > MOST_BYTES:
-            message = f"{path} has more than {MOST_BYTES / 2**20:.0f} MB, which is no list of points"
+        if path.stat().st_size > MAX_BYTES:
+            message = f"{path} has more than {MAX_BYTES / 2**20:.0f} MB, which is no list of points"
             raise InvalidInput("POINTS_UNREADABLE", message, REMEDY, {"file": str(path)})
         content = path.read_bytes()
     except OSError as error:

@@ -142,8 +142,8 @@ def _lines(measure: PedicleMeasure, screw: ScrewPlan | None, warnings: list[str]
             f"  clearance   medial {room.medial_mm:.1f}, lateral {room.lateral_mm:.1f}, "
             f"superior {room.superior_mm:.1f}, inferior {room.inferior_mm:.1f}, "
             f"front {room.anterior_mm:.1f} mm",
-            f"  bone        {screw.bone.mean_hu:.0f} HU along it, least {screw.bone.least_hu:.0f} HU",
-            f"  tolerance   {left.most_offset_mm:.1f} mm at the entry or {left.most_angle_deg:.1f} deg, "
+            f"  bone        {screw.bone.mean_hu:.0f} HU along it, least {screw.bone.min_hu:.0f} HU",
+            f"  tolerance   {left.max_offset_mm:.1f} mm at the entry or {left.max_angle_deg:.1f} deg, "
             f"or {left.both_mm:.1f} mm with {left.both_deg:.1f} deg",
         ]
     return [*lines, *(f"Note: {warning.removesuffix('.')}." for warning in warnings)]

@@ -10,7 +10,7 @@ import numpy as np
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
-MOST_ROWS = 100_000
+MAX_ROWS = 100_000
 
 
 def read_columns(path: Path, columns: Sequence[str]) -> Array:
@@ -44,13 +44,13 @@ def read_columns(path: Path, columns: Sequence[str]) -> Array:
     places = [names.index(name) for name in columns]
     rows = [
         _numbers(words, places, path, number, remedy)
-        for number, words in enumerate(csv.reader(lines[1 : MOST_ROWS + 2], delimiter=split), start=2)
+        for number, words in enumerate(csv.reader(lines[1 : MAX_ROWS + 2], delimiter=split), start=2)
         if any(word.strip() for word in words)
     ]
-    if not 0 < len(rows) <= MOST_ROWS:
+    if not 0 < len(rows) <= MAX_ROWS:
         raise InvalidInput(
             "POINTS_INCOMPLETE",
-            f"the points {path} have {len(rows)} rows, needed 1 to {MOST_ROWS}",
+            f"the points {path} have {len(rows)} rows, needed 1 to {MAX_ROWS}",
             remedy,
             {"file": str(path), "rows": len(rows)},
         )

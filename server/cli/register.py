@@ -32,9 +32,9 @@ class PointsOrder:
     moving: Path
     targets: Sequence[str]
     excluded: Sequence[str]
-    least_fle_mm: float
-    most_fre_mm: float | None
-    most_tre_mm: float | None
+    min_fle_mm: float
+    max_fre_mm: float | None
+    max_tre_mm: float | None
 
 
 def register_from_files(order: PointsOrder, *, as_json: bool) -> int:
@@ -45,12 +45,12 @@ def register_from_files(order: PointsOrder, *, as_json: bool) -> int:
     """
     targets = [target_from_text(text) for text in order.targets]
     pairs = pairs_of_files(read_landmarks(order.fixed), read_landmarks(order.moving))
-    settings = PointSettings(least_fle_mm=order.least_fle_mm)
+    settings = PointSettings(min_fle_mm=order.min_fle_mm)
     found = register_points(pairs, excluded=_excluded(order.excluded, pairs), settings=settings)
     failures = found.failures(
         PointGate(
-            most_fre_mm=np.inf if order.most_fre_mm is None else order.most_fre_mm,
-            most_tre_mm=np.inf if order.most_tre_mm is None else order.most_tre_mm,
+            max_fre_mm=np.inf if order.max_fre_mm is None else order.max_fre_mm,
+            max_tre_mm=np.inf if order.max_tre_mm is None else order.max_tre_mm,
         ),
         targets,
     )

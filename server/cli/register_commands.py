@@ -36,7 +36,7 @@ ExcludedOption = Annotated[
 LeastFleOption = Annotated[
     float,
     typer.Option(
-        "--least-fle-mm",
+        "--min-fle-mm",
         help="How well a landmark can be found at best (3-D RMS); what is stated is never narrower.",
         metavar="MM",
         min=0.01,
@@ -57,15 +57,15 @@ def points(
     moving: MovingOption,
     target_mm: TargetOption = None,
     exclude: ExcludedOption = None,
-    least_fle_mm: LeastFleOption = 0.5,
-    most_fre_mm: Annotated[
+    min_fle_mm: LeastFleOption = 0.5,
+    max_fre_mm: Annotated[
         float | None,
-        typer.Option("--most-fre-mm", help="Exit status 1 if landmarks fit worse (RMS).", metavar="MM"),
+        typer.Option("--max-fre-mm", help="Exit status 1 if landmarks fit worse (RMS).", metavar="MM"),
     ] = None,
-    most_tre_mm: Annotated[
+    max_tre_mm: Annotated[
         float | None,
         typer.Option(
-            "--most-tre-mm", help="Exit status 1 if a target is stated less sure (3-D RMS).", metavar="MM"
+            "--max-tre-mm", help="Exit status 1 if a target is stated less sure (3-D RMS).", metavar="MM"
         ),
     ] = None,
     json: JsonOption = False,
@@ -82,9 +82,9 @@ def points(
         moving=moving,
         targets=tuple(target_mm or ()),
         excluded=tuple(exclude or ()),
-        least_fle_mm=least_fle_mm,
-        most_fre_mm=most_fre_mm,
-        most_tre_mm=most_tre_mm,
+        min_fle_mm=min_fle_mm,
+        max_fre_mm=max_fre_mm,
+        max_tre_mm=max_tre_mm,
     )
     raise typer.Exit(register_from_files(order, as_json=json))
 

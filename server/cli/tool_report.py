@@ -12,7 +12,7 @@ from server.pose_file import PoseFiles
 from tracker.errors import CalibrationError
 from tracker.pose.tool import PivotCalibration, RejectedPose, SpinCalibration, TipCheck, ToolGate, Turning
 
-MOST_TOLD = 12
+MAX_TOLD = 12
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +61,7 @@ def pivot_report(
     lines = [
         f"Tip in the marker's frame: {_point(found.tip_in_marker_mm)} mm (sd {_point(sd_mm, 3)})",
         f"Pivot in the camera's frame: {_point(found.pivot_in_camera_mm)} mm",
-        f"3-D RMS of the tip about the pivot: {found.rms_3d_mm:.3f} mm, allowed {gate.most_rms_3d_mm:g} mm",
+        f"3-D RMS of the tip about the pivot: {found.rms_3d_mm:.3f} mm, allowed {gate.max_rms_3d_mm:g} mm",
         _used_line(int(found.used.sum()), found.rejected, files, "mm from the pivot"),
         _turning_line(turning),
         *_written_line(written),
@@ -76,14 +76,14 @@ def pivot_report(
         "tilt_range_deg": turning.tilt_range_deg,
         "tilt_range_across_deg": turning.tilt_range_across_deg,
         "spin_range_deg": turning.spin_range_deg,
-        "least_turn_deg": turning.least_turn_deg,
+        "min_turn_deg": turning.min_turn_deg,
         "rms_3d_of_all_mm": found.rms_3d_of_all_mm,
         "pivot_covariance_mm2": found.pivot_covariance_mm2.tolist(),
         "tip_sd_mm": found.tip_sd_mm,
         "rejected_poses": _rejected(found.rejected, files, "off_mm"),
         **_files(files),
         "written": None if written is None else str(written),
-        "gate": {"most_rms_3d_mm": gate.most_rms_3d_mm, "most_tip_sd_mm": gate.most_tip_sd_mm},
+        "gate": {"max_rms_3d_mm": gate.max_rms_3d_mm, "max_tip_sd_mm": gate.max_tip_sd_mm},
     }
     return Report(lines=lines, values=values, failures=failures)
 
@@ -99,7 +99,7 @@ def spin_report(
     sign = "towards the tip" if found.points_to_tip else "its sign is open: give --tool or --tip-mm"
     lines = [
         f"Axis in the marker's frame: {_point(found.axis_in_marker, 4)} ({sign}), "
-        f"sd {found.axis_sd_deg:.3f} deg, allowed {gate.most_axis_sd_deg:g} deg",
+        f"sd {found.axis_sd_deg:.3f} deg, allowed {gate.max_axis_sd_deg:g} deg",
         f"Spun by {found.spin_range_deg:.0f} deg, the axis itself moved by {found.wobble_deg:.2f} deg (RMS)",
         _used_line(int(found.used.sum()), found.rejected, files, "deg off the axis"),
         *_written_line(written),
@@ -116,7 +116,7 @@ def spin_report(
         "rejected_poses": _rejected(found.rejected, files, "off_deg"),
         **_files(files),
         "written": None if written is None else str(written),
-        "gate": {"most_axis_sd_deg": gate.most_axis_sd_deg},
+        "gate": {"max_axis_sd_deg": gate.max_axis_sd_deg},
     }
     return Report(lines=lines, values=values, failures=failures)
 
@@ -126,14 +126,14 @@ def check_report(
 ) -> Report:
     """What `coaxial tip-check` says."""
     lines = [
-        f"The tip wanders by {found.rms_3d_mm:.3f} mm (3-D RMS, allowed {gate.most_rms_3d_mm:g}), "
-        f"{found.most_mm:.3f} mm at most, by axis {_point(found.rms_by_axis_mm, 3)} mm, "
+        f"The tip wanders by {found.rms_3d_mm:.3f} mm (3-D RMS, allowed {gate.max_rms_3d_mm:g}), "
+        f"{found.max_mm:.3f} mm at most, by axis {_point(found.rms_by_axis_mm, 3)} mm, "
         f"in {found.poses} poses",
         _turning_line(found.turning),
     ]
     values = {
         "rms_3d_mm": found.rms_3d_mm,
-        "most_mm": found.most_mm,
+        "max_mm": found.max_mm,
         "rms_by_axis_mm": found.rms_by_axis_mm.tolist(),
         "pivot_mm": found.pivot_in_camera_mm.tolist(),
         "used": found.poses,
@@ -141,7 +141,7 @@ def check_report(
         "tilt_range_across_deg": found.turning.tilt_range_across_deg,
         "spin_range_deg": found.turning.spin_range_deg,
         **_files(files),
-        "gate": {"most_rms_3d_mm": gate.most_rms_3d_mm},
+        "gate": {"max_rms_3d_mm": gate.max_rms_3d_mm},
     }
     return Report(lines=lines, values=values, failures=failures)
 
@@ -169,9 +169,9 @@ def _used_line(used: int, rejected: Sequence[RejectedPose], files: PoseFiles, of
     if rejected:
         named = [
             f"{files.records[one.index].place} ({one.reason.value}, {one.off:.2f} {off})"
-            for one in rejected[:MOST_TOLD]
+            for one in rejected[:MAX_TOLD]
         ]
-        more = f" and {len(rejected) - MOST_TOLD} more" if len(rejected) > MOST_TOLD else ""
+        more = f" and {len(rejected) - MAX_TOLD} more" if len(rejected) > MAX_TOLD else ""
         line += "; not " + ", ".join(named) + more
     return line
 

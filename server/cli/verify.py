@@ -24,7 +24,7 @@ from tracker.verification import (
 )
 
 FAILED = 1
-MOST_SEED = 2**63
+MAX_SEED = 2**63
 
 
 def verify_theatres(
@@ -35,7 +35,7 @@ def verify_theatres(
     Raises:
         InvalidInput: VERIFY_SEED_INVALID, or OUTPUT_NOT_WRITABLE, the folder of the plots cannot be made.
     """
-    if seed >= MOST_SEED:
+    if seed >= MAX_SEED:
         raise InvalidInput(
             "VERIFY_SEED_INVALID", f"the seed is {seed}, allowed below 2^63", "Give a smaller seed."
         )

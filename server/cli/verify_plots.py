@@ -8,7 +8,7 @@ from scipy.stats import chi2
 
 from tracker.geometry import Array
 from tracker.verification import Figures, TheatreRows, Variant, name_of
-from tracker.verification.figures import LEAST_COVERED, MOST_COVERED, QUANTITIES
+from tracker.verification.figures import MAX_COVERED, MIN_COVERED, QUANTITIES
 from tracker.verification.held import Held
 
 WIDE, HIGH, LEFT, TOP, GAP, LINE = 260, 190, 46, 40, 40, 15
@@ -64,7 +64,7 @@ def _coverage_panel(
     name: str, variants: Sequence[Variant], held: Mapping[Variant, Mapping[str, list[Held]]]
 ) -> list[str]:
     lines = _frame(name)
-    low, high = HIGH * (1.0 - MOST_COVERED), HIGH * (1.0 - LEAST_COVERED)
+    low, high = HIGH * (1.0 - MAX_COVERED), HIGH * (1.0 - MIN_COVERED)
     x = 0.95 * WIDE
     lines.append(f"<path d='M{x:.1f} {low:.1f}V{high:.1f}' stroke='#2a2' stroke-width='5' opacity='0.5'/>")
     lines.append(f"<path d='M0 {HIGH}L{WIDE} 0' stroke='#999' stroke-dasharray='4 3'/>")

@@ -21,8 +21,8 @@ from typing import BinaryIO, cast
 from server.imaging.ct import LeftOut
 from tracker.errors import InvalidInput
 
-MOST_FILES = 50_000
-MOST_BYTES = 8 * 2**30
+MAX_FILES = 50_000
+MAX_BYTES = 8 * 2**30
 # What reading a damaged archive, or one packed in an unknown way, leads to.
 BAD_ARCHIVE = (
     zipfile.BadZipFile,
@@ -154,12 +154,12 @@ def _is_hidden(name: str) -> bool:
 
 
 def _check_count(count: int) -> None:
-    if count > MOST_FILES:
+    if count > MAX_FILES:
         raise InvalidInput(
             "CT_TOO_MANY_FILES",
-            f"there are {count} files or more, allowed {MOST_FILES}",
+            f"there are {count} files or more, allowed {MAX_FILES}",
             "Give the folder of the one series alone.",
-            {"files": count, "most_files": MOST_FILES},
+            {"files": count, "max_files": MAX_FILES},
         )
 
 
@@ -208,12 +208,12 @@ def _check_archive(members: list[zipfile.ZipInfo]) -> None:
             {"files": encrypted, "of": len(members)},
         )
     size = sum(member.file_size for member in members)
-    if size > MOST_BYTES:
+    if size > MAX_BYTES:
         raise InvalidInput(
             "CT_ARCHIVE_TOO_LARGE",
-            f"the zip would unpack to {size / 2**30:.1f} GiB, allowed {MOST_BYTES / 2**30:.0f} GiB",
+            f"the zip would unpack to {size / 2**30:.1f} GiB, allowed {MAX_BYTES / 2**30:.0f} GiB",
             "Give the one series alone.",
-            {"bytes": size, "most_bytes": MOST_BYTES},
+            {"bytes": size, "max_bytes": MAX_BYTES},
         )
 
 

@@ -5,7 +5,7 @@ import re
 from tracker.errors import InvalidInput
 
 STL_HEADER_BYTES, STL_FACE_BYTES = 84, 50
-MOST_HEADER_BYTES = 64 * 1024
+MAX_HEADER_BYTES = 64 * 1024
 SIZES = {
     **dict.fromkeys(("char", "uchar", "int8", "uint8"), 1),
     **dict.fromkeys(("short", "ushort", "int16", "uint16"), 2),
@@ -35,7 +35,7 @@ def checked_content(content: bytes, file_format: str) -> bytes:
 
 
 def _checked_stl(content: bytes) -> bytes:
-    head = content[:MOST_HEADER_BYTES].lower()
+    head = content[:MAX_HEADER_BYTES].lower()
     declared = int.from_bytes(content[80:STL_HEADER_BYTES], "little")
     needed = STL_HEADER_BYTES + STL_FACE_BYTES * declared
     # Some programs begin binary files with "solid" too; the length decides.
@@ -43,7 +43,7 @@ def _checked_stl(content: bytes) -> bytes:
         return content
     if head.lstrip().startswith(b"solid") and b"facet" in head and b"vertex" in head:
         return content
-    if len(content) < STL_HEADER_BYTES or b"\0" not in content[:MOST_HEADER_BYTES]:
+    if len(content) < STL_HEADER_BYTES or b"\0" not in content[:MAX_HEADER_BYTES]:
         raise _unreadable("stl", "it is neither text that begins with 'solid' nor binary")
     raise _unreadable(
         "stl", f"it announces {declared} triangles, which are {needed} bytes, and has {len(content)}"
@@ -51,7 +51,7 @@ def _checked_stl(content: bytes) -> bytes:
 
 
 def _checked_ply(content: bytes) -> bytes:
-    end = re.search(rb"end_header[ \t]*\r?\n", content[:MOST_HEADER_BYTES])
+    end = re.search(rb"end_header[ \t]*\r?\n", content[:MAX_HEADER_BYTES])
     if not content.startswith(b"ply") or end is None:
         raise _unreadable("ply", "it has no header")
     lines = [line.strip() for line in content[: end.end()].splitlines()]
@@ -61,7 +61,7 @@ def _checked_ply(content: bytes) -> bytes:
     words = [line.decode("ascii", errors="replace").split() for line in lines]
     binary = any(line[:1] == ["format"] and line[1:2] != ["ascii"] for line in words)
     try:
-        needed = _least_bytes(words, binary=binary)
+        needed = _min_bytes(words, binary=binary)
     except (ValueError, KeyError, IndexError) as error:
         raise _unreadable("ply", "its header cannot be understood") from error
     if needed > len(body):
@@ -69,7 +69,7 @@ def _checked_ply(content: bytes) -> bytes:
     return b"\n".join(lines) + b"\n" + body
 
 
-def _least_bytes(words: list[list[str]], *, binary: bool) -> int:
+def _min_bytes(words: list[list[str]], *, binary: bool) -> int:
     """How long what follows a PLY header must be at least, if every list in it were empty."""
     needed, count = 0, 0
     for line in words:

@@ -19,8 +19,8 @@ from tracker.plan.mesh.intake import Space
 
 FORMATS = ("stl", "obj", "ply")
 # A parser of text takes up to twenty times the length of its file.
-MOST_BYTES = 100 * 2**20
-MOST_FACES = 2_000_000
+MAX_BYTES = 100 * 2**20
+MAX_FACES = 2_000_000
 AS_TRIANGLES = "Export the bone's surface again as triangles in STL, OBJ or PLY."
 # 3D Slicer writes this into the first lines of what it exports.
 SPACE = re.compile(rb"SPACE\s*=\s*(LPS|RAS)", re.IGNORECASE)
@@ -71,10 +71,10 @@ def mesh_from_bytes(
     stated = None if said is None else Space(said[1].decode().upper())
     mesh = _parsed(checked_content(content, file_format), file_format)
     faces = np.asarray(mesh.faces)
-    if faces.shape[0] > MOST_FACES:
+    if faces.shape[0] > MAX_FACES:
         raise InvalidInput(
             "MESH_TOO_LARGE",
-            f"the mesh has {faces.shape[0]} triangles, allowed {MOST_FACES}",
+            f"the mesh has {faces.shape[0]} triangles, allowed {MAX_FACES}",
             "Export it with fewer triangles; 60000 show a vertebra well.",
             {"faces": int(faces.shape[0])},
         )
@@ -102,10 +102,10 @@ def stl_from_surface(surface: Surface) -> bytes:
 
 
 def _refuse_large(size: int) -> None:
-    if size > MOST_BYTES:
+    if size > MAX_BYTES:
         raise InvalidInput(
             "MESH_TOO_LARGE",
-            f"the mesh has {size / 2**20:.0f} MB, allowed {MOST_BYTES / 2**20:.0f}",
+            f"the mesh has {size / 2**20:.0f} MB, allowed {MAX_BYTES / 2**20:.0f}",
             "Export it with fewer triangles, or as binary STL or PLY.",
             {"bytes": size},
         )

@@ -3,11 +3,11 @@
 import numpy as np
 import numpy.typing as npt
 
-from server.imaging.voxels import LEAST_HU, MOST_HU
+from server.imaging.voxels import MAX_HU, MIN_HU
 from tracker.errors import InvalidInput
 
 # Metal in an extended scale stays inside; beyond lie numbers that were scaled wrongly.
-MOST_BEYOND_RATIO = 0.05
+MAX_BEYOND_RATIO = 0.05
 AIR_HU = -300
 BONE_HU = 200
 EVERY = 4
@@ -19,14 +19,14 @@ def refuse_beyond(beyond: int, voxels: int) -> None:
     Raises:
         InvalidInput: CT_VALUES_BEYOND.
     """
-    if beyond <= MOST_BEYOND_RATIO * voxels:
+    if beyond <= MAX_BEYOND_RATIO * voxels:
         return
     raise InvalidInput(
         "CT_VALUES_BEYOND",
-        f"{beyond} of {voxels} voxels ({beyond / voxels:.0%}) lie beyond {LEAST_HU} to {MOST_HU} HU, allowed "
-        f"{MOST_BEYOND_RATIO:.0%}: their slope and intercept cannot be right",
+        f"{beyond} of {voxels} voxels ({beyond / voxels:.0%}) lie beyond {MIN_HU} to {MAX_HU} HU, allowed "
+        f"{MAX_BEYOND_RATIO:.0%}: their slope and intercept cannot be right",
         "Export the original CT series again, in Hounsfield units.",
-        {"beyond": beyond, "voxels": voxels, "most_ratio": MOST_BEYOND_RATIO},
+        {"beyond": beyond, "voxels": voxels, "max_ratio": MAX_BEYOND_RATIO},
     )
 
 

@@ -13,10 +13,10 @@ import numpy.typing as npt
 from server.disk import refuse_without_room, take_room
 from tracker.errors import InvalidInput
 
-MOST_VOXELS = 2**30
+MAX_VOXELS = 2**30
 # What stands where the scanner measured nothing: air.
 NOTHING_HU = -1024
-LEAST_HU, MOST_HU = -32768, 32767
+MIN_HU, MAX_HU = -32768, 32767
 
 
 @dataclass(slots=True, kw_only=True)
@@ -33,13 +33,13 @@ def check_voxels(shape: tuple[int, int, int]) -> None:
         InvalidInput: CT_TOO_LARGE.
     """
     voxels = shape[0] * shape[1] * shape[2]
-    if voxels > MOST_VOXELS:
+    if voxels > MAX_VOXELS:
         raise InvalidInput(
             "CT_TOO_LARGE",
             f"the CT has {shape[2]} x {shape[1]} x {shape[0]} voxels, {voxels / 1e6:.0f} million, allowed "
-            f"{MOST_VOXELS / 1e6:.0f} million",
+            f"{MAX_VOXELS / 1e6:.0f} million",
             "Export the part around the vertebrae alone, or a series with fewer pixels.",
-            {"voxels": voxels, "most_voxels": MOST_VOXELS},
+            {"voxels": voxels, "max_voxels": MAX_VOXELS},
         )
 
 

@@ -56,14 +56,14 @@ class Jobs:
     Make it in the main thread: the process that forks the others ends with the thread that started it.
     """
 
-    def __init__(self, *, log: LogSettings, most_at_once: int = 1) -> None:
+    def __init__(self, *, log: LogSettings, max_at_once: int = 1) -> None:
         self._log = log
         self._context = forking_context()
         # One thread starts them all and stays: if the process that forks has to be started again, it ends
         # with the thread that did it, and everything that it forked with it.
         self._starter = ThreadPoolExecutor(max_workers=1, thread_name_prefix="job starter")
         self._lock = threading.Lock()
-        self._turns = threading.Semaphore(most_at_once)
+        self._turns = threading.Semaphore(max_at_once)
         self._watched: dict[str, _Watched] = {}
         self._threads: dict[str, threading.Thread] = {}
         self._closed = False

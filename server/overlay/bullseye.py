@@ -23,7 +23,7 @@ from tracker.navigation import AlongChannel, half_axes_95_mm
 from tracker.plan import Channel
 
 # From the middle to the border: this, or twice the channel; what lies beyond is an arrow at the border.
-LEAST_REACH_MM = 7.0
+MIN_REACH_MM = 7.0
 CROSS_MM, SQUARE_MM = 0.8, 0.45
 LETTER_PX = 17.0
 LETTER_ROOM_PX = 18.0
@@ -36,7 +36,7 @@ SQUARE = SQUARE_MM * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0
 
 def reach_of(channel: Channel) -> float:
     """How many mm a bull's-eye shows from its middle to its border, burned in or drawn by the page."""
-    return max(LEAST_REACH_MM, 2.0 * channel.radius_mm)
+    return max(MIN_REACH_MM, 2.0 * channel.radius_mm)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

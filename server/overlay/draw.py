@@ -21,7 +21,7 @@ from tracker.pose import Seen
 
 BASE_HEIGHT_PX = 720.0
 # What the words at the top and in the panel need beside each other.
-LEAST_WIDTH_PX = 880.0
+MIN_WIDTH_PX = 880.0
 GAP_PX = 8.0
 AHEAD_MM = 50.0
 PAST_TARGET_MM = 10.0
@@ -58,7 +58,7 @@ def draw_overlay(
         )
     drawn = np.repeat(image[..., None], 3, axis=2) if image.ndim == 2 else image.copy(order="C")
     # A portrait image is as legible as its width allows.
-    scale = min(drawn.shape[0] / BASE_HEIGHT_PX, drawn.shape[1] / LEAST_WIDTH_PX)
+    scale = min(drawn.shape[0] / BASE_HEIGHT_PX, drawn.shape[1] / MIN_WIDTH_PX)
     if snapshot.setup.camera_calibrated:
         _draw_theatre(drawn, snapshot, scale)
     for name, sighting in snapshot.sightings.items():

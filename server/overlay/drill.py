@@ -24,7 +24,7 @@ LONG_TICK_EVERY = 2
 TICKED_MM = 60.0
 DASH_MM = 2.0
 # Ticks nearer than this stand for a drill that points at the camera: they would be a smear.
-LEAST_TICK_GAP_PX = 4.0
+MIN_TICK_GAP_PX = 4.0
 
 
 def draw_drill(
@@ -60,7 +60,7 @@ def _ticks(view: View, tip: Array, direction: Array, length_mm: float, scale: fl
     for index in range(1, count + 1):
         along = px[index] - px[index - 1]
         gap = float(np.hypot(*along))
-        if not (shown[index] and shown[index - 1]) or gap < LEAST_TICK_GAP_PX * scale:
+        if not (shown[index] and shown[index - 1]) or gap < MIN_TICK_GAP_PX * scale:
             continue
         half = (9.0 if index % LONG_TICK_EVERY == 0 else 5.5) * scale
         across = np.array([-along[1], along[0]]) / gap * half

@@ -29,7 +29,7 @@ SMALL_PX = 17.0
 PADDING_PX = 14.0
 NOTE_PX = 24.0
 # What a label takes beside its number; a longer number is written smaller.
-LEAST_LABEL_PX = 62.0
+MIN_LABEL_PX = 62.0
 FIGURE_COLOURS = {Status.OVER: YELLOW, Status.THROUGH: RED}
 
 
@@ -73,7 +73,7 @@ def _draw_reading(image: Image, reading: Reading, left: float, top: float, scale
     unit_width = text_width_px("mm", size_px=UNIT_PX * scale, weight=REGULAR) + 5.0 * scale
     width = text_width_px(reading.value, size_px=NUMBER_PX * scale, weight=SEMIBOLD)
     # A number too long for its place is written smaller, never cut.
-    room = right - left - unit_width - LEAST_LABEL_PX * scale
+    room = right - left - unit_width - MIN_LABEL_PX * scale
     number_size = NUMBER_PX * scale * min(1.0, room / max(width, 1.0))
     start = right - unit_width - min(width, room)
     base = top + 46.0 * scale

@@ -17,7 +17,7 @@ from tracker.pose.tool import Poses
 TEXT = {".txt", ".csv", ".tsv", ".dat", ".mat", ".asc", ".pose"}
 JSON = {".json", ".jsonl", ".ndjson"}
 ARRAY = {".npy", ".npz"}
-MOST_BYTES = 200_000_000
+MAX_BYTES = 200_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,8 +117,8 @@ def _told(file: Path, unit: Unit, *, in_folder: bool) -> Told | None:
         return None
     try:
         size = file.stat().st_size
-        if size > MOST_BYTES:
-            raise unreadable(str(file), f"it has {size / 1e6:.0f} MB, allowed {MOST_BYTES / 1e6:.0f} MB")
+        if size > MAX_BYTES:
+            raise unreadable(str(file), f"it has {size / 1e6:.0f} MB, allowed {MAX_BYTES / 1e6:.0f} MB")
         if kind in ARRAY:
             return Told(poses=poses_from_array(_array(file), name=file.name, unit=unit))
         text = file.read_text(encoding="utf-8-sig")

@@ -17,7 +17,7 @@ from tracker.geometry import Array
 
 # Each look costs a good part of a core; the video needs the rest.
 REST_S = 0.1
-MOST_VIEWS = 60
+MAX_VIEWS = 60
 NO_POINTS: Array = np.zeros((0, 2))
 
 
@@ -173,12 +173,12 @@ class BoardCollection:
         self._controls = now or self._controls
 
     def _refuse_more(self) -> None:
-        if len(self._taken) >= MOST_VIEWS:
+        if len(self._taken) >= MAX_VIEWS:
             raise InvalidInput(
                 "VIEWS_ENOUGH",
-                f"{MOST_VIEWS} views are taken, which is the most that are kept",
+                f"{MAX_VIEWS} views are taken, which is the most that are kept",
                 "Calibrate with them, or start anew.",
-                {"views": MOST_VIEWS},
+                {"views": MAX_VIEWS},
             )
 
     def _note_absence(self, said: str, image_number: int) -> None:

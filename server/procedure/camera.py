@@ -143,7 +143,7 @@ class CameraStep:
             case.id,
             DocumentKind.CHECK,
             ACCURACY,
-            accuracy_values(report, limit_mm=self._gate.most_error_mm),
+            accuracy_values(report, limit_mm=self._gate.max_error_mm),
             made_by=made_by,
             stands_on=[document.id],
         )
@@ -174,12 +174,12 @@ class CameraStep:
     ) -> Document:
         """Keep a calibration that passes its gate, with its pictures."""
         rms_px = float(report["rms_px"])
-        if not rms_px <= self._gate.most_rms_px:
+        if not rms_px <= self._gate.max_rms_px:
             raise CalibrationError(
                 "CALIBRATION_ABOVE_GATE",
-                f"points lie off by {rms_px} px RMS, allowed {self._gate.most_rms_px:g} px; nothing was kept",
+                f"points lie off by {rms_px} px RMS, allowed {self._gate.max_rms_px:g} px; nothing was kept",
                 "Take sharp views of a flat, stiff board, or look at the report for views that do not fit.",
-                {"rms_px": rms_px, "most_rms_px": self._gate.most_rms_px},
+                {"rms_px": rms_px, "max_rms_px": self._gate.max_rms_px},
             )
         files = {}
         for name, picture in plots.items():

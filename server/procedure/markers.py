@@ -24,7 +24,7 @@ from tracker.errors import InvalidInput, NavigationError
 from tracker.marker import MarkerModel, refuse_alike
 
 # Each one costs search time in every image.
-MOST_MARKERS = 8
+MAX_MARKERS = 8
 
 log = structlog.get_logger(__name__)
 
@@ -164,12 +164,12 @@ class MarkerStep:
         """Two markers that look the same would be taken for each other; too many cost too much time."""
         others = [known.model for known in self.known() if known.model.name != model.name]
         refuse_alike([*others, model])
-        if len(others) >= MOST_MARKERS:
+        if len(others) >= MAX_MARKERS:
             raise InvalidInput(
                 "MARKERS_ENOUGH",
-                f"{len(others)} markers are looked for, allowed are {MOST_MARKERS}",
+                f"{len(others)} markers are looked for, allowed are {MAX_MARKERS}",
                 "Remove one that is not used any more.",
-                {"markers": len(others), "allowed": MOST_MARKERS},
+                {"markers": len(others), "allowed": MAX_MARKERS},
             )
 
 

@@ -129,7 +129,7 @@ class KeptCheck(Section):
     landmark: str
     tool: str
     distance_mm: float
-    most_mm: float
+    max_mm: float
     """What was allowed."""
     passed: bool
     run: str

@@ -26,14 +26,14 @@ class BoneOrder:
         region_lps_mm: two opposite corners of the part that is looked at.
         largest_part_only: leave out what does not hang together with the largest piece.
         smoothing_rounds: 0 for none.
-        most_faces: triangles of the result.
+        max_faces: triangles of the result.
     """
 
     threshold_hu: float | None = None
     region_lps_mm: tuple[Sequence[float], Sequence[float]] | None = None
     largest_part_only: bool = True
     smoothing_rounds: int = 10
-    most_faces: int = 60_000
+    max_faces: int = 60_000
 
     @property
     def settings(self) -> BoneSettings:
@@ -44,7 +44,7 @@ class BoneOrder:
             region=region,
             largest_part_only=self.largest_part_only,
             smoothing_rounds=self.smoothing_rounds,
-            most_faces=self.most_faces,
+            max_faces=self.max_faces,
         )
 
 

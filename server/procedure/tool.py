@@ -313,7 +313,7 @@ def check_values(check: TipCheck) -> dict[str, object]:
     """What a check of the tip found, as values that JSON can say."""
     return {
         "rms_3d_mm": check.rms_3d_mm,
-        "most_mm": check.most_mm,
+        "max_mm": check.max_mm,
         "rms_by_axis_mm": check.rms_by_axis_mm.tolist(),
         "poses": check.poses,
         "tilt_range_deg": check.turning.tilt_range_deg,

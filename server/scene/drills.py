@@ -17,7 +17,7 @@ TRACE_PX = 3.0
 TIP_NODE, CONE_NODE = "/tip", "/cone"
 CONE_MM = 45.0
 # What is drawn thinner than this is lost, though it is as sure as that.
-LEAST_MM = 0.05
+MIN_MM = 0.05
 CORNERS = 24
 NO_SEGMENT = np.zeros((1, 2, 3), np.float32)
 
@@ -92,11 +92,11 @@ class DrillNodes:
         self._ellipsoid.visible = self._cone.visible = spread is not None
         if now is None or spread is None:
             return
-        reach_mm = np.maximum(np.linalg.norm(spread.tip_ellipsoid_mm, axis=1), LEAST_MM)
+        reach_mm = np.maximum(np.linalg.norm(spread.tip_ellipsoid_mm, axis=1), MIN_MM)
         self._ellipsoid.scale = vector(reach_mm)
         self._ellipsoid.wxyz = quaternion(_axes(spread.tip_ellipsoid_mm))
         self._ellipsoid.position = vector(now.world_from_tool.translation_mm)
-        wide_mm = max(CONE_MM * float(np.tan(np.radians(min(spread.cone_95_deg, 60.0)))), LEAST_MM)
+        wide_mm = max(CONE_MM * float(np.tan(np.radians(min(spread.cone_95_deg, 60.0)))), MIN_MM)
         self._cone.scale = (wide_mm, wide_mm, CONE_MM)
 
     def _show_trace(self, now: DrillNow | None) -> None:

@@ -28,10 +28,10 @@ from tracker.plan import Surface
 SEND_TIMEOUT_S = 2.0
 THINNEST_LINE_BYTES_PER_S = 50_000
 # Above the rate of any camera here; a pause of a full period would miss images of a camera at 60 Hz.
-LEAST_INTERVAL_S = 1 / 100
+MIN_INTERVAL_S = 1 / 100
 # The scene says something at least once in the time after which it counts as stale. A page that has heard
 # nothing for much longer asks for a new line.
-LEAST_SILENCE_MS = 6000.0
+MIN_SILENCE_MS = 6000.0
 
 GOING_AWAY, REFUSED, CROWDED = 1001, 1008, 1013
 
@@ -83,7 +83,7 @@ class Scene:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._stale_after_s = stale_after_ms / 1000
         self._page = make_page(
-            stale_after_ms=stale_after_ms, silent_after_ms=max(LEAST_SILENCE_MS, 6 * stale_after_ms)
+            stale_after_ms=stale_after_ms, silent_after_ms=max(MIN_SILENCE_MS, 6 * stale_after_ms)
         )
         self._door: Door | None = None
         self._stage: Stage | None = None
@@ -142,7 +142,7 @@ class Scene:
             except Exception:  # noqa: BLE001 one bad instant must not freeze the scene for ever
                 _log.exception("scene_instant_failed", sequence=sequence)
                 stage.show_nothing()
-            await asyncio.sleep(LEAST_INTERVAL_S)
+            await asyncio.sleep(MIN_INTERVAL_S)
 
     async def _answer(self, request: Request) -> Response:
         return self._page.answer(request)

@@ -10,7 +10,7 @@ class TooManyViewers(NavigationError):
 
     def __init__(self, watching: int, most: int, name: str | None = None) -> None:
         said = f"{watching} viewers watch already, at most {most} may"
-        remedy = "Close a picture that nobody looks at, or raise video.most_viewers in the settings."
+        remedy = "Close a picture that nobody looks at, or raise video.max_viewers in the settings."
         if name is not None:
             said = f"{name} has {watching} lines open already, at most {most} may be one person's"
             remedy = "Close a page of yours that nobody looks at."

@@ -16,7 +16,7 @@ from server.stream.fitting.sizes import Choice
 
 _log = structlog.get_logger(__name__)
 
-MOST_A_PERSON = 8
+MAX_A_PERSON = 8
 # Of so many places one is kept for those without whom nothing goes on in theatre.
 PLACES_A_KEPT_ONE = 8
 KEPT_FOR = frozenset({Role.OPERATOR, Role.SCREEN})
@@ -70,7 +70,7 @@ class Viewers:
 
     def __init__(self, *, most: int = 64, send_timeout_s: float = 2.0) -> None:
         self.send_timeout_s = send_timeout_s
-        self._most = most
+        self._max = most
         self._watching: list[Viewer] = []
         self._dropped_by_gone = dict.fromkeys(ViewerKind, 0)
         self._let_go = dict.fromkeys(ViewerKind, 0)
@@ -100,12 +100,12 @@ class Viewers:
         ways = {kind} if kind in APART else set(ViewerKind) - APART
         same = [one for one in self._watching if one.kind in ways]
         own = sum(one.person.id == person.id for one in same)
-        most = self._most - (0 if person.role in KEPT_FOR else self._most // PLACES_A_KEPT_ONE)
+        most = self._max - (0 if person.role in KEPT_FOR else self._max // PLACES_A_KEPT_ONE)
         error = None
         if len(same) >= most:
             error = TooManyViewers(len(same), most)
-        elif person != ANYBODY and own >= MOST_A_PERSON:
-            error = TooManyViewers(own, MOST_A_PERSON, person.name)
+        elif person != ANYBODY and own >= MAX_A_PERSON:
+            error = TooManyViewers(own, MAX_A_PERSON, person.name)
         if error is not None:
             _log.warning("viewer_refused", kind=kind, by=person.name, watching=len(same), own=own, most=most)
             raise error

@@ -18,7 +18,7 @@ from server.supervision.signatures import SignatureDesk
 from server.supervision.told import RoomPicture
 
 # News are told at once, but no more often than this; without any, a word a second says that the line stands.
-LEAST_BETWEEN_S, HEARTBEAT_S = 1.0 / 30.0, 1.0
+MIN_BETWEEN_S, HEARTBEAT_S = 1.0 / 30.0, 1.0
 
 
 @dataclass(slots=True)

@@ -14,9 +14,9 @@ Pixel: TypeAlias = tuple[float, float]
 
 # A pointer that does not move says nothing any more.
 POINTER_GOES_AFTER_S = 2.0
-MOST_DRAWINGS = 60
-MOST_DRAWINGS_A_PERSON = 20
-MOST_POINTS_A_DRAWING = 400
+MAX_DRAWINGS = 60
+MAX_DRAWINGS_A_PERSON = 20
+MAX_POINTS_A_DRAWING = 400
 
 
 class Shape(StrEnum):
@@ -124,9 +124,9 @@ class Marks:
     def begin(self, drawing: Drawing) -> None:
         """One more drawing; where there are too many, the oldest goes."""
         own = [key for key, one in self._drawings.items() if one.person.id == drawing.person.id]
-        if len(own) >= MOST_DRAWINGS_A_PERSON:
+        if len(own) >= MAX_DRAWINGS_A_PERSON:
             del self._drawings[own[0]]
-        elif len(self._drawings) >= MOST_DRAWINGS:
+        elif len(self._drawings) >= MAX_DRAWINGS:
             del self._drawings[next(iter(self._drawings))]
         self._drawings[drawing.key] = drawing
 
@@ -135,7 +135,7 @@ class Marks:
         drawing = self._drawings.get(key)
         if drawing is None:
             return True
-        if len(drawing.points_px) + len(points_px) > MOST_POINTS_A_DRAWING:
+        if len(drawing.points_px) + len(points_px) > MAX_POINTS_A_DRAWING:
             return False
         drawing.points_px.extend(points_px)
         return True

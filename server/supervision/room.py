@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from server.security import Person, Role
 from server.supervision.budget import Budget
 from server.supervision.marks import (
-    MOST_POINTS_A_DRAWING,
+    MAX_POINTS_A_DRAWING,
     Drawing,
     Marks,
     Moment,
@@ -17,8 +17,8 @@ from server.supervision.marks import (
 )
 from server.supervision.people import Present, Seat, View, everybody
 
-MOST_SEATS = 200
-MOST_SEATS_A_PERSON = 20
+MAX_SEATS = 200
+MAX_SEATS_A_PERSON = 20
 # A page points 25 times a second at most, and draws as often; a grant for each message comes on top.
 MARKS_A_SECOND, MARKS_AT_ONCE = 60.0, 120.0
 MAY_MARK = frozenset({Role.SUPERVISOR, Role.OPERATOR})
@@ -70,8 +70,8 @@ class Room:
             RoomFull: too many pages are open.
         """
         own = sum(seat.person.id == person.id for seat in self._seats.values())
-        if len(self._seats) >= MOST_SEATS or own >= MOST_SEATS_A_PERSON:
-            most = MOST_SEATS_A_PERSON if own >= MOST_SEATS_A_PERSON else MOST_SEATS
+        if len(self._seats) >= MAX_SEATS or own >= MAX_SEATS_A_PERSON:
+            most = MAX_SEATS_A_PERSON if own >= MAX_SEATS_A_PERSON else MAX_SEATS
             raise RoomFull(f"{most} pages are open already; close one")
         budget = Budget.full(rate_hz=MARKS_A_SECOND, most=MARKS_AT_ONCE, now_s=now_s)
         seat = Seat(number=next(self._numbers), person=person, view=view, since=at, budget=budget)
@@ -154,7 +154,7 @@ class Room:
         if shown is None or not _is_on(shown, points_px):
             return
         if not self.marks.extend(_key(seat, key), points_px):
-            raise Unfair(f"a drawing has at most {MOST_POINTS_A_DRAWING} points")
+            raise Unfair(f"a drawing has at most {MAX_POINTS_A_DRAWING} points")
 
     def undo(self, seat: Seat, *, now_s: float) -> bool:
         """Somebody takes back the last thing that they drew; whether there was one.

@@ -16,8 +16,8 @@ TOP = {
 ROOMS = ("tracker", "server", "tests", "web", "docs")
 PACKAGES = ("tracker", "server")
 SAYS_NOTHING = {"utils", "util", "helpers", "helper", "common", "manager", "data", "info", "misc"}
-MOST_LINES = 350
-MOST_LINES_OF_A_FUNCTION = 60
+MAX_LINES = 350
+MAX_LINES_OF_A_FUNCTION = 60
 CODE = (".py", ".ts", ".tsx")
 
 
@@ -52,13 +52,13 @@ def of_one_test_name(files: Iterable[Path]) -> list[Path]:
 
 def too_long(name: str, text: str) -> list[str]:
     lines = text.count("\n")
-    faults = [f"{name} has {lines} lines"] if lines > MOST_LINES else []
+    faults = [f"{name} has {lines} lines"] if lines > MAX_LINES else []
     if not name.endswith(".py"):
         return faults
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             length = (node.end_lineno or node.lineno) - node.lineno + 1
-            if length > MOST_LINES_OF_A_FUNCTION:
+            if length > MAX_LINES_OF_A_FUNCTION:
                 faults.append(f"{name}: {node.name} has {length} lines")
     return faults
 

@@ -26,7 +26,7 @@ PANES = ("video", "numbers", "scene")
 FIGURES = ("entry", "angle", "depth", "toGo")
 # Times hold where nothing else runs: COAXIAL_TIMES=1 asks for them, too.
 ON_A_QUIET_MACHINE = "COAXIAL_TIMES"
-LEAST_TRIES = 2
+MIN_TRIES = 2
 GONE_FOR_MS, SAID_WITHIN_MS, RIGHT_WITHIN_MS = 5000, 1000, 2000
 
 expect.set_options(timeout=PATIENCE_MS)
@@ -180,7 +180,7 @@ def judge(what: str, seen: Absence) -> None:
     )
     assert seen.gone_for_ms > GONE_FOR_MS
     # It went on trying by itself, said so before the server was back, and was right only by its word.
-    assert seen.tries >= LEAST_TRIES
+    assert seen.tries >= MIN_TRIES
     for pane in PANES:
         assert seen.said_ms[pane] < seen.gone_for_ms
         assert seen.right_ms[pane] >= 0.0

@@ -38,8 +38,8 @@ SETTINGS = {
     "registration": {
         "capture_images": 3,
         "capture_s": 0.8,
-        "most_capture_gap_s": 2.0,
-        "most_capture_sd_mm": 1.0,
+        "max_capture_gap_s": 2.0,
+        "max_capture_sd_mm": 1.0,
     },
 }
 HAS_ANGLE = r"""() => /^.?\d+\.\d$/.test(

@@ -108,7 +108,7 @@ def test_a_surface_from_the_ct_and_one_in_metres(server: Server) -> None:
     opened(server)
     sent(server, dicom_zip())
     region = {"low_lps_mm": [-30, -30, -15], "high_lps_mm": [30, 30, 15]}
-    asked = {**BY, "region": region, "most_faces": 5000}
+    asked = {**BY, "region": region, "max_faces": 5000}
     job = server.done(server.ask("POST", "/api/surface/from-ct", 202, json=asked))
     assert job["state"] == "done", job["trouble"]
     made = server.ask("GET", "/api/surface", 200)

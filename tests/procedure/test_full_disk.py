@@ -10,11 +10,11 @@ import pytest
 
 from tests.procedure.real_server import BUSY_MACHINE, RealServer, real_server
 
-ROOM_MB, LEAST_MB = 40, 20
+ROOM_MB, MIN_MB = 40, 20
 SETTINGS: dict[str, Any] = {
     **BUSY_MACHINE,
     "rehearsal": {"skill": "good", "width": 640, "height": 360},
-    "alarms": {"screen_lost_after_s": 600, "least_free_disk_mb": LEAST_MB},
+    "alarms": {"screen_lost_after_s": 600, "min_free_disk_mb": MIN_MB},
 }
 HOLD = {"by": "Dr. Sato"}
 
@@ -44,7 +44,7 @@ def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> Non
 
         fill(filler)
         nearly = server.until("the alarm", lambda: alarms(server).get("DISK_NEARLY_FULL"))
-        assert nearly["measure"]["value"] < nearly["measure"]["limit"] == LEAST_MB
+        assert nearly["measure"]["value"] < nearly["measure"]["limit"] == MIN_MB
         numbers_of_new_images(server)
         refused = until_refused(server)
         assert refused["code"] == "STORE_FULL"

@@ -142,8 +142,8 @@ def test_tool_behind_a_changed_marker_is_out_of_date(server: Server, how: str) -
 
 def test_gates_are_those_of_the_settings(server: Server) -> None:
     told = server.ask("GET", "/api/gates", 200)
-    assert told["calibration"] == {"most_rms_px": 1.0, "most_error_mm": 0.5}
-    assert told["collecting"] == {"least_views": 12, "least_coverage_ratio": 0.75, "least_tilt_deg": 20.0}
+    assert told["calibration"] == {"max_rms_px": 1.0, "max_error_mm": 0.5}
+    assert told["collecting"] == {"min_views": 12, "min_coverage_ratio": 0.75, "min_tilt_deg": 20.0}
     assert told["tracker"]["accept_score_ratio"] == 0.7
     # As the test's own settings have it, and not the default.
     assert told["registration"]["capture_images"] == 4

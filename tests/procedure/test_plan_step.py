@@ -40,7 +40,7 @@ def planned(server: Server, content: bytes) -> Any:  # noqa: ANN401  JSON
 
 
 def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
-    assert server.ask("GET", "/api/plan/catalogue", 200)["least_landmarks"] == 3
+    assert server.ask("GET", "/api/plan/catalogue", 200)["min_landmarks"] == 3
     plan = planned(server, dicom_zip())
     assert plan["heading"]["current"]
     assert plan["heading"]["version"] == 5
@@ -65,7 +65,7 @@ def test_from_an_empty_case_to_a_channel_to_be_drilled(server: Server) -> None:
     screw = left["screws"][0]
     assert {name: screw[name] for name in size} == size
     assert screw["clearance"]["grade"] == "A"
-    assert screw["tolerance"]["most_offset_mm"] > 0.4
+    assert screw["tolerance"]["max_offset_mm"] > 0.4
     assert screw["bone"]["mean_hu"] > 100
 
     # The channel that is to be drilled now reaches the tracking process, and stays through other changes.

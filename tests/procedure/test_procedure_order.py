@@ -139,7 +139,7 @@ def test_a_check_holds_for_its_time_and_its_run(
             landmark=SPARE,
             tool="drill",
             distance_mm=1.0 if passed else 3.0,
-            most_mm=2.0,
+            max_mm=2.0,
             passed=passed,
             run=run,
             from_s=1.0,

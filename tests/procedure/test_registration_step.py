@@ -43,7 +43,7 @@ def test_from_an_open_case_to_numbers_against_the_channel(server: Server) -> Non
     told = server.ask("POST", POINTS, 201, json=DRILL)
     assert [one["name"] for one in told["landmarks"]] == list(LANDMARKS)
     assert told["anchored_to"] == "camera"
-    assert told["limits"]["most_tre_mm"] == 2.0
+    assert told["limits"]["max_tre_mm"] == 2.0
     running = server.ask("GET", "/api/registration/running", 200)
     assert running == {"points": True, "sweep": False, "check": False}
     assert told["missing"][0]["code"] == "POINTS_TOO_FEW"

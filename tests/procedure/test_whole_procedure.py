@@ -92,8 +92,8 @@ def register(team: Team) -> None:
     team.server.refused("POST", f"{POINTS}/conclusion", "POINTS_TOO_FEW", json=BY)
     told = team.touch_more(3)
     assert told["missing"] == []
-    assert told["fre_rms_mm"] < CONFIG.registration.most_fre_mm
-    assert max(one["stated_mm"] for one in told["targets"]) < CONFIG.registration.most_tre_mm
+    assert told["fre_rms_mm"] < CONFIG.registration.max_fre_mm
+    assert max(one["stated_mm"] for one in told["targets"]) < CONFIG.registration.max_tre_mm
     document = team.server.ask("POST", f"{POINTS}/conclusion", 201, json=BY)
     assert document["content"]["anchored_to"] == "reference"
 

@@ -44,7 +44,7 @@ def test_a_tip_that_is_too_unsure_has_no_place_and_no_numbers() -> None:
         tools={"drill": theatre.tool},
         channel=theatre.channels[0],
         registration=Registration.known_to_camera(theatre.camera_from_vertebra),
-        most_tip_sd_mm=3.0,
+        max_tip_sd_mm=3.0,
     )
     image = theatre.renderer().image_at(14.0)
     sure = Tracker(camera=theatre.camera, models=[theatre.marker]).search(image)["drill"]

@@ -49,7 +49,7 @@ GAMMA_TIP_MM = {"A": Level(1.0, 1.0), "B": Level(0.08, 0.08)}
 # Poses at base that are nearer to the wrong one of the two planar solutions.
 MIRRORED = {"A": Level(2, 0), "B": Level(0, 0)}
 # Of the errors inside their stated 95 % ellipsoid, in base, noise and motion together: least.
-COVERED_LEAST = Level(0.92, 0.92)
+COVERED_MIN = Level(0.92, 0.92)
 # Median of their squares in units of what is stated: 2.37 if it were exactly true, less where it is too wide.
 TYPICAL_SD2 = Level(0.9, 1.7)
 COVERED_IN = (("A", "base"), ("A", "noise8"), ("A", "motion4"), ("B", "base"), ("B", "noise8"))
@@ -64,7 +64,7 @@ def searchers() -> Searchers:
 
 @cache
 def run_of(rig: str, condition: str, searchers: Searchers) -> ConditionRun:
-    most_bounds = SCENES[rig] if (rig, condition) in TIP_OF_BOUND else 0
+    max_bounds = SCENES[rig] if (rig, condition) in TIP_OF_BOUND else 0
     return measure_condition(
         RIGS[rig],
         conditions_of(RIGS[rig])[condition],
@@ -73,7 +73,7 @@ def run_of(rig: str, condition: str, searchers: Searchers) -> ConditionRun:
         count=SCENES[rig],
         seed=SEED,
         with_tracking=False,
-        most_bounds=most_bounds,
+        max_bounds=max_bounds,
     )
 
 
@@ -113,7 +113,7 @@ def test_errors_lie_inside_their_stated_ellipsoid_as_often_as_stated(
     number: int, searchers: Searchers
 ) -> None:
     found = [one for rig, name in COVERED_IN for one in right(run_of(rig, name, searchers))]
-    assert float(np.mean([one.covered[number] for one in found])) >= COVERED_LEAST.asserted - COVERED_CHANCE
+    assert float(np.mean([one.covered[number] for one in found])) >= COVERED_MIN.asserted - COVERED_CHANCE
     assert float(np.median([one.stated_sd2[number] for one in found])) >= TYPICAL_SD2.asserted
 
 

@@ -28,7 +28,7 @@ from tracker.geometry import Array, Rigid, rotation_from_vector
 
 SUBPIXEL_BITS = 4
 # Where what is stated is true, 0.95; so few scenes tell it to a few percent.
-LEAST_COVERED_RATIO = 0.85
+MIN_COVERED_RATIO = 0.85
 
 
 @pytest.fixture(scope="module")
@@ -114,7 +114,7 @@ def moving_beside_a_strip(seed: int, face: Face, trackers: Trackers) -> Shown:
 
 
 @pytest.mark.parametrize(
-    ("shown", "seeds", "least_seen"),
+    ("shown", "seeds", "min_seen"),
     [
         (framed, range(60), 17),
         (with_cut_sides, range(110, 160), 26),
@@ -123,13 +123,13 @@ def moving_beside_a_strip(seed: int, face: Face, trackers: Trackers) -> Shown:
     ],
 )
 def test_what_is_stated_holds_whatever_became_of_the_outline(
-    shown: Callable[[int, Face, Trackers], Shown], seeds: range, least_seen: int, trackers: Trackers
+    shown: Callable[[int, Face, Trackers], Shown], seeds: range, min_seen: int, trackers: Trackers
 ) -> None:
     found = judged_by_seed(shown, seeds, trackers)
     assert worst_by_seed(found, over_sd2=WORST_SD2) == {}
     covered = np.array([one.covered for _, one in found if one.covered])
-    assert len(covered) >= least_seen
-    assert covered.mean(axis=0).min() >= LEAST_COVERED_RATIO
+    assert len(covered) >= min_seen
+    assert covered.mean(axis=0).min() >= MIN_COVERED_RATIO
 
 
 def test_a_framed_marker_is_where_its_inside_says_and_is_not_sure(trackers: Trackers) -> None:

@@ -7,9 +7,9 @@ from tracker.appearance.kernels import robust_cost, whole_fit
 from tracker.appearance.samples import Samples
 from tracker.geometry import Array
 
-PIXEL_PX2, LEAST_BLUR_PX2 = 1.0 / 12.0, 0.07
+PIXEL_PX2, MIN_BLUR_PX2 = 1.0 / 12.0, 0.07
 ROUNDS = 14
-MOST_MOVE_PX = 0.7
+MAX_MOVE_PX = 0.7
 # Residuals over so many sd lose their say.
 CUT = 4.0
 # A fit is at its end when a step promises less, in units of the residuals' variance. From near its end, by
@@ -66,10 +66,10 @@ def fitted(
         numbers,
         light,
         scale_grey,
-        LEAST_BLUR_PX2 + seen.step * seen.step * PIXEL_PX2,
+        MIN_BLUR_PX2 + seen.step * seen.step * PIXEL_PX2,
         rounds,
         CUT,
-        MOST_MOVE_PX * seen.step,
+        MAX_MOVE_PX * seen.step,
         settled,
     )
     if not good:

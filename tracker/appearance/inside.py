@@ -22,10 +22,10 @@ from tracker.geometry import Array
 
 # The inside is asked where the whole leaves so much, in units of the noise and of the contrast, or where so
 # few of its pixels have a say that something must cover it. Of noise alone 0.88 have one.
-LEAVES_NOISES, LEAVES_CONTRAST_RATIO, LEAST_SAY_RATIO = 1.4, 0.04, 0.86
+LEAVES_NOISES, LEAVES_CONTRAST_RATIO, MIN_SAY_RATIO = 1.4, 0.04, 0.86
 # The outline reaches so many blurs inwards; what was cut off or lies over it, at least so much of a half
 # side. Where it reaches farther than the most, the inside tells too little.
-BLURS, LEAST_RIM_RATIO, MOST_RIM_RATIO = 3.0, 0.14, 0.3
+BLURS, MIN_RIM_RATIO, MAX_RIM_RATIO = 3.0, 0.14, 0.3
 # So many pixels of it tell whether it contradicts.
 FEWEST_PIXELS, TELLING_PIXELS = 100, 600
 # It leaves so much less than the whole does, or so many more of its pixels have a say; and there the pose of
@@ -106,7 +106,7 @@ def _contradicts(inside: Samples, whole: Fitted, alone: Fitted) -> bool:
 def _leaves_much(one: Fitted, noise_grey: float) -> bool:
     contrast = float(typical_contrast(one.numbers, one.light))
     left = max(LEAVES_NOISES * noise_grey, LEAVES_CONTRAST_RATIO * contrast)
-    return one.scale_grey > left or one.explained_ratio < LEAST_SAY_RATIO
+    return one.scale_grey > left or one.explained_ratio < MIN_SAY_RATIO
 
 
 def _clear_of_outline(seen: Samples, one: Fitted, side_px: float) -> Samples | None:
@@ -115,11 +115,11 @@ def _clear_of_outline(seen: Samples, one: Fitted, side_px: float) -> Samples | N
     `side_px`: in pixels as they were averaged.
     """
     blur = one.numbers[BLUR : BLUR + 2]
-    rim = max(LEAST_RIM_RATIO, 2.0 * BLURS * float(np.sqrt(blur.max())) / side_px)
+    rim = max(MIN_RIM_RATIO, 2.0 * BLURS * float(np.sqrt(blur.max())) / side_px)
     # In half sides from the centre.
     at: Array = one.looked[1]
     clear = np.abs(at).max(axis=1) < 1.0 - rim
-    if rim > MOST_RIM_RATIO or np.count_nonzero(clear) < FEWEST_PIXELS:
+    if rim > MAX_RIM_RATIO or np.count_nonzero(clear) < FEWEST_PIXELS:
         return None
     return replace(
         seen, rays=np.ascontiguousarray(seen.rays[clear]), values=np.ascontiguousarray(seen.values[clear])

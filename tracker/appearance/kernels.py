@@ -5,7 +5,7 @@ import numpy as np
 from tracker.appearance.equations.kernels import EVEN, equations, hold, trust, typical_sd, weighed_pixel
 from tracker.appearance.light.fields.kernels import (
     AROUND,
-    MOST_SHARES,
+    MAX_SHARES,
     NODES_REACH,
     PLAIN,
     band_of,
@@ -22,9 +22,9 @@ from tracker.geometry.kernels import solve_banded, turn_by
 
 # A step that lowered the cost by less was within a standard deviation, and the next is within a tenth.
 SETTLED_COST_SD2 = 0.3
-LEAST_ANSWER_RATIO = 0.3
+MIN_ANSWER_RATIO = 0.3
 # In one step the blur's variance grows to no more than so many times what it was.
-MOST_WIDENED = 4.0
+MAX_WIDENED = 4.0
 
 
 @compiled
@@ -48,16 +48,16 @@ def corner_motion_px(rotation, translation, lens, side_mm, step):
 
 
 @compiled
-def _advance(rotation, translation, numbers, step, share, least_blur):
+def _advance(rotation, translation, numbers, step, share, min_blur):
     """Move by a share of a step, in place; False where that turns the face away."""
     blur = numbers[BLUR : BLUR + 3]
-    most_blur = MOST_WIDENED * max(blur[0], blur[1])
+    max_blur = MAX_WIDENED * max(blur[0], blur[1])
     for k in range(3):
         translation[k] += share * step[k]
     turn_by(rotation, share * step[3:6])
     for k in range(6, len(numbers)):
         numbers[k] += share * step[k]
-    keep_within(blur, least_blur, most_blur)
+    keep_within(blur, min_blur, max_blur)
     numbers[RESPONSE] = min(max(numbers[RESPONSE], -0.9), 0.9)
     facing = (
         rotation[0, 2] * translation[0] + rotation[1, 2] * translation[1] + rotation[2, 2] * translation[2]
@@ -66,7 +66,7 @@ def _advance(rotation, translation, numbers, step, share, least_blur):
 
 
 @compiled
-def _solved(a, g, damping, order, band, step, rotation, translation, lens, side_mm, most_px):
+def _solved(a, g, damping, order, band, step, rotation, translation, lens, side_mm, max_px):
     """The damped step, what it promises in squared grey levels, and the share of it that may be gone.
 
     It is solved for in this order of the numbers, with their band in it. A share of 0: there is no step.
@@ -88,7 +88,7 @@ def _solved(a, g, damping, order, band, step, rotation, translation, lens, side_
     turned = np.sqrt(step[3] ** 2 + step[4] ** 2 + step[5] ** 2)
     if not np.isfinite(moved):
         return 0.0, 0.0
-    return gain, min(most_px / max(moved, 1e-12), 0.4 / max(turned, 1e-12), 1.0)
+    return gain, min(max_px / max(moved, 1e-12), 0.4 / max(turned, 1e-12), 1.0)
 
 
 @compiled
@@ -107,8 +107,8 @@ def _cost(rows, values, lit, numbers, light, own, scale, cut, room):
 
 @compiled
 def whole_fit(
-    rays, values, lens, rotation, translation, side_mm, tex, numbers, light, scale, least_blur, rounds, cut,
-    most_px, settled
+    rays, values, lens, rotation, translation, side_mm, tex, numbers, light, scale, min_blur, rounds, cut,
+    max_px, settled
 ):  # fmt: skip
     """Fit pose, blur, response and light to the pixels, in place, by damped Gauss-Newton.
 
@@ -137,11 +137,11 @@ def whole_fit(
     old_rotation, old_translation, old = rotation.copy(), translation.copy(), numbers.copy()
     damping, order, band, room = 1e-6, fields_first(light), band_of(light), (a.copy(), g.copy())
     for _ in range(rounds):
-        gain, share = _solved(a, g, damping, order, band, step, rotation, translation, lens, side_mm, most_px)
+        gain, share = _solved(a, g, damping, order, band, step, rotation, translation, lens, side_mm, max_px)
         if share == 0.0:
             return failed
         old_rotation[:, :], old_translation[:], old[:] = rotation, translation, numbers
-        facing = _advance(rotation, translation, numbers, step, share, least_blur)
+        facing = _advance(rotation, translation, numbers, step, share, min_blur)
         if facing and gain < settled * scale * scale and share == 1.0:
             break
         new_cost = np.inf
@@ -197,7 +197,7 @@ def scores_spread(values, seen, numbers, light, scale, cut, inverse, blocks):
     scores, there = np.zeros((blocks * blocks, len(numbers))), np.zeros(blocks * blocks)
     spread = np.zeros((6, 6))
     row, weight = np.empty(LIGHT), np.empty(AROUND)
-    where, share = np.empty(MOST_SHARES, np.int64), np.empty(MOST_SHARES)
+    where, share = np.empty(MAX_SHARES, np.int64), np.empty(MAX_SHARES)
     unit = 1.0 / (cut * scale) ** 2
     weights, stiffness = 0.0, 0.0
     for i in range(n):
@@ -228,5 +228,5 @@ def scores_spread(values, seen, numbers, light, scale, cut, inverse, blocks):
             for k in range(6):
                 spread[m, k] += moved[block, m] * moved[block, k]
     # The fit's matrix counts weights; how the scores answer to a change of the pose is less.
-    answer = weights / max(stiffness, LEAST_ANSWER_RATIO * weights)
+    answer = weights / max(stiffness, MIN_ANSWER_RATIO * weights)
     return spread * (answer**2 * count / max(count - 6.0, 1.0))

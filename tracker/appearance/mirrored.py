@@ -15,7 +15,7 @@ from tracker.geometry import Array
 from tracker.geometry.kernels import mirror, turn_between
 
 # Nearer to each other, the two are one.
-LEAST_APART_RAD = float(np.radians(0.5))
+MIN_APART_RAD = float(np.radians(0.5))
 
 
 def with_mirrored(seen: Samples, fits: list[Fitted], starts: list[Array]) -> list[Fitted]:
@@ -36,7 +36,7 @@ def with_mirrored(seen: Samples, fits: list[Fitted], starts: list[Array]) -> lis
     def is_there(rotation: Array) -> bool:
         return bool(turn_between(rotation, there) < turn_between(rotation, best.rotation))
 
-    is_asked_for = turn_between(best.rotation, there) > LEAST_APART_RAD and any(map(is_there, starts))
+    is_asked_for = turn_between(best.rotation, there) > MIN_APART_RAD and any(map(is_there, starts))
     if not is_asked_for or any(is_there(one.rotation) for one in fits):
         return fits
     mirrored = fitted(

@@ -17,8 +17,8 @@ from tracker.geometry import Array, Camera, Marker, Rigid
 REACH_RATIO = 0.6
 # Where the picture is this much flatter than at its steepest a pixel says little of the pose: few are enough.
 # Where pixels are averaged, edges cover few of them, and all of those are asked.
-LEAST_SLOPE_RATIO, LEAST_SLOPE_RATIO_AVERAGED, FLAT_STRIDE = 0.25, 0.12, 10
-MOST_PIXELS = 30_000
+MIN_SLOPE_RATIO, MIN_SLOPE_RATIO_AVERAGED, FLAT_STRIDE = 0.25, 0.12, 10
+MAX_PIXELS = 30_000
 
 # Which points (n, 2) of a marker's plane, in sides from its centre to the right and upwards, are covered.
 CoveredAt = Callable[[Array], npt.NDArray[np.bool_]]
@@ -51,7 +51,7 @@ def samples_of(
     covered_at: CoveredAt | None = None,
 ) -> Samples:
     """The pixels that tell of the pose, as seen from a start at this blur (3,); not what is covered."""
-    rays, values = np.empty((MOST_PIXELS, 2)), np.empty(MOST_PIXELS)
+    rays, values = np.empty((MAX_PIXELS, 2)), np.empty(MAX_PIXELS)
     count = collect(
         image,
         step,
@@ -62,7 +62,7 @@ def samples_of(
         REACH_RATIO,
         textures.arrays,
         blur_px2,
-        LEAST_SLOPE_RATIO if step == 1 else LEAST_SLOPE_RATIO_AVERAGED,
+        MIN_SLOPE_RATIO if step == 1 else MIN_SLOPE_RATIO_AVERAGED,
         FLAT_STRIDE,
         rays,
         values,

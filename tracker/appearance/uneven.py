@@ -42,14 +42,14 @@ NODES = 10
 EVEN_LEAVES_NOISES, EVEN_LEAVES_CONTRAST_RATIO = 1.4, 0.02
 # Noise, blocks of a compressed picture and things behind the marker have under 30 of the pattern of light; a
 # shadow that takes half of it, or a highlight of half its height, over 150.
-LEAST_PATTERN_SD2 = 80.0
+MIN_PATTERN_SD2 = 80.0
 # Two fields explain what one does too, and by chance a little more.
 FREE_PRICE_SD2 = 50.0
 # So many pixels, and so many steps, tell which light it is; one that then costs so much more is let go.
 TELLING_PIXELS, TELLING_ROUNDS, LET_GO_SD2 = 600, 2, 60.0
 # The light of an image serves so many more, as long as it leaves at most so many times as much: then it is
 # asked anew which light it is.
-MOST_IMAGES, MOST_MORE_LEFT = 10, 1.15
+MAX_IMAGES, MAX_MORE_LEFT = 10, 1.15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,11 +79,11 @@ def known_from(one: Fitted, before: KnownLight | None) -> KnownLight | None:
 
 def in_known_light(seen: Samples, rotation: Array, translation_mm: Array, known: KnownLight) -> Fitted | None:
     """A pose from a start, in about the light of the image before; None where that explains less now."""
-    if known.images >= MOST_IMAGES:
+    if known.images >= MAX_IMAGES:
         return None
     some = some_of(seen, TELLING_PIXELS)
     one = fitted(some, rotation, translation_mm, known.numbers, light=known.light, settled=STRAIGHT_SD2)
-    if one is None or one.scale_grey > MOST_MORE_LEFT * known.scale_grey:
+    if one is None or one.scale_grey > MAX_MORE_LEFT * known.scale_grey:
         return None
     return one if some is seen else again(seen, one)
 
@@ -99,7 +99,7 @@ def is_uneven(seen: Samples, even: list[Fitted]) -> bool:
     """Whether what the best of some fits in even light leaves looks like light."""
     best = min(even, key=lambda one: one.scale_grey)
     pattern = pattern_of_light(seen.values, best.looked, float(best.numbers[RESPONSE]), best.scale_grey, CUT)
-    return float(pattern) > LEAST_PATTERN_SD2
+    return float(pattern) > MIN_PATTERN_SD2
 
 
 def in_light_that_explains(seen: Samples, even: list[Fitted], noise_grey: float) -> list[Fitted]:

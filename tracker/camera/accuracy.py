@@ -17,9 +17,9 @@ from tracker.camera.ruler import Ruler, distances
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
 
-LEAST_FIT_POINTS = 4
+MIN_FIT_POINTS = 4
 # Of the spread of the points along their line; less is a line and no plane.
-LEAST_WIDTH_RATIO = 0.02
+MIN_WIDTH_RATIO = 0.02
 SAME_MM, SAME_PX = 1e-6, 1e-6
 
 
@@ -161,7 +161,7 @@ def accuracy_of_grid(
     fit, rest = order[::2], order[1::2]
     half = rest.size // 2
     if half == 0:
-        raise _plane_unknown(f"{order.size} points were seen, needed {2 * LEAST_FIT_POINTS}")
+        raise _plane_unknown(f"{order.size} points were seen, needed {2 * MIN_FIT_POINTS}")
     first, second = rest[:half], rest[half : 2 * half]
     made = Displacements(
         first_mm=on_board[first], second_mm=on_board[second], first_px=seen[first], second_px=seen[second]
@@ -236,11 +236,11 @@ def _distinct(points: Array) -> int:
 def _fitted(camera: CameraModel, on_plane: Array, seen: Array) -> tuple[tuple[Array, Array], float]:
     """Rotation and translation of the plane to the camera, and the RMS of the fit in px."""
     count = _distinct(on_plane)
-    if count < LEAST_FIT_POINTS:
-        raise _plane_unknown(f"it has {count} points beside those measured, needed {LEAST_FIT_POINTS}")
+    if count < MIN_FIT_POINTS:
+        raise _plane_unknown(f"it has {count} points beside those measured, needed {MIN_FIT_POINTS}")
     middle = on_plane.mean(axis=0)
     spread = np.linalg.svd(on_plane - middle, compute_uv=False)
-    if spread[1] < LEAST_WIDTH_RATIO * max(float(spread[0]), 1e-9):
+    if spread[1] < MIN_WIDTH_RATIO * max(float(spread[0]), 1e-9):
         raise _plane_unknown("the points beside those measured lie on one line")
     points = np.concatenate([on_plane, np.zeros((on_plane.shape[0], 1))], axis=1)
     found, turns, moves, _ = cv2.solvePnPGeneric(

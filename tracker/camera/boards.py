@@ -14,7 +14,7 @@ import numpy as np
 from tracker.errors import InvalidInput
 from tracker.geometry import Array
 
-LEAST_POINTS, MOST_POINTS = 4, 10_000
+MIN_POINTS, MAX_POINTS = 4, 10_000
 
 
 class DotLayout(StrEnum):
@@ -200,10 +200,8 @@ def _points(x: Array, y: Array) -> Array:
 
 
 def _refuse_counts(columns: int, rows: int, points: int) -> None:
-    if min(columns, rows) < 2 or not LEAST_POINTS <= points <= MOST_POINTS:
-        raise _invalid(
-            f"{columns} x {rows}, which is {points} points, allowed {LEAST_POINTS} to {MOST_POINTS}"
-        )
+    if min(columns, rows) < 2 or not MIN_POINTS <= points <= MAX_POINTS:
+        raise _invalid(f"{columns} x {rows}, which is {points} points, allowed {MIN_POINTS} to {MAX_POINTS}")
 
 
 def _refuse_length(name: str, length_mm: float) -> None:

@@ -17,7 +17,7 @@ NOMINAL_FOCAL_BY_WIDTH = 1.2
 APART_BY_WIDTH, APART_TILT_DEG, APART_LOG_SIZE = 0.15, 8.0, 0.2
 # Beyond this the board was seen too long ago to say whether it holds still.
 STILL_WITHIN_S = 2.5
-LEAST_POINTS = 6
+MIN_POINTS = 6
 
 
 class Judgement(StrEnum):
@@ -35,18 +35,18 @@ class CollectingSettings:
     """When a view is taken, and when there are enough.
 
     Attributes:
-        most_speed_px_s: how fast the board's points may move in an image of 1280 px; wider images allow more.
-        most_moved_px: how far, at most, between two looks.
-        least_views: how many there must be.
-        least_coverage_ratio: how much of the image the board must have been in.
-        least_tilt_deg: how far it must have been tilted to every side.
+        max_speed_px_s: how fast the board's points may move in an image of 1280 px; wider images allow more.
+        max_moved_px: how far, at most, between two looks.
+        min_views: how many there must be.
+        min_coverage_ratio: how much of the image the board must have been in.
+        min_tilt_deg: how far it must have been tilted to every side.
     """
 
-    most_speed_px_s: float = 25.0
-    most_moved_px: float = 4.0
-    least_views: int = 12
-    least_coverage_ratio: float = 0.75
-    least_tilt_deg: float = 20.0
+    max_speed_px_s: float = 25.0
+    max_moved_px: float = 4.0
+    min_views: int = 12
+    min_coverage_ratio: float = 0.75
+    min_tilt_deg: float = 20.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -112,7 +112,7 @@ class BoardCollector:
             image_points_px: (n, 2).
             captured_at_s: monotonic time of the image.
         """
-        if len(ids) < LEAST_POINTS:
+        if len(ids) < MIN_POINTS:
             return Judgement.TOO_FEW_POINTS
         moved = self._moved(ids, image_points_px, captured_at_s)
         if moved is None:
@@ -120,7 +120,7 @@ class BoardCollector:
         moved_px, since_s = moved
         wider = max(1.0, self.size_wh_px[0] / 1280.0)
         # Two looks far apart say little of the speed in between: then it must be where it was.
-        if moved_px > wider * min(self.settings.most_speed_px_s * since_s, self.settings.most_moved_px):
+        if moved_px > wider * min(self.settings.max_speed_px_s * since_s, self.settings.max_moved_px):
             return Judgement.MOVING
         view = self._view(object_points_mm, image_points_px)
         if not self._new(view):
@@ -159,7 +159,7 @@ class BoardCollector:
         if before is None or not 0.0 < captured_at_s - before[0] <= STILL_WITHIN_S:
             return None
         moved_px = [hypot(*(px - before[1][point])) for point, px in now.items() if point in before[1]]
-        if len(moved_px) < LEAST_POINTS:
+        if len(moved_px) < MIN_POINTS:
             return None
         # Nearly the farthest: a board that is tilted in place moves at its rim alone.
         return float(np.quantile(moved_px, 0.9)), captured_at_s - before[0]
@@ -231,10 +231,10 @@ class BoardCollector:
         ]
         if open_corners:
             missing.append(f"Hold the board into the {', '.join(open_corners)} of the image.")
-        elif covered.mean() < wanted.least_coverage_ratio:
+        elif covered.mean() < wanted.min_coverage_ratio:
             missing.append(
                 f"The board was in {covered.mean():.0%} of the image, needed "
-                f"{wanted.least_coverage_ratio:.0%}: move it along the rim."
+                f"{wanted.min_coverage_ratio:.0%}: move it along the rim."
             )
         ways = (
             ("its upper edge away from you", most[0]),
@@ -243,13 +243,13 @@ class BoardCollector:
             ("its right edge away from you", -least[1]),
         )
         missing += [
-            f"Tilt the board by {wanted.least_tilt_deg:g} degrees or more, {way} "
+            f"Tilt the board by {wanted.min_tilt_deg:g} degrees or more, {way} "
             f"({floor(max(float(reached), 0.0))} so far)."
             for way, reached in ways
-            if reached < wanted.least_tilt_deg
+            if reached < wanted.min_tilt_deg
         ]
-        if not missing and len(self._taken) < wanted.least_views:
+        if not missing and len(self._taken) < wanted.min_views:
             missing.append(
-                f"{len(self._taken)} of {wanted.least_views} views: hold it still in more places and tilts."
+                f"{len(self._taken)} of {wanted.min_views} views: hold it still in more places and tilts."
             )
         return missing

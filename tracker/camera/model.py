@@ -13,7 +13,7 @@ from tracker.geometry import Array
 
 DISTORTION_LENGTHS = (4, 5, 8, 12, 14)
 # A field of view of 157 degrees; and a sensor of which the image is one corner. Beyond, a number is mistaken.
-LEAST_FOCAL_RATIO, MOST_PRINCIPAL_RATIO = 0.1, 1.0
+MIN_FOCAL_RATIO, MAX_PRINCIPAL_RATIO = 0.1, 1.0
 UNDISTORT_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-10)
 
 
@@ -147,16 +147,16 @@ def _problem(matrix: Array, distortion: Array, width: int, height: int) -> str:
         return f"its image size is {width}x{height} px, at least 16x16"
     if matrix[0, 0] <= 0 or matrix[1, 1] <= 0:
         return f"its focal lengths are {matrix[0, 0]:g} and {matrix[1, 1]:g} px, needed above 0"
-    if min(matrix[0, 0], matrix[1, 1]) < LEAST_FOCAL_RATIO * max(width, height):
+    if min(matrix[0, 0], matrix[1, 1]) < MIN_FOCAL_RATIO * max(width, height):
         return (
             f"its focal lengths are {matrix[0, 0]:g} and {matrix[1, 1]:g} px, needed at least "
-            f"{LEAST_FOCAL_RATIO * max(width, height):g} px for {width}x{height} px"
+            f"{MIN_FOCAL_RATIO * max(width, height):g} px for {width}x{height} px"
         )
     away = np.abs(matrix[:2, 2] / [width, height] - 0.5).max()
-    if away > MOST_PRINCIPAL_RATIO:
+    if away > MAX_PRINCIPAL_RATIO:
         return (
             f"its principal point is ({matrix[0, 2]:g}, {matrix[1, 2]:g}) px, {away:.1f} image sizes from "
-            f"the middle of {width}x{height} px, allowed {MOST_PRINCIPAL_RATIO:g}"
+            f"the middle of {width}x{height} px, allowed {MAX_PRINCIPAL_RATIO:g}"
         )
     if abs(matrix[0, 1]) > 1e-9 or np.abs(matrix[2] - [0, 0, 1]).max() > 1e-9 or abs(matrix[1, 0]) > 1e-9:
         return "its matrix is not [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]"

@@ -53,7 +53,7 @@ def best_design(
     """
     scored = [
         _scored(shape, background, settings, side_mm=side_mm, name=name)
-        for shape in _least_alike(shapes, background)
+        for shape in _min_alike(shapes, background)
     ]
     unique = [one for one in scored if one.judgement.unique] or scored
     precise = sorted(unique, key=lambda one: one.judgement.precision.tilt_sd_deg)[: -(-len(unique) // 2)]
@@ -67,7 +67,7 @@ def best_design(
     return min(finalists, key=_merit)
 
 
-def _least_alike(shapes: Sequence[Shape], background: Background | None) -> list[Shape]:
+def _min_alike(shapes: Sequence[Shape], background: Background | None) -> list[Shape]:
     """Those that look least like themselves turned or mirrored, and like the background."""
     squares = [picture_of(shape, GLANCE_PX) for shape in shapes]
     places = joined([]) if background is None else background.places

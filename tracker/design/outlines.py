@@ -12,8 +12,8 @@ from tracker.geometry import Array
 from tracker.outlines import Quads, corner_quads_of
 
 # A third of the side of the smallest marker that is found.
-LEAST_PIECE_PX = 4.0
-LEAST_STEP_GREY = 5.0
+MIN_PIECE_PX = 4.0
+MIN_STEP_GREY = 5.0
 
 
 def outlines_of(image: GreyImage) -> Array:
@@ -28,7 +28,7 @@ def outlines_of(image: GreyImage) -> Array:
 
 def _outlines(image: GreyImage) -> Quads:
     edgels = edgels_of(gradient_of(image))
-    pieces = segments_of(edgels, chains_of(edgels), least_length_px=LEAST_PIECE_PX)
+    pieces = segments_of(edgels, chains_of(edgels), min_length_px=MIN_PIECE_PX)
     return corner_quads_of(
-        image, np.concatenate([pieces, joined_segments(pieces)]), least_step_grey=LEAST_STEP_GREY
+        image, np.concatenate([pieces, joined_segments(pieces)]), min_step_grey=MIN_STEP_GREY
     )

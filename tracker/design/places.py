@@ -18,7 +18,7 @@ FINER = 2
 RANDOM_SQUARES = 300
 SMALLEST_SIDE_PX, LARGEST_SIDE_RATIO = 20.0, 0.6
 # An outline with less contrast inside (sd, grey levels) is a flat patch, and correlates with anything.
-LEAST_SPREAD_GREY = 4.0
+MIN_SPREAD_GREY = 4.0
 
 Cells32 = npt.NDArray[np.float32]
 
@@ -84,7 +84,7 @@ def unit_row(square: npt.NDArray[np.generic]) -> Cells32 | None:
     row = square.astype(np.float32).ravel()
     row = row - row.mean()
     length = float(np.linalg.norm(row))
-    return None if length < LEAST_SPREAD_GREY * np.sqrt(row.size) else np.asarray(row / length)
+    return None if length < MIN_SPREAD_GREY * np.sqrt(row.size) else np.asarray(row / length)
 
 
 def _anywhere(image: GreyImage, image_index: int) -> Array:

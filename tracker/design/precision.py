@@ -48,8 +48,8 @@ class Precision:
 def precision_of(model: MarkerModel) -> Precision:
     """What the active edges of a model say of its pose, on average over the directions of the tilt."""
     active = model.level_for(SIDE_PX)
-    tilt, distance = _least_sd(active, np.ones(len(active.points_mm), np.bool_), model.side_mm)
-    plain_tilt, plain_distance = _least_sd(active, ~active.inner, model.side_mm)
+    tilt, distance = _min_sd(active, np.ones(len(active.points_mm), np.bool_), model.side_mm)
+    plain_tilt, plain_distance = _min_sd(active, ~active.inner, model.side_mm)
     return Precision(
         tilt_sd_deg=tilt,
         distance_sd_ratio=distance,
@@ -58,7 +58,7 @@ def precision_of(model: MarkerModel) -> Precision:
     )
 
 
-def _least_sd(active: ActiveEdges, chosen: npt.NDArray[np.bool_], side_mm: float) -> tuple[float, float]:
+def _min_sd(active: ActiveEdges, chosen: npt.NDArray[np.bool_], side_mm: float) -> tuple[float, float]:
     """Root mean square over the directions: sd of the normal in degrees, and of the distance by itself."""
     points = np.column_stack([active.points_mm[chosen], np.zeros(int(chosen.sum()))]) / side_mm
     normals = np.column_stack([active.normals[chosen], np.zeros(int(chosen.sum()))])

@@ -7,24 +7,24 @@ import numpy.typing as npt
 from tracker.design.shape import Shape, painted
 
 # At 25 px in the image, an eighth of the side is 3 px: thinner parts take each other's contrast away.
-LEAST_PART_RATIO = 1 / 8
+MIN_PART_RATIO = 1 / 8
 RASTER_PX = 96
 PAPER_PX = 16
 # What a disc leaves of a corner of 60 degrees, in squares of its radius. More is a spike, or a thin part.
-MOST_CORNER_REST = 0.85
+MAX_CORNER_REST = 0.85
 # A shorter edge of the outline of a part is a notch or a step that blur takes away.
-LEAST_EDGE_RATIO = 0.11
+MIN_EDGE_RATIO = 0.11
 # Light and dark must both be there: a sliver of either is a marker with one edge.
 WHITE_SHARE = (0.2, 0.55)
 # Shares of the inner edges in four sectors of direction (45 degrees each) are 0.25 where they are even. A
 # direction without edges is one along which motion blurs everything.
 SECTORS = 4
-LEAST_SECTOR_SHARE = 0.12
+MIN_SECTOR_SHARE = 0.12
 
 
 def keeps_the_rules(shape: Shape) -> bool:
     """Whether every part is thick enough, white and black are both there, and edges run in all directions."""
-    if not has_long_edges(shape) or min(sector_shares(shape)) < LEAST_SECTOR_SHARE:
+    if not has_long_edges(shape) or min(sector_shares(shape)) < MIN_SECTOR_SHARE:
         return False
     image = painted(shape, RASTER_PX)
     if not WHITE_SHARE[0] <= float((image > 0).mean()) <= WHITE_SHARE[1]:
@@ -37,21 +37,21 @@ def has_long_edges(shape: Shape) -> bool:
     """Whether each edge of what is painted is long enough to be seen."""
     for patch in shape.patches:
         edges = np.linalg.norm(np.roll(patch.corners, -1, axis=0) - patch.corners, axis=1)
-        if len(edges) < 3 or float(edges.min()) < LEAST_EDGE_RATIO:
+        if len(edges) < 3 or float(edges.min()) < MIN_EDGE_RATIO:
             return False
     return bool(shape.patches)
 
 
 def is_thick(mask: npt.NDArray[np.bool_]) -> bool:
     """Whether a disc of the least thickness reaches all of a mask (96 px a side) but its corners."""
-    width = round(LEAST_PART_RATIO * RASTER_PX)
+    width = round(MIN_PART_RATIO * RASTER_PX)
     disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (width + 1, width + 1))
     # Padded, because what lies beyond the picture must not help.
     whole = np.pad(mask.astype(np.uint8), width)
     rest = whole & ~np.asarray(cv2.morphologyEx(whole, cv2.MORPH_OPEN, disc), np.uint8)
     count, _, stats, _ = cv2.connectedComponentsWithStats(rest, connectivity=4)
     largest = max((int(stats[k, cv2.CC_STAT_AREA]) for k in range(1, count)), default=0)
-    return largest <= MOST_CORNER_REST * (width / 2.0) ** 2
+    return largest <= MAX_CORNER_REST * (width / 2.0) ** 2
 
 
 def sector_shares(shape: Shape) -> list[float]:

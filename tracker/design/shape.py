@@ -13,7 +13,7 @@ SHIFT_BITS = 6
 # Rays a side in each pixel of the picture.
 FINER = 4
 # An outline is a polygon up to this part of the side; smaller areas are specks, where two polygons crossed.
-STRAIGHT_RATIO, LEAST_AREA_RATIO = 0.015, 0.002
+STRAIGHT_RATIO, MIN_AREA_RATIO = 0.015, 0.002
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,7 +59,7 @@ def outlined(image: npt.NDArray[np.uint8]) -> Shape:
     patches: list[Patch] = []
     for outline, (_, _, _, parent) in zip(outlines, tree[0] if outlines else (), strict=True):
         corners = cv2.approxPolyDP(outline, STRAIGHT_RATIO * side, closed=True)[:, 0].astype(np.float64)
-        if len(corners) >= 3 and cv2.contourArea(outline) >= LEAST_AREA_RATIO * side**2:
+        if len(corners) >= 3 and cv2.contourArea(outline) >= MIN_AREA_RATIO * side**2:
             patches.append(Patch(corners=(corners + 0.5) / side, white=parent < 0))
     # Holes after the bodies that they are in.
     return Shape(patches=tuple(sorted(patches, key=lambda patch: not patch.white)))

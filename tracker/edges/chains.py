@@ -11,7 +11,7 @@ from tracker.edges.kernels import cut_straight, join_collinear, link, walk
 # Walked along a chain, the dark side is on the right hand. So the outline of a dark square is walked
 # clockwise as seen on the screen, and two outlines of opposite polarity are never joined.
 
-LEAST_CHAIN_EDGELS = 5
+MIN_CHAIN_EDGELS = 5
 # Half of the distance by which an edge that is straight in the world bends in an image: lens, blur at the
 # corners, noise.
 STRAIGHT_TOLERANCE_PX = 0.9
@@ -36,25 +36,25 @@ class Chains:
 def chains_of(edgels: Edgels) -> Chains:
     """The chains of at least five edgels."""
     successor, predecessor = link(edgels.nx, edgels.ny, edgels.strength, edgels.at)
-    order, starts, closed = walk(successor, predecessor, edgels.x, edgels.y, LEAST_CHAIN_EDGELS)
+    order, starts, closed = walk(successor, predecessor, edgels.x, edgels.y, MIN_CHAIN_EDGELS)
     return Chains(order=order, starts=starts, closed=closed)
 
 
-def segments_of(edgels: Edgels, chains: Chains, *, least_length_px: float) -> npt.NDArray[np.float32]:
+def segments_of(edgels: Edgels, chains: Chains, *, min_length_px: float) -> npt.NDArray[np.float32]:
     """Straight pieces (s, 4) of the chains: start x, y and end x, y, dark side on the right hand."""
-    off, least = np.float32(STRAIGHT_TOLERANCE_PX), np.float32(least_length_px)
+    off, least = np.float32(STRAIGHT_TOLERANCE_PX), np.float32(min_length_px)
     return np.asarray(cut_straight(edgels.x, edgels.y, chains.order, chains.starts, off, least), np.float32)
 
 
 def straight_pieces(
-    x: Float32, y: Float32, starts: Int32, *, off_px: float, least_length_px: float
+    x: Float32, y: Float32, starts: Int32, *, off_px: float, min_length_px: float
 ) -> npt.NDArray[np.float32]:
     """Straight pieces (s, 4) of lines of points x, y (n,) that start at `starts`, and several joined to one.
 
     No point is off a piece by more than `off_px`.
     """
     order = np.arange(len(x), dtype=np.int32)
-    pieces = cut_straight(x, y, order, starts, np.float32(off_px), np.float32(least_length_px))
+    pieces = cut_straight(x, y, order, starts, np.float32(off_px), np.float32(min_length_px))
     pieces = np.asarray(pieces, dtype=np.float32)
     return np.concatenate([pieces, joined_segments(pieces)])
 

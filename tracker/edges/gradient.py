@@ -20,7 +20,7 @@ SOBEL_GAIN = 4.0
 NOISE_MEDIANS = 3.0
 # Contrasts under 3 grey levels cannot be told from 8-bit quantisation; a picture full of texture must not
 # raise the threshold over what a marker in dim light has.
-LEAST_THRESHOLD, MOST_THRESHOLD = 3.0 * SOBEL_GAIN, 110.0
+MIN_THRESHOLD, MAX_THRESHOLD = 3.0 * SOBEL_GAIN, 110.0
 SAMPLE_STRIDE = 7
 
 
@@ -54,5 +54,5 @@ def noise_threshold(x: GradientImage, y: GradientImage) -> float:
     """The magnitude that noise of this image rarely exceeds, from the median over a sparse grid."""
     median = float(median_magnitude(x, y, SAMPLE_STRIDE))
     if isnan(median):
-        return LEAST_THRESHOLD
-    return min(max(NOISE_MEDIANS * median, LEAST_THRESHOLD), MOST_THRESHOLD)
+        return MIN_THRESHOLD
+    return min(max(NOISE_MEDIANS * median, MIN_THRESHOLD), MAX_THRESHOLD)

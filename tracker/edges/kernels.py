@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.compiled import compiled
 
-MOST_STEPS = 64
+MAX_STEPS = 64
 DIAGONAL = np.float32(1.4142135)
 # A peak at the end of the reach must be this much stronger than one in the middle to be preferred: of two
 # edges side by side the expected one is the nearer.
@@ -180,7 +180,7 @@ def _fit_line(x, y, order, a, b, out):
 
 
 @compiled
-def cut_straight(x, y, order, starts, tolerance, least_length):
+def cut_straight(x, y, order, starts, tolerance, min_length):
     """Straight pieces (s, 4) of chains: cut at the farthest edgel until none is off by the tolerance."""
     most = order.size // 2 + 1
     found = np.empty((most, 4), np.float32)
@@ -208,9 +208,9 @@ def cut_straight(x, y, order, starts, tolerance, least_length):
                 stack[depth + 1, 0], stack[depth + 1, 1] = a, at
                 depth += 2
                 continue
-            if length < least_length or n >= most:
+            if length < min_length or n >= most:
                 continue
-            if _fit_line(x, y, order, a, b, found[n]) >= least_length:
+            if _fit_line(x, y, order, a, b, found[n]) >= min_length:
                 n += 1
     return found[:n].copy()
 
@@ -236,7 +236,7 @@ def crossing(gx, gy, u, v, nx, ny, reach):
     (dark to bright), within +-reach px. Strength 0 means that there is none.
     """
     height, width = gx.shape
-    steps = min(int(np.ceil(reach)) + 1, MOST_STEPS)
+    steps = min(int(np.ceil(reach)) + 1, MAX_STEPS)
     # A little more, so that rounding cannot take the last sample over the border.
     far_u, far_v = steps * abs(nx) + 1e-6, steps * abs(ny) + 1e-6
     inside = far_u <= u < width - 1.0 - far_u and far_v <= v < height - 1.0 - far_v
@@ -265,34 +265,34 @@ def crossing(gx, gy, u, v, nx, ny, reach):
 
 
 @compiled
-def _continues(a, b, most_gap, most_off, least_cos):
+def _continues(a, b, max_gap, max_off, min_cos):
     """Whether segment b goes on where a ends: near, in one direction, on one line."""
     gu, gv = b[0] - a[2], b[1] - a[3]
-    if abs(gu) > most_gap or abs(gv) > most_gap:
+    if abs(gu) > max_gap or abs(gv) > max_gap:
         return False
     ax, ay, bx, by = a[2] - a[0], a[3] - a[1], b[2] - b[0], b[3] - b[1]
     la, lb = np.sqrt(ax * ax + ay * ay), np.sqrt(bx * bx + by * by)
-    if min(la, lb) + 2.0 < np.sqrt(gu * gu + gv * gv) or ax * bx + ay * by < least_cos * la * lb:
+    if min(la, lb) + 2.0 < np.sqrt(gu * gu + gv * gv) or ax * bx + ay * by < min_cos * la * lb:
         return False
     tx, ty = b[2] - a[0], b[3] - a[1]
     lt = np.sqrt(tx * tx + ty * ty)
     if lt < max(la, lb):
         return False
     off = max(abs(ax * ty - ay * tx), abs((b[0] - a[0]) * ty - (b[1] - a[1]) * tx))
-    return off <= most_off * lt
+    return off <= max_off * lt
 
 
 @compiled
-def join_collinear(segments, most_gap, most_off, least_cos):
+def join_collinear(segments, max_gap, max_off, min_cos):
     """Segments made of two or more given ones that continue one another on one line."""
     n = len(segments)
-    columns = int(segments.max() / most_gap) + 3
+    columns = int(segments.max() / max_gap) + 3
     head = np.full(columns * columns, -1, np.int32)
     after = np.full(n, -1, np.int32)
     for j in range(n):
         row, column = (
-            int(max(segments[j, 1], 0.0) / most_gap) + 1,
-            int(max(segments[j, 0], 0.0) / most_gap) + 1,
+            int(max(segments[j, 1], 0.0) / max_gap) + 1,
+            int(max(segments[j, 0], 0.0) / max_gap) + 1,
         )
         after[j] = head[row * columns + column]
         head[row * columns + column] = j
@@ -300,8 +300,8 @@ def join_collinear(segments, most_gap, most_off, least_cos):
     followed = np.zeros(n, np.bool_)
     for i in range(n):
         row, column = (
-            int(max(segments[i, 3], 0.0) / most_gap) + 1,
-            int(max(segments[i, 2], 0.0) / most_gap) + 1,
+            int(max(segments[i, 3], 0.0) / max_gap) + 1,
+            int(max(segments[i, 2], 0.0) / max_gap) + 1,
         )
         nearest = np.float32(1e9)
         for r in range(max(row - 1, 0), min(row + 2, columns)):
@@ -311,7 +311,7 @@ def join_collinear(segments, most_gap, most_off, least_cos):
                     if (
                         j != i
                         and not followed[j]
-                        and _continues(segments[i], segments[j], most_gap, most_off, least_cos)
+                        and _continues(segments[i], segments[j], max_gap, max_off, min_cos)
                     ):
                         gap = abs(segments[j, 0] - segments[i, 2]) + abs(segments[j, 1] - segments[i, 3])
                         if gap < nearest:
@@ -327,7 +327,7 @@ def join_collinear(segments, most_gap, most_off, least_cos):
         whole = segments[i].copy()
         j = follower[i]
         for _ in range(n):
-            if j < 0 or not _continues(whole, segments[j], most_gap, most_off, least_cos):
+            if j < 0 or not _continues(whole, segments[j], max_gap, max_off, min_cos):
                 break
             whole[2], whole[3] = segments[j, 2], segments[j, 3]
             j = follower[j]

@@ -172,13 +172,13 @@ def turn_between(a, b):
 
 
 @compiled
-def could_be_tilted(squares, squared_area, least_ratio):
+def could_be_tilted(squares, squared_area, min_ratio):
     """Whether two sides of a parallelogram could be those of a square, squashed to no less than this.
 
     `squares`: the sum of their squared lengths. The ratio of its singular values is the cosine of the tilt.
     """
     root = np.sqrt(max(squares * squares - 4.0 * squared_area, 0.0))
-    return squares - root > least_ratio * least_ratio * (squares + root)
+    return squares - root > min_ratio * min_ratio * (squares + root)
 
 
 @compiled

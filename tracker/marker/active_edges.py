@@ -20,11 +20,11 @@ BLUR_PX = 1.0
 MARGIN_RATIO = 0.25
 # Edges nearer to each other than about two pixels take each other's contrast away; under this part of a
 # free edge's contrast they are no longer active.
-LEAST_STRENGTH_RATIO = 0.3
-MOST_EDGELS = 360
+MIN_STRENGTH_RATIO = 0.3
+MAX_EDGELS = 360
 # An edge's direction is that of the edgels up to this many image pixels away on both sides.
 CORNER_REACH_PX = 1.6
-MOST_CORNER_TURN_COS = 0.9
+MAX_CORNER_TURN_COS = 0.9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,7 +103,7 @@ def active_edges_at(square: npt.NDArray[np.uint8], *, side_mm: float, level_px: 
         y=_whole_numbers(y, quantise),
         left_px=0,
         top_px=0,
-        threshold=8000.0 * LEAST_STRENGTH_RATIO,
+        threshold=8000.0 * MIN_STRENGTH_RATIO,
     )
     edgels = edgels_of(gradient)
     chains = chains_of(edgels)
@@ -173,15 +173,15 @@ def _away_from_corners(
     reach = int(CORNER_REACH_PX * OVERSAMPLING)
     before = np.clip(picked - reach, 0, len(nx) - 1)
     after = np.clip(picked + reach, 0, len(nx) - 1)
-    return np.asarray(nx[before] * nx[after] + ny[before] * ny[after] > MOST_CORNER_TURN_COS)
+    return np.asarray(nx[before] * nx[after] + ny[before] * ny[after] > MAX_CORNER_TURN_COS)
 
 
 def _thin(
     kept: list[npt.NDArray[np.int64]], lengths: list[Array], straight: list[npt.NDArray[np.bool_]]
 ) -> tuple[npt.NDArray[np.int64], Array, npt.NDArray[np.bool_]]:
-    """At most `MOST_EDGELS` of all, evenly, each standing for more of the length."""
+    """At most `MAX_EDGELS` of all, evenly, each standing for more of the length."""
     if not kept:
         return np.empty(0, np.int64), np.empty(0), np.empty(0, np.bool_)
     index, length, plain = np.concatenate(kept), np.concatenate(lengths), np.concatenate(straight)
-    step = -(-len(index) // MOST_EDGELS)
+    step = -(-len(index) // MAX_EDGELS)
     return index[::step], length[::step] * step, plain[::step]

@@ -6,7 +6,7 @@ from tracker.compiled import compiled
 from tracker.edges.kernels import crossing
 
 # Fewer edgels than this beside a corner do not say where its side is.
-LEAST_EDGELS = 4
+MIN_EDGELS = 4
 
 
 @compiled
@@ -58,7 +58,7 @@ def laid_over(gx, gy, left, top, points, normals, strength, length, inner, reach
 @compiled
 def _side_at_corner(offset, along, chosen, n):
     """How far a side is off where `along` is 0: a line through n offsets that agree; NaN for too few."""
-    if n < LEAST_EDGELS:
+    if n < MIN_EDGELS:
         return np.nan
     values = np.empty(n)
     for i in range(n):
@@ -75,7 +75,7 @@ def _side_at_corner(offset, along, chosen, n):
             so += o
             sto += t * o
     spread = kept * stt - st * st
-    if kept < LEAST_EDGELS or not spread > 0.0:
+    if kept < MIN_EDGELS or not spread > 0.0:
         return np.nan
     return (stt * so - st * sto) / spread
 

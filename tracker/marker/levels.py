@@ -11,8 +11,8 @@ from tracker.outlines import Quads
 from tracker.regions import even_image, noise_grey
 
 # An image over a megapixel is first looked at at half its size.
-MOST_PIXELS_AT_ONCE = 1_000_000
-LEAST_LEVEL_PX = 12
+MAX_PIXELS_AT_ONCE = 1_000_000
+MIN_LEVEL_PX = 12
 WINDOW_PX = 21
 # An outline is looked at closely at the level where it is no wider than this: a cell is a pixel or two.
 CLOSER_SIDE_PX = 32.0
@@ -60,7 +60,7 @@ class Levels:
 
     def for_side(self, side_px: float) -> int:
         """At which level a side of so many px of the whole image is looked at closely."""
-        k, least = 0, 2 * LEAST_LEVEL_PX
+        k, least = 0, 2 * MIN_LEVEL_PX
         while side_px > CLOSER_SIDE_PX * self[k].scale and min(self[k].image.shape) >= least:
             k += 1
         return k
@@ -69,7 +69,7 @@ class Levels:
 def first_level(image: GreyImage) -> Level:
     """The image at the size at which it is looked at first."""
     level = Level(image=image, scale=1, noise_grey=0.0)
-    if image.size > MOST_PIXELS_AT_ONCE:
+    if image.size > MAX_PIXELS_AT_ONCE:
         return halved(level)
     return Level(image=image, scale=1, noise_grey=noise_grey(image))
 

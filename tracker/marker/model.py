@@ -15,16 +15,16 @@ from tracker.marker.active_edges import LEVELS_PX, ActiveEdges, active_edges_at
 
 # White paper around the square, in sides, that a fit may count on; what lies beyond is unknown.
 PAPER_RATIO = 0.2
-LEAST_SIDE_PX = 8
+MIN_SIDE_PX = 8
 SQUARE_TOLERANCE_RATIO = 0.02
-LEAST_CONTRAST_GREY = 40
+MIN_CONTRAST_GREY = 40
 # The border must be dark for all but a worn corner.
-LEAST_DARK_BORDER_RATIO = 0.9
+MIN_DARK_BORDER_RATIO = 0.9
 # A shape that looks the same after a quarter or half turn has no top: its pose would be a guess.
-MOST_SYMMETRY = 0.985
+MAX_SYMMETRY = 0.985
 # Of two shapes that are more alike, small or blurred ones are taken for each other. Those of a printed sheet
 # reach 0.88, a shape and its mirror image 0.98.
-MOST_ALIKE = 0.95
+MAX_ALIKE = 0.95
 WORKING_SIDE_PX = 360
 
 
@@ -103,17 +103,17 @@ def _problem(grey: npt.NDArray[np.generic]) -> str:
     if grey.ndim != 2 or grey.dtype != np.uint8:
         return f"it is {grey.dtype} with {grey.ndim} dimensions, needed uint8 grey (h, w)"
     h, w = grey.shape
-    if min(h, w) < LEAST_SIDE_PX:
-        return f"it is {w}x{h} px, at least {LEAST_SIDE_PX}x{LEAST_SIDE_PX}"
+    if min(h, w) < MIN_SIDE_PX:
+        return f"it is {w}x{h} px, at least {MIN_SIDE_PX}x{MIN_SIDE_PX}"
     if abs(w - h) > max(1.0, SQUARE_TOLERANCE_RATIO * max(w, h)):
         return f"it is {w}x{h} px, and a square may differ by {SQUARE_TOLERANCE_RATIO:.0%}"
     low, high = (float(v) for v in np.percentile(grey.astype(np.float64), (1, 99)))
-    if high - low < LEAST_CONTRAST_GREY:
-        return f"its contrast is {high - low:.0f} grey levels, at least {LEAST_CONTRAST_GREY}"
+    if high - low < MIN_CONTRAST_GREY:
+        return f"its contrast is {high - low:.0f} grey levels, at least {MIN_CONTRAST_GREY}"
     ring = np.concatenate([grey[0], grey[-1], grey[:, 0], grey[:, -1]]).astype(np.float64)
     dark = float(np.mean(ring < (low + high) / 2.0))
-    if dark < LEAST_DARK_BORDER_RATIO:
-        return f"{dark:.0%} of its border is dark, at least {LEAST_DARK_BORDER_RATIO:.0%}"
+    if dark < MIN_DARK_BORDER_RATIO:
+        return f"{dark:.0%} of its border is dark, at least {MIN_DARK_BORDER_RATIO:.0%}"
     return ""
 
 
@@ -148,11 +148,11 @@ def refuse_alike(models: Sequence[MarkerModel]) -> None:
     small = [_small(model.square) for model in models]
     for (a, first), (b, second) in combinations(enumerate(small), 2):
         alike = max(_correlation(first, np.rot90(second, turns)) for turns in range(4))
-        if alike > MOST_ALIKE:
+        if alike > MAX_ALIKE:
             raise InvalidInput(
                 "MARKERS_ALIKE",
                 f"markers '{names[a]}' and '{names[b]}' look the same, however they are turned: "
-                f"correlation {alike:.3f}, allowed {MOST_ALIKE}",
+                f"correlation {alike:.3f}, allowed {MAX_ALIKE}",
                 "Use shapes that differ, so that none is taken for another: another seed designs another.",
                 {"names": [names[a], names[b]], "correlation": alike},
             )
@@ -173,11 +173,11 @@ def _turned(small: Array) -> list[float]:
 
 def _refuse_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
     for turns, alike in enumerate(_turned(_small(square)), start=1):
-        if alike > MOST_SYMMETRY:
+        if alike > MAX_SYMMETRY:
             raise InvalidInput(
                 "MARKER_SYMMETRIC",
                 f"marker '{name}' looks the same when turned by {90 * turns} degrees: "
-                f"correlation {alike:.3f}, allowed {MOST_SYMMETRY}",
+                f"correlation {alike:.3f}, allowed {MAX_SYMMETRY}",
                 "Use a shape that has one top only.",
                 {"name": name, "turned_deg": 90 * turns, "correlation": alike},
             )

@@ -11,10 +11,10 @@ from tracker.marker.active_edges import ActiveEdges
 from tracker.marker.kernels import crossings, explained, laid_over
 
 # An edge counts where its gradient has this part of what its own contrast and the marker's let expect.
-LEAST_RESPONSE_RATIO = 0.35
+MIN_RESPONSE_RATIO = 0.35
 # Common edgels lie this near to their model edge: pixels, or this part of the marker's side if that is more
 # (paper bends).
-REACH_PX, REACH_SIDE_RATIO, MOST_REACH_PX = 2.0, 0.04, 5.0
+REACH_PX, REACH_SIDE_RATIO, MAX_REACH_PX = 2.0, 0.04, 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +80,7 @@ class Agreement:
 
 def reach_px(side_px: float) -> float:
     """How far from its model edge an edgel still counts as common, in px."""
-    return min(max(REACH_SIDE_RATIO * side_px, REACH_PX), MOST_REACH_PX)
+    return min(max(REACH_SIDE_RATIO * side_px, REACH_PX), MAX_REACH_PX)
 
 
 def model_agreement(
@@ -111,7 +111,7 @@ def model_agreement(
         reach,
         shift_px,
         0.6 * gradient.threshold,
-        LEAST_RESPONSE_RATIO,
+        MIN_RESPONSE_RATIO,
     )
     return Agreement(
         model_coverage_ratio=coverage,
@@ -160,6 +160,6 @@ def target_coverage_ratio(
         # The common edgels lie up to the reach beyond a model edge, whose samples are a pixel or more apart.
         reach_px(side_px) + max(0.5, 0.5 * side_px * 6.0 / max(len(points_px), 1)),
         reach_px(side_px),
-        LEAST_RESPONSE_RATIO * contrast,
+        MIN_RESPONSE_RATIO * contrast,
     )
     return float(common / present) if present else 0.0

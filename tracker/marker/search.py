@@ -21,7 +21,7 @@ import numpy.typing as npt
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
 from tracker.marker.explanation import likeness_part_by_part
-from tracker.marker.levels import LEAST_LEVEL_PX, WINDOW_PX, Level, Levels, first_level, softened
+from tracker.marker.levels import MIN_LEVEL_PX, WINDOW_PX, Level, Levels, first_level, softened
 from tracker.marker.looks import (
     STEPS,
     Template,
@@ -42,22 +42,22 @@ from tracker.regions import (
 )
 
 # At a closer look a marker in sight has 0.8 to 1.
-LEAST_LIKENESS = 0.76
+MIN_LIKENESS = 0.76
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
-LEAST_PIECE_PX = 4.0
-NOISE_SDS, LEAST_DARKER_GREY = 3.0, 3.0
-LEAST_STEP_SDS, LEAST_STEP_GREY = 1.5, 5.0
+MIN_PIECE_PX = 4.0
+NOISE_SDS, MIN_DARKER_GREY = 3.0, 3.0
+MIN_STEP_SDS, MIN_STEP_GREY = 1.5, 5.0
 # A corner says little of where the others are: two steps tell which outlines are worth all of them.
 FIRST_STEPS = 2
 # By so much of its side an outline of which a corner is seen may be off.
-MOST_BEYOND_SIDES = 0.1
+MAX_BEYOND_SIDES = 0.1
 # So many models share; more cost more.
-MOST_SHARES = 4
+MAX_SHARES = 4
 # Of four sides, where they are is known better than of two.
-MOST_CLOSER_OF_FOUR = 8
+MAX_CLOSER_OF_FOUR = 8
 # A peek ranks the true one of these first in nearly all images.
-MOST_SMEARED = 40
+MAX_SMEARED = 40
 # Where one outline is as like as this, those that are so far behind are not it.
 SURE_LIKENESS, FAR_BEHIND = 0.94, 0.08
 
@@ -81,7 +81,7 @@ class Effort:
 
     def peeked_of(self, models: int) -> int:
         """The share of each of so many models."""
-        return self.peeked // min(models, MOST_SHARES)
+        return self.peeked // min(models, MAX_SHARES)
 
 
 # Where shadow, highlights, smear and noise come together, the look part by part alone tells the marker from
@@ -131,7 +131,7 @@ def _rounds(
     effort: Effort,
 ) -> Iterator[list[list[Candidate]]]:
     """For each model its candidates of look after look; what was given once is not given again."""
-    if min(image.shape) < LEAST_LEVEL_PX or len(templates) == 0:
+    if min(image.shape) < MIN_LEVEL_PX or len(templates) == 0:
         return
     levels = Levels(first_level(image))
     given = [np.empty((0, 4, 2), np.float32) for _ in templates.each]
@@ -139,7 +139,7 @@ def _rounds(
         fresh: list[list[Candidate]] = []
         for m, template in enumerate(templates.each):
             # What another model was the likelier for may still be this one: a peek tells little.
-            most = len(quads) if is_peek else MOST_CLOSER_OF_FOUR
+            most = len(quads) if is_peek else MAX_CLOSER_OF_FOUR
             turned = _top(level.full_px(quads), likeness[:, m], most, is_sure=not is_peek)
             if is_peek:
                 turned = _worth_all_steps(levels, turned, template, effort.closer)
@@ -150,7 +150,7 @@ def _rounds(
                 np.argsort(-alike, kind="stable"),
                 given[m],
                 effort.part_by_part,
-                LEAST_LIKENESS,
+                MIN_LIKENESS,
                 SAME_OUTLINE_SIDE_RATIO,
             )
             candidates = [_candidate(closer[k], alike[k]) for k in best]
@@ -195,12 +195,12 @@ def _looks(image: GreyImage, levels: Levels, templates: Templates) -> Iterator[L
     regions = _regions(level)
     yield _of_four_sides(level, regions, templates)
     yield _at_corners(level, border_segments(regions), templates, most)
-    if min(level.image.shape) >= 2 * LEAST_LEVEL_PX:
+    if min(level.image.shape) >= 2 * MIN_LEVEL_PX:
         half = levels[1]
         regions = _regions(half)
         yield _of_four_sides(half, regions, templates)
-        yield _at_corners(half, _edge_segments(half.image, LEAST_PIECE_PX), templates, most)
-    edges = _edge_segments(level.image, LEAST_PIECE_PX)
+        yield _at_corners(half, _edge_segments(half.image, MIN_PIECE_PX), templates, most)
+    edges = _edge_segments(level.image, MIN_PIECE_PX)
     yield _at_corners(level, edges, templates, most)
     yield _smeared(level, edges, templates)
     if level.scale > 1:
@@ -214,9 +214,9 @@ def _thorough_looks(_image: GreyImage, levels: Levels, templates: Templates) -> 
     level, soft = levels[0], softened(levels[0])
     for seen, segments in (
         (level, border_segments(_regions(level))),
-        (level, _edge_segments(level.image, LEAST_PIECE_PX)),
+        (level, _edge_segments(level.image, MIN_PIECE_PX)),
         (soft, border_segments(_regions(soft))),
-        (soft, _edge_segments(soft.image, LEAST_PIECE_PX)),
+        (soft, _edge_segments(soft.image, MIN_PIECE_PX)),
     ):
         look = _at_corners(seen, segments, templates, THOROUGH.peeked_of(len(templates)))
         within = _are_within(look.quads, seen.image)
@@ -230,11 +230,11 @@ def _are_within(quads: Quads, image: GreyImage) -> npt.NDArray[np.bool_]:
     """
     height, width = image.shape
     beyond = np.maximum(-quads, quads - np.array([width - 1, height - 1], np.float32)).max(axis=(1, 2))
-    return np.asarray(beyond <= MOST_BEYOND_SIDES * _sides_px(quads))
+    return np.asarray(beyond <= MAX_BEYOND_SIDES * _sides_px(quads))
 
 
 def _regions(level: Level) -> Regions:
-    darker = max(NOISE_SDS * level.noise_grey, LEAST_DARKER_GREY)
+    darker = max(NOISE_SDS * level.noise_grey, MIN_DARKER_GREY)
     return regions_of_mask(dark_mask(level.image, window_px=WINDOW_PX, darker_grey=darker))
 
 
@@ -244,23 +244,23 @@ def _of_four_sides(level: Level, regions: Regions, templates: Templates) -> Look
     return Look(level, quads, glance(level.image, quads, templates), is_peek=False)
 
 
-def _edge_segments(image: GreyImage, least_px: float) -> npt.NDArray[np.float32]:
+def _edge_segments(image: GreyImage, min_px: float) -> npt.NDArray[np.float32]:
     edgels = edgels_of(gradient_of(image))
-    pieces = segments_of(edgels, chains_of(edgels), least_length_px=least_px)
+    pieces = segments_of(edgels, chains_of(edgels), min_length_px=min_px)
     return np.concatenate([pieces, joined_segments(pieces)])
 
 
 def _at_corners(level: Level, segments: npt.NDArray[np.float32], templates: Templates, most: int) -> Look:
     """Outlines of which a corner is seen, and of the rest as much as is not covered."""
-    step = max(LEAST_STEP_SDS * level.noise_grey, LEAST_STEP_GREY)
-    corners = corner_quads_of(level.image, segments, least_step_grey=step)
+    step = max(MIN_STEP_SDS * level.noise_grey, MIN_STEP_GREY)
+    corners = corner_quads_of(level.image, segments, min_step_grey=step)
     return Look(level, *likely(level.soft, corners, templates, most=most), is_peek=True)
 
 
 def _smeared(level: Level, segments: npt.NDArray[np.float32], templates: Templates) -> Look:
     """Outlines of which two sides are seen: motion along them smears the others."""
     quads = pair_quads_of(segments)
-    return Look(level, *likely(level.soft, quads, templates, most=MOST_SMEARED, smeared=True), is_peek=True)
+    return Look(level, *likely(level.soft, quads, templates, most=MAX_SMEARED, smeared=True), is_peek=True)
 
 
 def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int, *, is_sure: bool) -> Quads:

@@ -10,7 +10,7 @@ from tracker.plan import Channel
 from tracker.plan.pedicle import Side
 
 # A drill across the channel (89.4 degrees) crosses its planes metres away.
-LEAST_ALONG = 0.01
+MIN_ALONG = 0.01
 # Two degrees of freedom: chi-square of 95 in 100.
 CHI_SQUARE_95 = 5.991
 
@@ -67,7 +67,7 @@ def seen_along(
     along = float(direction @ across.axis)
     depth = float(tip @ across.axis)
     at_entry = at_target = np.full(2, np.inf)
-    if along > LEAST_ALONG:
+    if along > MIN_ALONG:
         at_entry = view @ (tip - direction * (depth / along))
         at_target = view @ (tip + direction * ((channel.length_mm - depth) / along))
     places = (view @ tip, at_entry, at_target, view)

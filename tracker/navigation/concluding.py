@@ -44,12 +44,12 @@ def tool_in_view(
         return Absent(reason=AbsentReason.POSE_JUMPED)
     own = _placed(tool, sighting.camera_from_marker, sighting.pose_covariance)
     # Also where two poses explain the image: the covariance then spans both.
-    if _tip_sd_mm(own) > setup.most_tip_sd_mm:
+    if _tip_sd_mm(own) > setup.max_tip_sd_mm:
         return Absent(reason=AbsentReason.POSE_UNCERTAIN)
     if steadied is None:
         return own
     steady = _placed(tool, steadied.camera_from_marker, steadied.pose_covariance, lag_ms=steadied.lag_ms)
-    return own if _tip_sd_mm(steady) > setup.most_tip_sd_mm else steady
+    return own if _tip_sd_mm(steady) > setup.max_tip_sd_mm else steady
 
 
 def _placed(
@@ -165,7 +165,7 @@ def _judged(
     # The same choice as in `tool_in_view`: a steadied pose that is too unsure is not the one shown.
     if steadied is not None:
         steady = _placed(tool, steadied.camera_from_marker, steadied.pose_covariance)
-        if _tip_sd_mm(steady) <= setup.most_tip_sd_mm:
+        if _tip_sd_mm(steady) <= setup.max_tip_sd_mm:
             pose, covariance = steadied.camera_from_marker, steadied.pose_covariance
     placed = placed_tool(
         Placed(pose=vertebra.camera_from_vertebra, covariance=vertebra.covariance),

@@ -11,7 +11,7 @@ from tracker.plan.channel import Channel
 from tracker.plan.pedicle import Side
 
 # Nearer than this (10 degrees) to the patient's long axis, "to the head" says nothing across a channel.
-LEAST_ACROSS = 0.17
+MIN_ACROSS = 0.17
 # A wall that is met within 45 degrees of the channel's axis is the one in front.
 AHEAD = float(np.cos(np.radians(45.0)))
 
@@ -81,7 +81,7 @@ def _directions(entry: bytes, target: bytes, side: Side | None) -> Directions:
     axis = way / np.linalg.norm(way)
     side = side or _side_along(axis)
     up = np.array([0.0, 0.0, 1.0])
-    if np.linalg.norm(np.cross(axis, up)) < LEAST_ACROSS:
+    if np.linalg.norm(np.cross(axis, up)) < MIN_ACROSS:
         up = np.array([0.0, 1.0, 0.0])
     cranial = up - (up @ axis) * axis
     cranial /= np.linalg.norm(cranial)

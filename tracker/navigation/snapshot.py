@@ -84,7 +84,7 @@ class Setup:
         registration: of plan and patient, fixed to the camera or to the patient's reference.
         reference: name of the marker that is fixed to the patient; empty when there is none.
         withheld: why no number is given although all of this is known; None when nothing is in the way.
-        most_tip_sd_mm: a tip that is less sure than this (root of the trace of its covariance) is not placed.
+        max_tip_sd_mm: a tip that is less sure than this (root of the trace of its covariance) is not placed.
         limits: of a drill, beside those of its pedicle.
         side: the plan's side of the patient; None where nobody stated it.
     """
@@ -97,7 +97,7 @@ class Setup:
     reference: str = ""
     screw: ScrewSize | None = None
     withheld: AbsentReason | None = None
-    most_tip_sd_mm: float = 3.0
+    max_tip_sd_mm: float = 3.0
     limits: DrillLimits = field(default_factory=DrillLimits)
     side: Side | None = None
 

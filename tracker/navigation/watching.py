@@ -110,7 +110,7 @@ class Watching:
             return
         check = self._scene.check(grey)
         self._scene_state = check.state
-        if check.state is SceneState.UNSURE and check.moved_px > self._scene.most_px:
+        if check.state is SceneState.UNSURE and check.moved_px > self._scene.max_px:
             # It moved, or seems to: the next image says which, while wrong numbers may be shown.
             self._looked_at_s = -np.inf
         if self._scene_state is SceneState.MOVED:

@@ -15,20 +15,20 @@ from tracker.outlines.kernels import corner_quads, pair_quads, successors_of
 
 Quads: TypeAlias = npt.NDArray[np.float32]
 
-LEAST_CORNER_SIDE_PX = 8.0
-LEAST_SQUASH_RATIO = 0.4
+MIN_CORNER_SIDE_PX = 8.0
+MIN_SQUASH_RATIO = 0.4
 # Off a side, so far that an edge in focus is past.
 BESIDE_PX = 2.0
 # A length that is off by a tenth is near enough to be known at a glance.
 LENGTH_GROWTH = 1.25
 # What of a smeared side is seen may be a quarter too short, or too long.
-MOST_PAIR_RATIO = 2.0
+MAX_PAIR_RATIO = 2.0
 PAIR_LENGTHS, PAIR_SHIFTS = np.array([0.8, 1.0, 1.25]), np.array([-0.12, 0.0, 0.12])
 # Of stripes and noise, the longest: each is held against all that run the other way.
-MOST_PAIRED = 5000
+MAX_PAIRED = 5000
 
 
-def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, least_step_grey: float) -> Quads:
+def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, min_step_grey: float) -> Quads:
     """Candidate outlines of which one corner is seen, with what leads to it, and the rest may be covered.
 
     Outlines (q, 4, 2) in px, parallelograms, clockwise on the screen.
@@ -41,10 +41,10 @@ def corner_quads_of(image: GreyImage, segments: npt.NDArray[np.float32], *, leas
         segments,
         successors,
         counts,
-        LEAST_CORNER_SIDE_PX,
-        LEAST_SQUASH_RATIO,
+        MIN_CORNER_SIDE_PX,
+        MIN_SQUASH_RATIO,
         BESIDE_PX,
-        least_step_grey,
+        min_step_grey,
         LENGTH_GROWTH,
     )
     return np.asarray(quads, dtype=np.float32)
@@ -55,10 +55,10 @@ def pair_quads_of(segments: npt.NDArray[np.float32]) -> Quads:
 
     Outlines (q, 4, 2) in px, parallelograms, clockwise on the screen; the first side is along a seen one.
     """
-    if len(segments) > MOST_PAIRED:
-        long = np.argsort(-np.hypot(*(segments[:, 2:] - segments[:, :2]).T), kind="stable")[:MOST_PAIRED]
+    if len(segments) > MAX_PAIRED:
+        long = np.argsort(-np.hypot(*(segments[:, 2:] - segments[:, :2]).T), kind="stable")[:MAX_PAIRED]
         segments = np.ascontiguousarray(segments[long])
     quads = pair_quads(
-        segments, LEAST_CORNER_SIDE_PX, LEAST_SQUASH_RATIO, MOST_PAIR_RATIO, PAIR_LENGTHS, PAIR_SHIFTS
+        segments, MIN_CORNER_SIDE_PX, MIN_SQUASH_RATIO, MAX_PAIR_RATIO, PAIR_LENGTHS, PAIR_SHIFTS
     )
     return np.asarray(quads, dtype=np.float32)

@@ -5,14 +5,14 @@ import numpy as np
 from tracker.compiled import compiled
 from tracker.geometry.kernels import could_be_tilted
 
-MOST_SUCCESSORS = 8
-MOST_CORNER_QUADS = 12000
+MAX_SUCCESSORS = 8
+MAX_CORNER_QUADS = 12000
 CELL_PX = 16
-MOST_GAP_PX = 30.0
-MOST_PAIR_QUADS = 40000
+MAX_GAP_PX = 30.0
+MAX_PAIR_QUADS = 40000
 # Sides that face each other run in opposite directions, but for a sixth of a radian that perspective adds.
-DIRECTIONS, MOST_PAIR_COSINE = 36, 0.985
-MOST_APART_LENGTHS = 3.0
+DIRECTIONS, MAX_PAIR_COSINE = 36, 0.985
+MAX_APART_LENGTHS = 3.0
 
 
 @compiled
@@ -48,8 +48,8 @@ def successors_of(segments):
         )
         after[j] = head[cell]
         head[cell] = j
-    successors = np.full((n, MOST_SUCCESSORS), -1, np.int32)
-    gaps = np.empty((n, MOST_SUCCESSORS), np.float32)
+    successors = np.full((n, MAX_SUCCESSORS), -1, np.int32)
+    gaps = np.empty((n, MAX_SUCCESSORS), np.float32)
     counts = np.zeros(n, np.int32)
     corner = np.empty(2, np.float32)
     length, dx, dy = np.empty(n, np.float32), np.empty(n, np.float32), np.empty(n, np.float32)
@@ -60,7 +60,7 @@ def successors_of(segments):
     for i in range(n):
         a = segments[i]
         la, dax, day, au, av = length[i], dx[i], dy[i], a[2], a[3]
-        reach = min(np.float32(3.0) + np.float32(0.3) * la, np.float32(MOST_GAP_PX))
+        reach = min(np.float32(3.0) + np.float32(0.3) * la, np.float32(MAX_GAP_PX))
         cu, cv = int(max(a[2], 0.0)) // CELL_PX + 1, int(max(a[3], 0.0)) // CELL_PX + 1
         cells = int(reach) // CELL_PX + 1
         for row in range(max(cv - cells, 0), min(cv + cells + 1, columns)):
@@ -82,7 +82,7 @@ def successors_of(segments):
                     if (corner[0] - b[0]) ** 2 + (corner[1] - b[1]) ** 2 > limit * limit:
                         continue
                     m = counts[i]
-                    if m < MOST_SUCCESSORS:
+                    if m < MAX_SUCCESSORS:
                         counts[i] += 1
                     elif gap < gaps[i, m - 1]:
                         m -= 1
@@ -96,7 +96,7 @@ def successors_of(segments):
 
 
 @compiled
-def _even_sides(image, p, ax, ay, bx, by, beside, least_step):
+def _even_sides(image, p, ax, ay, bx, by, beside, min_step):
     """Whether two sides that leave the corner p (vectors a, b) are all light outside and dark inside.
 
     Looked at five places along each, `beside` px off the side.
@@ -121,20 +121,20 @@ def _even_sides(image, p, ax, ay, bx, by, beside, least_step):
             inside, outside = np.float32(image[v, u]), np.float32(image[vo, uo])
             dark += inside
             light += outside
-            if outside - inside < least_step:
+            if outside - inside < min_step:
                 poor += 1
-    return poor <= 1 and light - dark > 10.0 * least_step
+    return poor <= 1 and light - dark > 10.0 * min_step
 
 
 @compiled
-def corner_quads(image, segments, successors, counts, least_side, least_squash, beside, least_step, growth):
+def corner_quads(image, segments, successors, counts, min_side, min_squash, beside, min_step, growth):
     """Outlines (q, 4, 2) of two sides that meet at a corner and go on nobody knows how far.
 
     Each of the two is taken for whole in turn and the other's length is tried, from what is seen of it to
     what tilt allows.
     """
     n = len(segments)
-    quads = np.empty((MOST_CORNER_QUADS, 4, 2), np.float32)
+    quads = np.empty((MAX_CORNER_QUADS, 4, 2), np.float32)
     corner = np.empty(2, np.float64)
     q = 0
     for i in range(n):
@@ -145,18 +145,18 @@ def corner_quads(image, segments, successors, counts, least_side, least_squash, 
             ax, ay = segments[i, 0] - corner[0], segments[i, 1] - corner[1]
             bx, by = segments[j, 2] - corner[0], segments[j, 3] - corner[1]
             la, lb = np.sqrt(ax * ax + ay * ay), np.sqrt(bx * bx + by * by)
-            if min(la, lb) < 0.5 * least_side or max(la, lb) < least_side:
+            if min(la, lb) < 0.5 * min_side or max(la, lb) < min_side:
                 continue
-            if not _even_sides(image, corner, ax, ay, bx, by, beside, least_step):
+            if not _even_sides(image, corner, ax, ay, bx, by, beside, min_step):
                 continue
             cosine = (ax * bx + ay * by) / (la * lb)
             for whole in range(2):
                 fixed, length = (la, lb) if whole == 0 else (lb, la)
                 step = 0
-                while fixed >= least_side and q < MOST_CORNER_QUADS:
+                while fixed >= min_side and q < MAX_CORNER_QUADS:
                     squared_area = (fixed * length) ** 2 * (1.0 - cosine * cosine)
-                    good = could_be_tilted(fixed * fixed + length * length, squared_area, least_squash)
-                    if good and length >= 0.5 * least_side and (whole == 0 or step > 0):
+                    good = could_be_tilted(fixed * fixed + length * length, squared_area, min_squash)
+                    if good and length >= 0.5 * min_side and (whole == 0 or step > 0):
                         sa, sb = (1.0, length / lb) if whole == 0 else (length / la, 1.0)
                         quad = quads[q]
                         quad[0, 0], quad[0, 1] = corner[0] + sa * ax, corner[1] + sa * ay
@@ -194,35 +194,35 @@ def _by_direction(along):
 
 
 @compiled
-def _facing(length, along, middle, i, j, least_side, most_ratio, d):
+def _facing(length, along, middle, i, j, min_side, max_ratio, d):
     """How far apart two sides are, and by how much the second is beyond the first along `d`, which it fills.
 
     They run in opposite directions, each with the other on its right, where it is dark; 0 where they do not
     face each other.
     """
     longer, weight = max(length[i], length[j]), length[i] + length[j]
-    if longer < least_side or longer > most_ratio * min(length[i], length[j]):
+    if longer < min_side or longer > max_ratio * min(length[i], length[j]):
         return 0.0, 0.0
-    if along[i, 0] * along[j, 0] + along[i, 1] * along[j, 1] > -MOST_PAIR_COSINE:
+    if along[i, 0] * along[j, 0] + along[i, 1] * along[j, 1] > -MAX_PAIR_COSINE:
         return 0.0, 0.0
     for k in range(2):
         d[k] = (length[i] * along[i, k] - length[j] * along[j, k]) / weight
     x, y = middle[j, 0] - middle[i, 0], middle[j, 1] - middle[i, 1]
     apart, beyond = d[0] * y - d[1] * x, d[0] * x + d[1] * y
-    if apart < least_side or abs(beyond) > apart or apart > MOST_APART_LENGTHS * longer:
+    if apart < min_side or abs(beyond) > apart or apart > MAX_APART_LENGTHS * longer:
         return 0.0, 0.0
     return apart, beyond
 
 
 @compiled
-def pair_quads(segments, least_side, least_squash, most_ratio, lengths, shifts):
+def pair_quads(segments, min_side, min_squash, max_ratio, lengths, shifts):
     """Outlines (q, 4, 2) of two sides that face each other, one at most so many times as long as the other.
 
     Where they end is tried: `lengths`, by the longer one's, and `shifts` along them, by that length. The
     first side is along one of the two.
     """
     n, q = len(segments), 0
-    quads = np.empty((MOST_PAIR_QUADS, 4, 2), np.float32)
+    quads = np.empty((MAX_PAIR_QUADS, 4, 2), np.float32)
     length, along, middle = np.empty(n), np.empty((n, 2)), np.empty((n, 2))
     for i in range(n):
         length[i] = _length(segments[i])
@@ -239,7 +239,7 @@ def pair_quads(segments, least_side, least_squash, most_ratio, lengths, shifts):
                 # Each pair once.
                 if other < i:
                     continue
-                apart, beyond = _facing(length, along, middle, i, other, least_side, most_ratio, d)
+                apart, beyond = _facing(length, along, middle, i, other, min_side, max_ratio, d)
                 if apart == 0.0:
                     continue
                 across[0], across[1] = -d[1] * apart, d[0] * apart
@@ -247,10 +247,10 @@ def pair_quads(segments, least_side, least_squash, most_ratio, lengths, shifts):
                     # What is seen of both may end alike, or where tilt lets them end.
                     side, slant = lengths[m // 2] * max(length[i], length[other]), (m % 2) * beyond
                     squares = side * side + apart * apart + slant * slant
-                    if not could_be_tilted(squares, (side * apart) ** 2, least_squash):
+                    if not could_be_tilted(squares, (side * apart) ** 2, min_squash):
                         continue
                     for k in range(len(shifts)):
-                        if q == MOST_PAIR_QUADS:
+                        if q == MAX_PAIR_QUADS:
                             return quads
                         off = shifts[k] * side + 0.5 * (beyond - slant)
                         p[0], p[1] = middle[i, 0] + off * d[0], middle[i, 1] + off * d[1]

@@ -27,7 +27,7 @@ from tracker.stages import Stages
 SEARCH_REACH_PX = 2.5
 # A hand in theatre moves the marker by a few pixels from image to image; prediction takes most of it.
 TRACK_REACH_PX = 6.0
-MOST_FITS, MOST_THOROUGH_FITS = 2, 4
+MAX_FITS, MAX_THOROUGH_FITS = 2, 4
 # Seen (2), with score and target score of 0.9 on average.
 CERTAIN_WORTH = 3.8
 
@@ -76,7 +76,7 @@ class Fitter:
         return sighting
 
     def each_of(
-        self, pixels: Pixels, model: MarkerModel, candidates: Sequence[Candidate], *, most: int = MOST_FITS
+        self, pixels: Pixels, model: MarkerModel, candidates: Sequence[Candidate], *, most: int = MAX_FITS
     ) -> Iterator[Sighting]:
         """What some candidates, the likeliest first, turn out to be, one after the other, up to so many."""
         fits = 0

@@ -11,7 +11,7 @@ takes three times as long because of it.
 from collections.abc import Callable, Sequence
 
 from tracker.marker import Candidate, MarkerModel, Templates, candidate_rounds, thorough_rounds
-from tracker.pipeline.fitter import MOST_FITS, MOST_THOROUGH_FITS, Fitter, is_certain
+from tracker.pipeline.fitter import MAX_FITS, MAX_THOROUGH_FITS, Fitter, is_certain
 from tracker.pose import Pixels, Seen, Sighting, Unseen, UnseenReason, are_turned, worth_of
 
 
@@ -41,7 +41,7 @@ class Search:
         # Names of those that are in the image, and two ways up of which explain as much as the other.
         self._undecided: set[str] = set()
         # So many candidates of each model and round are fitted.
-        self._most_fits = MOST_FITS
+        self._max_fits = MAX_FITS
 
     def go_on(self) -> bool:
         """Make a part of it: a round's candidates, or a look at those of one model; False at the end."""
@@ -52,7 +52,7 @@ class Search:
             return candidates is not None
         model, own = self._waiting.pop(0)
         if not self._is_over(model, is_certain):
-            for found in self._fitter.each_of(self._pixels, model, own, most=self._most_fits):
+            for found in self._fitter.each_of(self._pixels, model, own, most=self._max_fits):
                 self._take(model.name, found)
                 # One that leaves nothing open ends it.
                 if self._is_over(model, is_certain):
@@ -81,7 +81,7 @@ class Search:
         self._go_on_until(is_certain)
         unseen = [k for k, model in enumerate(self._models) if not self._is_over(model, _is_seen)]
         if thorough and unseen and not any(is_certain(one) for one in self.best.values()):
-            self._models, self._most_fits = [self._models[k] for k in unseen], MOST_THOROUGH_FITS
+            self._models, self._max_fits = [self._models[k] for k in unseen], MAX_THOROUGH_FITS
             self._rounds = thorough_rounds(self._pixels.image, self._templates[unseen])
             self._go_on_until(_is_seen)
         return self.best

@@ -13,7 +13,7 @@ from tracker.plan.pedicle import PedicleMeasure
 from tracker.plan.volume import Volume
 
 AHEAD_MM, BEHIND_MM = 50.0, 60.0
-LEAST_APART_MM = 1.0
+MIN_APART_MM = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,11 +108,10 @@ def draw_reference(
             {"slice_index": slice_index, "slices": slices},
         )
     middle = np.asarray(middle_lps_mm, dtype=np.float64).reshape(3)
-    if not (np.isfinite(middle).all() and LEAST_APART_MM <= apart_mm <= 100.0):
+    if not (np.isfinite(middle).all() and MIN_APART_MM <= apart_mm <= 100.0):
         raise PlanError(
             "LINES_INVALID",
-            f"the outer lines stand {apart_mm} mm from the middle, "
-            f"allowed are {LEAST_APART_MM:.0f} to 100 mm",
+            f"the outer lines stand {apart_mm} mm from the middle, allowed are {MIN_APART_MM:.0f} to 100 mm",
             "Give the middle in LPS mm and the measured distance of the lines.",
             {"apart_mm": apart_mm},
         )

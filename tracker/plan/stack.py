@@ -15,9 +15,9 @@ from tracker.geometry import Array
 # Two slices nearer than this lie at the same place.
 SAME_PLACE_MM = 0.01
 # How far a voxel may lie from where the affine puts it: in mm, and as a share of the spacing.
-MOST_JITTER_MM = 0.2
-MOST_JITTER_RATIO = 0.1
-MOST_TILT_DEG = 45.0
+MAX_JITTER_MM = 0.2
+MAX_JITTER_RATIO = 0.1
+MAX_TILT_DEG = 45.0
 EXPORT_AGAIN = "Export the whole series again as original axial slices, and give that folder alone."
 
 
@@ -80,13 +80,13 @@ def stack_slices(
     spacing = float(step @ normal)
     _check_jitter(jitter, gaps, spacing)
     tilt = float(np.degrees(np.arctan2(np.linalg.norm(step - spacing * normal), spacing)))
-    if tilt > MOST_TILT_DEG:
+    if tilt > MAX_TILT_DEG:
         raise InvalidInput(
             "CT_TILT_TOO_LARGE",
             f"the slices are tilted by {tilt:.1f} deg against the way from one to the next, allowed "
-            f"{MOST_TILT_DEG:.0f} deg",
+            f"{MAX_TILT_DEG:.0f} deg",
             EXPORT_AGAIN,
-            {"tilt_deg": tilt, "most_tilt_deg": MOST_TILT_DEG},
+            {"tilt_deg": tilt, "max_tilt_deg": MAX_TILT_DEG},
         )
     affine.setflags(write=False)
     return Stack(lps_from_ijk=affine, slices=slices, spacing_mm=spacing, tilt_deg=tilt, jitter_mm=jitter)
@@ -114,7 +114,7 @@ def _check_alike(axes: Array, extent: Array) -> None:
     usual = np.median(axes, axis=0)
     lengths = np.linalg.norm(axes, axis=2)
     usual_lengths = np.median(lengths, axis=0)
-    stretched = (np.abs(lengths - usual_lengths) * extent).max(axis=1) > MOST_JITTER_MM
+    stretched = (np.abs(lengths - usual_lengths) * extent).max(axis=1) > MAX_JITTER_MM
     if stretched.any():
         low, high = float(lengths.min()), float(lengths.max())
         raise InvalidInput(
@@ -122,9 +122,9 @@ def _check_alike(axes: Array, extent: Array) -> None:
             f"{int(stretched.sum())} of {len(axes)} slices have pixels of another size: they go from "
             f"{low:.4f} to {high:.4f} mm",
             EXPORT_AGAIN,
-            {"slices": int(stretched.sum()), "of": len(axes), "least_mm": low, "most_mm": high},
+            {"slices": int(stretched.sum()), "of": len(axes), "min_mm": low, "max_mm": high},
         )
-    turned = (np.linalg.norm(axes - usual, axis=2) * extent).max(axis=1) > MOST_JITTER_MM
+    turned = (np.linalg.norm(axes - usual, axis=2) * extent).max(axis=1) > MAX_JITTER_MM
     if turned.any():
         normals = np.cross(axes[:, 0], axes[:, 1])
         normals /= np.linalg.norm(normals, axis=1)[:, None]
@@ -144,12 +144,12 @@ def _grouped(positions: Array, heights: Array) -> tuple[tuple[int, ...], ...]:
     for index in np.argsort(heights, kind="stable").tolist():
         if groups and heights[index] - heights[groups[-1][0]] <= SAME_PLACE_MM:
             shift = float(np.linalg.norm(positions[index] - positions[groups[-1][0]]))
-            if shift > MOST_JITTER_MM:
+            if shift > MAX_JITTER_MM:
                 raise InvalidInput(
                     "CT_SLICES_SHIFTED",
-                    f"two slices lie in one plane, {shift:.2f} mm apart, allowed {MOST_JITTER_MM:.2f} mm",
+                    f"two slices lie in one plane, {shift:.2f} mm apart, allowed {MAX_JITTER_MM:.2f} mm",
                     EXPORT_AGAIN,
-                    {"shift_mm": shift, "most_shift_mm": MOST_JITTER_MM},
+                    {"shift_mm": shift, "max_shift_mm": MAX_JITTER_MM},
                 )
             groups[-1].append(index)
         else:
@@ -161,12 +161,12 @@ def _check_gaps(gaps: Array) -> None:
     """Refuses a series in which the distance between neighbours is not one and the same."""
     usual = float(np.sort(gaps)[(len(gaps) - 1) // 2])
     steps = gaps / usual
-    if np.abs(steps - 1.0).max() <= 2.0 * MOST_JITTER_RATIO:
+    if np.abs(steps - 1.0).max() <= 2.0 * MAX_JITTER_RATIO:
         return
-    first = int(np.argmax(np.abs(steps - 1.0) > 2.0 * MOST_JITTER_RATIO))
+    first = int(np.argmax(np.abs(steps - 1.0) > 2.0 * MAX_JITTER_RATIO))
     where = f"after slice {first + 1} of {len(gaps) + 1}, in the order of their places, the next is"
     missing = int((np.rint(steps) - 1.0).sum())
-    if missing > 0 and np.abs(steps - np.rint(steps)).max() <= 2.0 * MOST_JITTER_RATIO:
+    if missing > 0 and np.abs(steps - np.rint(steps)).max() <= 2.0 * MAX_JITTER_RATIO:
         raise InvalidInput(
             "CT_SLICES_MISSING",
             f"{missing} of {len(gaps) + 1 + missing} slices are missing: {where} {gaps[first]:.3f} mm away, "
@@ -179,7 +179,7 @@ def _check_gaps(gaps: Array) -> None:
         f"the slices lie between {gaps.min():.3f} and {gaps.max():.3f} mm apart, mostly {usual:.3f} mm: "
         f"{where} {gaps[first]:.3f} mm away",
         EXPORT_AGAIN,
-        {"least_mm": float(gaps.min()), "most_mm": float(gaps.max()), "spacing_mm": usual},
+        {"min_mm": float(gaps.min()), "max_mm": float(gaps.max()), "spacing_mm": usual},
     )
 
 
@@ -200,7 +200,7 @@ def _jitter_mm(affine: Array, starts: Array, axes: Array, extent: Array) -> floa
 
 def _check_jitter(jitter: float, gaps: Array, spacing: float) -> None:
     """Refuses slices that lie too far from where the affine puts them."""
-    allowed = min(MOST_JITTER_MM, MOST_JITTER_RATIO * spacing)
+    allowed = min(MAX_JITTER_MM, MAX_JITTER_RATIO * spacing)
     if jitter <= allowed:
         return
     uneven = float(np.abs(gaps - spacing).max()) > 0.1 * allowed
@@ -216,7 +216,7 @@ def _check_jitter(jitter: float, gaps: Array, spacing: float) -> None:
         {
             "off_mm": jitter,
             "allowed_mm": allowed,
-            "least_mm": float(gaps.min()),
-            "most_mm": float(gaps.max()),
+            "min_mm": float(gaps.min()),
+            "max_mm": float(gaps.max()),
         },
     )

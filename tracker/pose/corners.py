@@ -11,7 +11,7 @@ from tracker.marker.kernels import shift_corners
 # is straight there, long enough to average over.
 NEAR_SIDE_RATIO = 0.35
 # Farther than this from where the pose has it, something else than the marker's own edge was met.
-MOST_OFF_PX, MOST_OFF_SIDE_RATIO = 1.5, 0.04
+MAX_OFF_PX, MAX_OFF_SIDE_RATIO = 1.5, 0.04
 
 
 def measured_corners_px(
@@ -40,7 +40,7 @@ def measured_corners_px(
     half = active.half_mm
     c = corners_px.tolist()
     side_px = (dist(c[0], c[1]) + dist(c[1], c[2]) + dist(c[2], c[3])) / 3.0
-    reach = MOST_OFF_PX + MOST_OFF_SIDE_RATIO * side_px
+    reach = MAX_OFF_PX + MAX_OFF_SIDE_RATIO * side_px
     offset, response = edge_crossings(gradient, points_px, normals_px, reach_px=reach)
     usable = active.sides & (response > 0.5 * contrast * active.strength_ratio)
     out = corners_px.copy()

@@ -76,13 +76,13 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
     """
     settings, agreement = scene.settings, found.agreement
     score, target = agreement.score_ratio(settings), agreement.target_score_ratio(settings)
-    least, least_inner = settings.accept_score_ratio, settings.accept_inner_coverage_ratio
+    least, min_inner = settings.accept_score_ratio, settings.accept_inner_coverage_ratio
     inner = agreement.inner_coverage_ratio
-    weak = score < least or inner < least_inner
+    weak = score < least or inner < min_inner
     reason = UnseenReason.SCORE_TOO_LOW if weak else UnseenReason.SHAPE_DIFFERS
     unseen = Unseen(reason=reason, best_score_ratio=score)
     share = settings.explained_share
-    if score < share * least or inner < share * least_inner:
+    if score < share * least or inner < share * min_inner:
         return unseen
     if target < settings.accept_target_score_ratio:
         return unseen if weak else replace(unseen, reason=UnseenReason.TARGET_SCORE_TOO_LOW)
@@ -102,7 +102,7 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
         lead_sd2=found.fit.lead_sd2,
     )
     covered_at: CoveredAt | None = None
-    if weak or plain < _least_plain(found.corners_px):
+    if weak or plain < _min_plain(found.corners_px):
         explained = _explained(scene, found, by_edges, plain=0.0 if weak else plain)
         if explained is None:
             return unseen
@@ -117,7 +117,7 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
     )
 
 
-def _least_plain(corners_px: Array) -> float:
+def _min_plain(corners_px: Array) -> float:
     """What is enough in plain light, of a square at these corners (4, 2)."""
     return float(np.interp(side_px_of(corners_px), PLAIN_SIDES_PX, PLAIN_LIKENESS))
 
@@ -133,7 +133,7 @@ def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
         most = max(most, look.likeness)
         if not look.is_other_shape:
             alike = max(alike, look.likeness)
-        if alike >= _least_plain(corners):
+        if alike >= _min_plain(corners):
             break
     return alike, most
 

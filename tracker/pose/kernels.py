@@ -8,9 +8,9 @@ from tracker.edges.kernels import crossing
 from tracker.geometry.kernels import mirror, solve_positive, turn_by
 
 PARAMETERS = 7  # translation, rotation, and one shift common to all edges
-LEAST_EDGES = 12
+MIN_EDGES = 12
 # A step that moves no edge by more than this is the last; after one under the other the look is close by.
-LEAST_MOVE_PX, NEAR_MOVE_PX = 0.004, 0.3
+MIN_MOVE_PX, NEAR_MOVE_PX = 0.004, 0.3
 # A parabola through samples a pixel apart places a peak that is near short by a fifth.
 NEAR_STEP = 1.25
 # A fit that moves less than this and is worse by far will not come to be the better one.
@@ -192,12 +192,12 @@ def _refine(
         if moved < 0.0:
             return False
         # One look more than steps: what is returned belongs to the pose that is returned.
-        ends = turn > last or (turn > 0 and moved < LEAST_MOVE_PX and reaches[at] == reaches[last])
+        ends = turn > last or (turn > 0 and moved < MIN_MOVE_PX and reaches[at] == reaches[last])
         if turn > 0:
             at = last if moved < NEAR_MOVE_PX else min(at + 1, last)
         reach = reaches[at]
         count = _residuals(gx, gy, left, top, pixels, directions, strength, least, reach, found, offset)
-        if count < LEAST_EDGES:
+        if count < MIN_EDGES:
             return False
         if at == last and turn > 0 and moved < HOPELESS_MOVE_PX:
             ends = ends or _cost(offset, found, strength, shift, reach) > most
@@ -274,13 +274,13 @@ def fit_square(corners, half, rotation, translation, rounds):
 @compiled
 def refine_both(
     gx, gy, left, top, lens, points, normals, strength, least, reaches, shift_sd,
-    rotation, translation, most, least_px2, decided,
+    rotation, translation, most, min_px2, decided,
 ):  # fmt: skip
     """Both planar solutions around a pose, each refined, the better one first.
 
     A fit that stopped halfway costs more than the wrong solution well fitted, and its mirror image mirrors
     nothing: what is taken stands only after its own mirror image, fitted from it, has lost, or after `most`.
-    Costs that differ by `decided` variances of an edge (at least `least_px2`) need no exact loser.
+    Costs that differ by `decided` variances of an edge (at least `min_px2`) need no exact loser.
 
     Returns:
         rotations (3, 3, 3), translations (3, 3), matrices (3, 7, 7) and numbers (3, 5) of three fits: robust
@@ -322,7 +322,7 @@ def refine_both(
             better, other = free, better
             seed_rotation[:, :], seed_translation[:] = rotations[free], translations[free]
             cost, squares, weights = numbers[free, 0], numbers[free, 2], numbers[free, 3]
-            hopeless = cost + decided * max(squares / weights, cost / max(strength.sum(), 1.0), least_px2)
+            hopeless = cost + decided * max(squares / weights, cost / max(strength.sum(), 1.0), min_px2)
         for slot in range(3):
             if slot not in (better, other):
                 free = slot

@@ -22,7 +22,7 @@ from tracker.pose.refinement import Fit, projected_edges, refined_pose
 # Before the fit, corners may be off by a pixel or two and edges therefore out of reach.
 WORTH_FITTING_COVERAGE = 0.3
 # The fit must end where it began: a candidate that has to be dragged over half its side is another thing.
-MOST_DRAG_SIDE_RATIO = 0.5
+MAX_DRAG_SIDE_RATIO = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,7 +93,7 @@ def occurrence_near(
     if fit is None:
         return None
     fitted = corners_px_at(camera, model, fit.camera_from_marker)
-    if float(np.abs(fitted - corners).max()) > max(MOST_DRAG_SIDE_RATIO * side, 2.0 * first_reach_px):
+    if float(np.abs(fitted - corners).max()) > max(MAX_DRAG_SIDE_RATIO * side, 2.0 * first_reach_px):
         return None
     projected = projected_edges(camera, fit.camera_from_marker, active)
     if projected is None:

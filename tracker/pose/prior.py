@@ -26,12 +26,12 @@ LONGEST_AHEAD_S = 0.25
 # A highlight or a hand may hide a marker for some images; where it was then is where it is.
 LONGEST_UNSEEN_S = 0.07
 # Two poses nearer in time than this say nothing about speed.
-LEAST_INTERVAL_S = 1e-3
-MOST_SPEED_MM_S = 1500.0
-MOST_TURN_RAD = float(np.radians(15.0))
+MIN_INTERVAL_S = 1e-3
+MAX_SPEED_MM_S = 1500.0
+MAX_TURN_RAD = float(np.radians(15.0))
 # What speaks for one of the planar solutions is not all new in each image: bent paper, light and blur stay.
 # So images long past lose their say, and some that agree always suffice to turn the judgement.
-KEPT_LEAD_RATIO, MOST_LEAD_SD2 = 0.9, 25.0
+KEPT_LEAD_RATIO, MAX_LEAD_SD2 = 0.9, 25.0
 # By as many images as ever have a say together, an image says more than alone.
 IMAGES_KEPT = 1.0 / (1.0 - KEPT_LEAD_RATIO)
 
@@ -98,16 +98,16 @@ class Prior:
     def rates_to(self, now: Rigid[Camera, Marker], at_s: float) -> Array | None:
         """The motion (6,) [mm/s, rad/s] since the last image; None where that is too long ago."""
         interval = at_s - self.at_s
-        if self.pose is None or not LEAST_INTERVAL_S < interval <= LONGEST_AHEAD_S:
+        if self.pose is None or not MIN_INTERVAL_S < interval <= LONGEST_AHEAD_S:
             return None
         rates = np.zeros(6)
         velocity = (now.translation_mm - self.pose.translation_mm) / interval
         # Faster than any hand: it was somewhere else before, and that says nothing of the next image.
-        if float(velocity @ velocity) < MOST_SPEED_MM_S**2:
+        if float(velocity @ velocity) < MAX_SPEED_MM_S**2:
             rates[:3] = velocity
         # From one planar solution to the other is no turn of the hand.
         before = other_solution(self.pose) if _is_turned_over(now, self.pose) else self.pose
-        if float(turn_between(now.rotation, before.rotation)) < MOST_TURN_RAD:
+        if float(turn_between(now.rotation, before.rotation)) < MAX_TURN_RAD:
             rates[3:] = vector_from_rotation(now.rotation @ before.rotation.T) / interval
         return rates
 
@@ -129,7 +129,7 @@ class Prior:
             # An infinite lead, too, says nothing new where all that is left comes again.
             says = says * share if share > 0.0 else 0.0
         self.lead_before_sd2 = before
-        self.lead_sd2 = min(KEPT_LEAD_RATIO * max(known + says, 0.0), MOST_LEAD_SD2)
+        self.lead_sd2 = min(KEPT_LEAD_RATIO * max(known + says, 0.0), MAX_LEAD_SD2)
 
 
 def _is_turned_over(now: Rigid[Camera, Marker], before: Rigid[Camera, Marker]) -> bool:

@@ -23,7 +23,7 @@ from tracker.pose.sighting import Seen
 ROUNDS = 3
 # A motion is the mean of an interval between images: at its end it differs by about half of what it changed,
 # and never by less than a hand trembles (sd).
-CHANGED_RATIO, LEAST_SPEED_MM_S, LEAST_TURNING_RAD_S = 0.5, 8.0, float(np.radians(6.0))
+CHANGED_RATIO, MIN_SPEED_MM_S, MIN_TURNING_RAD_S = 0.5, 8.0, float(np.radians(6.0))
 # Of a hand of which nothing is known but that it holds a drill (sd).
 HAND_SPEED_MM_S, HAND_TURNING_RAD_S = 100.0, float(np.radians(40.0))
 # The shift of four points stands for that of the whole shape, whose edges lie nearer to its centre than the
@@ -52,7 +52,7 @@ class Motion:
     @classmethod
     def after(cls, rates: Array, rates_before: Array | None) -> "Motion":
         """At the end of an interval with these mean rates (6,), after one with those, if they are known."""
-        least = np.repeat([LEAST_SPEED_MM_S, LEAST_TURNING_RAD_S], 3)
+        least = np.repeat([MIN_SPEED_MM_S, MIN_TURNING_RAD_S], 3)
         changed = CHANGED_RATIO * (rates if rates_before is None else rates - rates_before)
         return cls(rates=rates, sd=np.hypot(changed, least))
 

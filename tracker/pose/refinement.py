@@ -19,7 +19,7 @@ from tracker.edges import Gradient
 from tracker.geometry import Array, Camera, Marker, Rigid
 from tracker.geometry.kernels import NO_BAND, RIDGE, pose_rows
 from tracker.marker import ActiveEdges, reach_px
-from tracker.marker.score import LEAST_RESPONSE_RATIO
+from tracker.marker.score import MIN_RESPONSE_RATIO
 from tracker.pose.kernels import PARAMETERS, project_edges, refine_both
 from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surprise
 
@@ -27,11 +27,11 @@ from tracker.pose.rivals import DECIDED_COST, doubt_between, lead_between, surpr
 SHIFT_SD_PX = 0.25
 # Neighbouring edgels share pixels, so that their errors are alike over about three of them.
 CORRELATION_LENGTH_PX = 3.0
-LEAST_RESIDUAL_PX = 0.03
+MIN_RESIDUAL_PX = 0.03
 # What does not average out along a side: the pattern of pixels against a straight edge, blur between edges
 # that are near to each other. Measured on rendered scenes, where the truth is known.
 SIDE_BIAS_PX, INDEPENDENT_SIDES = 0.05, 10.0
-MOST_MIRRORINGS = 5
+MAX_MIRRORINGS = 5
 IN_ORDER = np.arange(PARAMETERS)
 
 
@@ -81,7 +81,7 @@ def refined_pose(
     # By all edges, not by those few that agree: where most are missing or far off, nothing is decided.
     mean_px2 = float(numbers[first, 0]) / active.fitted.weight
     residuals = [float(numbers[k, 2] / numbers[k, 3]) for k in (first, second)]
-    variance = max(min(residuals), LEAST_RESIDUAL_PX**2, mean_px2) * CORRELATION_LENGTH_PX
+    variance = max(min(residuals), MIN_RESIDUAL_PX**2, mean_px2) * CORRELATION_LENGTH_PX
     costs = [float(numbers[k, 0]) for k in (first, second)]
     if expected is None and costs[1] - costs[0] > DECIDED_COST * variance:
         return _fit(pose_of(first), matrices[first], numbers[first], active, side_px)
@@ -124,13 +124,13 @@ def _both(
         fitted.points_mm,
         fitted.normals,
         fitted.strength_ratio,
-        max(LEAST_RESPONSE_RATIO * contrast, 0.6 * gradient.threshold),
+        max(MIN_RESPONSE_RATIO * contrast, 0.6 * gradient.threshold),
         reaches,
         SHIFT_SD_PX,
         start.rotation,
         start.translation_mm,
-        MOST_MIRRORINGS,
-        LEAST_RESIDUAL_PX**2,
+        MAX_MIRRORINGS,
+        MIN_RESIDUAL_PX**2,
         # Twice what decides: the cost of a fit that is not at its end falls a little yet.
         2.0 * DECIDED_COST * CORRELATION_LENGTH_PX,
     )
@@ -155,7 +155,7 @@ def _fit(
     variance = max(
         squares / weights * count / max(count - PARAMETERS, 1),
         cost / active.fitted.weight,
-        LEAST_RESIDUAL_PX**2,
+        MIN_RESIDUAL_PX**2,
     )
     # Edgels stand a pixel apart at small sizes and farther at large ones.
     spacing = max(active.fitted.spacing_ratio * side_px, 1e-3)

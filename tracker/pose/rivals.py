@@ -23,7 +23,7 @@ from tracker.pose.arc import TOOL_REACH_MM
 DECIDED_COST = 18.0
 UNDECIDED_COST = 2.0
 # Nearer than this, two solutions are one.
-LEAST_TURN_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
+MIN_TURN_RAD, ONE_SOLUTION_RAD = 1e-3, float(np.radians(1.0))
 EXPECTED_TURN_SD_DEG = 4.0
 SMALL_DOUBT = 0.05
 # A hand turns a drill by less than this between two images; farther is the other solution.
@@ -88,7 +88,7 @@ def doubt_between(
     if expected is not None and _turned_over(better, worse, expected):
         gap = min(gap, UNDECIDED_COST)
     apart = difference(better, worse)
-    if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < LEAST_TURN_RAD:
+    if gap > DECIDED_COST or float(np.linalg.norm(apart[3:])) < MIN_TURN_RAD:
         return np.zeros((6, 6))
     return _spread(apart, _doubt_at(gap))
 

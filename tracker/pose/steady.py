@@ -18,12 +18,12 @@ from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector,
 
 # Squared distance of two poses in units of what is admitted (6 degrees of freedom): noise alone exceeds it
 # once in a hundred images. Then the pose is shown as it is: rather trembling than late.
-MOST_SURPRISE = 16.81
+MAX_SURPRISE = 16.81
 # What a hand that holds still moves within the lag (sd). Four times as much is a motion, and is never late.
 STILL_SD_MM, STILL_SD_DEG = 0.25, 0.12
 # Where a covariance spans both planar solutions it admits nearly anything; a turn over is still a jump.
-MOST_TURN_DEG = 3.0
-MOST_IMAGES = 64
+MAX_TURN_DEG = 3.0
+MAX_IMAGES = 64
 STILL = np.diag([STILL_SD_MM**2] * 3 + [float(np.radians(STILL_SD_DEG)) ** 2] * 3)
 
 
@@ -75,7 +75,7 @@ class Steady:
 
     def __init__(self, *, lag_ms: float) -> None:
         self._lag_s = lag_ms / 1000.0
-        self._last: deque[_Known] = deque(maxlen=MOST_IMAGES)
+        self._last: deque[_Known] = deque(maxlen=MAX_IMAGES)
 
     def forget(self) -> None:
         """The marker is not seen: nothing is filled in, and the next pose stands alone."""
@@ -104,13 +104,13 @@ class Steady:
 def _agree(old: _Known, new: _Known) -> bool:
     """Whether noise and a hand that holds still may have made one pose of the other."""
     apart = _apart(old.pose, new.pose)
-    if float(np.linalg.norm(apart[3:])) > np.radians(MOST_TURN_DEG):
+    if float(np.linalg.norm(apart[3:])) > np.radians(MAX_TURN_DEG):
         return False
     try:
         surprise = float(apart @ np.linalg.solve(old.covariance + new.covariance + STILL, apart))
     except np.linalg.LinAlgError:
         return not apart.any()
-    return surprise <= MOST_SURPRISE
+    return surprise <= MAX_SURPRISE
 
 
 def _apart(old: Rigid[Camera, Marker], new: Rigid[Camera, Marker]) -> Array:

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracker.appearance import LEAST_SAY_RATIO, CoveredAt, Textures, WholeFit, whole_fits
+from tracker.appearance import MIN_SAY_RATIO, CoveredAt, Textures, WholeFit, whole_fits
 from tracker.camera import CameraModel
 from tracker.edges import GreyImage
 from tracker.geometry import Array, Camera, Marker, Rigid
@@ -40,12 +40,12 @@ from tracker.pose.rivals import (
 from tracker.pose.sighting import Seen
 
 # Edges place a pose to a fraction of a pixel: a whole-shape fit that ends farther away fitted something else.
-MOST_APART_PX, MOST_APART_SIDE_RATIO = 1.2, 0.04
-LEAST_CONTRAST_GREY = 4.0
+MAX_APART_PX, MAX_APART_SIDE_RATIO = 1.2, 0.04
+MIN_CONTRAST_GREY = 4.0
 # Where more is left unexplained, in units of the noise and of the contrast, or less of the pixels has a say,
 # edges, which bring their own contrast, are the better judge of the pose.
 # With 0.6 of the pixels a wrong tilt passes in interlaced images, half of whose lines are elsewhere.
-MOST_LEFT_NOISES, MOST_LEFT_CONTRAST_RATIO, LEAST_EXPLAINED_RATIO = 2.2, 0.055, 0.72
+MAX_LEFT_NOISES, MAX_LEFT_CONTRAST_RATIO, MIN_EXPLAINED_RATIO = 2.2, 0.055, 0.72
 # What the model of the marker leaves out follows the pose: residuals tell it in part. So many times their
 # variance is added, by how much of it is no noise: what is more than the image's noise, as of compressed
 # pictures, and at least a share of the contrast. Measured on rendered scenes, where the truth is known.
@@ -148,7 +148,7 @@ def _is_clear(seen: Seen, other: Rigid[Camera, Marker], expected: Rigid[Camera, 
 def _either(seen: Seen, by_pixels: WholeFit) -> Seen:
     """Where pixels contradict edges both stay possible: what covers a side may lead either astray."""
     doubt = doubt_over(seen.camera_from_marker, by_pixels.camera_from_marker, gap=0.0)
-    if by_pixels.explained_ratio < LEAST_SAY_RATIO:
+    if by_pixels.explained_ratio < MIN_SAY_RATIO:
         return replace(seen, pose_covariance=seen.pose_covariance + doubt, lead_sd2=0.0)
     return replace(
         seen,
@@ -160,11 +160,11 @@ def _either(seen: Seen, by_pixels: WholeFit) -> Seen:
 
 
 def _is_exact(one: WholeFit, noise_grey: float) -> bool:
-    left = max(MOST_LEFT_NOISES * noise_grey, MOST_LEFT_CONTRAST_RATIO * one.contrast_grey)
+    left = max(MAX_LEFT_NOISES * noise_grey, MAX_LEFT_CONTRAST_RATIO * one.contrast_grey)
     return (
-        one.contrast_grey > LEAST_CONTRAST_GREY
+        one.contrast_grey > MIN_CONTRAST_GREY
         and one.scale_grey < left
-        and one.explained_ratio > LEAST_EXPLAINED_RATIO
+        and one.explained_ratio > MIN_EXPLAINED_RATIO
     )
 
 
@@ -184,5 +184,5 @@ def _beyond_residuals(one: WholeFit, noise_grey: float) -> Array:
 def _is_near(camera: CameraModel, model: MarkerModel, one: WholeFit, found: Rigid[Camera, Marker]) -> bool:
     """Whether a fit ended where edges are. Those of a smeared marker stand at either end of the smear."""
     here, there = (corners_px_at(camera, model, pose) for pose in (found, one.camera_from_marker))
-    reach = max(MOST_APART_PX, MOST_APART_SIDE_RATIO * side_px_of(here)) + 0.5 * one.smear_px
+    reach = max(MAX_APART_PX, MAX_APART_SIDE_RATIO * side_px_of(here)) + 0.5 * one.smear_px
     return float(np.abs(there - here).max()) < reach

@@ -5,7 +5,7 @@ from math import ceil, floor
 from tracker.geometry import Array
 from tracker.pose.occurrence import side_px_of
 
-MARGIN_PX, MARGIN_SIDE_RATIO, LEAST_PX = 8.0, 0.15, 24
+MARGIN_PX, MARGIN_SIDE_RATIO, MIN_PX = 8.0, 0.15, 24
 
 
 def window_around(
@@ -20,6 +20,6 @@ def window_around(
     across, down = corners_px.T.tolist()
     left, top = max(floor(min(across) - margin), 0), max(floor(min(down) - margin), 0)
     right, bottom = min(ceil(max(across) + margin), width), min(ceil(max(down) + margin), height)
-    if right - left < LEAST_PX or bottom - top < LEAST_PX:
+    if right - left < MIN_PX or bottom - top < MIN_PX:
         return None
     return left, top, right, bottom

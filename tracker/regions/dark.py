@@ -13,15 +13,15 @@ from tracker.regions.kernels import find_runs, median_apart, region_quads, regio
 Int32 = npt.NDArray[np.int32]
 
 # Sides and tilt down to which a square is looked for: at 70 degrees of tilt it is a third as high as wide.
-LEAST_SIDE_PX = 5.0
-LEAST_EXTENT_PX = 9
-LEAST_SQUASH_RATIO = 0.3
+MIN_SIDE_PX = 5.0
+MIN_EXTENT_PX = 9
+MIN_SQUASH_RATIO = 0.3
 # The borders that are followed: of what is no speck, and no endless maze.
-LEAST_BORDER_PX, MOST_BORDER_PX = 24, 20_000
+MIN_BORDER_PX, MAX_BORDER_PX = 24, 20_000
 # A border runs from pixel to pixel: a straight one is off by half of one, and noise adds some.
-BORDER_OFF_PX, LEAST_PIECE_PX = 1.2, 6.0
+BORDER_OFF_PX, MIN_PIECE_PX = 1.2, 6.0
 SAMPLE_STRIDE = 5
-LEAST_LIGHT_GREY = 8.0
+MIN_LIGHT_GREY = 8.0
 # Median of absolute differences of two pixels, for noise of 1 grey level.
 NOISE_PER_DIFFERENCE = 1.0 / 0.954
 
@@ -63,7 +63,7 @@ def dark_mask(image: GreyImage, *, window_px: int, darker_grey: float) -> npt.ND
 def even_image(image: GreyImage, *, window_px: int, noise_grey: float) -> GreyImage:
     """The image in even light (h, w): 128 where it is as bright as the mean of the window around."""
     # In the dark the noise must not be taken for a picture.
-    floor = max(3.0 * noise_grey, LEAST_LIGHT_GREY)
+    floor = max(3.0 * noise_grey, MIN_LIGHT_GREY)
     around = cv2.convertScaleAbs(cv2.blur(image, (window_px, window_px)), beta=floor)
     own = cv2.convertScaleAbs(image, beta=floor)
     return np.asarray(cv2.divide(own, around, scale=128.0), dtype=np.uint8)
@@ -80,9 +80,9 @@ def quads_of(regions: Regions) -> npt.NDArray[np.float32]:
     height, width = regions.mask.shape
     row, first, last = regions.row, regions.first, regions.last
     box, head, after = regions_of(
-        row, first, last, regions.parent, np.array([width, height]), LEAST_EXTENT_PX, max(height, width)
+        row, first, last, regions.parent, np.array([width, height]), MIN_EXTENT_PX, max(height, width)
     )
-    quads = region_quads(row, first, last, after, box, head, LEAST_SIDE_PX, LEAST_SQUASH_RATIO)
+    quads = region_quads(row, first, last, after, box, head, MIN_SIDE_PX, MIN_SQUASH_RATIO)
     return np.asarray(quads, dtype=np.float32)
 
 
@@ -91,5 +91,5 @@ def border_segments(regions: Regions) -> npt.NDArray[np.float32]:
 
     They stand where edges are too faint, or too smeared, to follow.
     """
-    x, y, starts = trace_borders(regions.mask, regions.row, regions.first, LEAST_BORDER_PX, MOST_BORDER_PX)
-    return straight_pieces(x, y, starts, off_px=BORDER_OFF_PX, least_length_px=LEAST_PIECE_PX)
+    x, y, starts = trace_borders(regions.mask, regions.row, regions.first, MIN_BORDER_PX, MAX_BORDER_PX)
+    return straight_pieces(x, y, starts, off_px=BORDER_OFF_PX, min_length_px=MIN_PIECE_PX)

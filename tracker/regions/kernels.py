@@ -8,10 +8,10 @@ from tracker.geometry.kernels import could_be_tilted
 # Of a side, the part that blur at the corners leaves straight.
 STRAIGHT_FROM, STRAIGHT_TO = 0.14, 0.86
 # How far a region's outline may run off its own four sides, beside a pixel.
-MOST_OFF_SIDE_RATIO = 0.14
+MAX_OFF_SIDE_RATIO = 0.14
 # A parallelogram's hull is itself, an ellipse's is 1.57 times its largest quadrilateral.
-MOST_ROUND = 1.4
-LEAST_FILLED = 0.62
+MAX_ROUND = 1.4
+MIN_FILLED = 0.62
 
 
 @compiled
@@ -238,7 +238,7 @@ def _fit_side(extremes, box, p, q, line):
     if lo > hi:
         lo, hi = hi, lo
     start, end = max(int(np.ceil(lo)), box[along]), min(int(hi), box[along + 2])
-    limit = 1.2 + MOST_OFF_SIDE_RATIO * np.sqrt(dx * dx + dy * dy)
+    limit = 1.2 + MAX_OFF_SIDE_RATIO * np.sqrt(dx * dx + dy * dy)
     offset = p[across] - slope * p[along]
     used = 0
     for _ in range(3):
@@ -281,7 +281,7 @@ def _meet(a, b, out):
 
 
 @compiled
-def could_be_square(quad, least_side, least_squash):
+def could_be_square(quad, min_side, min_squash):
     """Whether four corners, clockwise on the screen, could be a tilted square's."""
     for k in range(4):
         p, q, r = quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]
@@ -290,7 +290,7 @@ def could_be_square(quad, least_side, least_squash):
         o = quad[(k + 3) % 4]
         side = np.sqrt((q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2)
         opposite = np.sqrt((r[0] - o[0]) ** 2 + (r[1] - o[1]) ** 2)
-        if side < least_side or side > 2.0 * opposite:
+        if side < min_side or side > 2.0 * opposite:
             return False
     ax, ay = (
         quad[1, 0] + quad[2, 0] - quad[0, 0] - quad[3, 0],
@@ -300,11 +300,11 @@ def could_be_square(quad, least_side, least_squash):
         quad[2, 0] + quad[3, 0] - quad[0, 0] - quad[1, 0],
         quad[2, 1] + quad[3, 1] - quad[0, 1] - quad[1, 1],
     )
-    return could_be_tilted(ax * ax + ay * ay + bx * bx + by * by, (ax * by - ay * bx) ** 2, least_squash)
+    return could_be_tilted(ax * ax + ay * ay + bx * bx + by * by, (ax * by - ay * bx) ** 2, min_squash)
 
 
 @compiled
-def region_quads(row, first, last, after, box, head, least_side, least_squash):
+def region_quads(row, first, last, after, box, head, min_side, min_squash):
     """Corners (q, 4, 2), clockwise on the screen, of the regions whose outline has four straight sides."""
     count = len(head)
     most = 0
@@ -320,7 +320,7 @@ def region_quads(row, first, last, after, box, head, least_side, least_squash):
         size = _hull(extremes, box[i, 1], box[i, 3] - box[i, 1] + 1, hull)
         _largest_quad(hull, size, rough)
         area, whole = _area(rough, 4), _area(hull, size)
-        if area <= 0.0 or whole > MOST_ROUND * area or filled < LEAST_FILLED * whole:
+        if area <= 0.0 or whole > MAX_ROUND * area or filled < MIN_FILLED * whole:
             continue
         _columns(first, last, row, after, head[i], box[i], extremes)
         ok = True
@@ -328,6 +328,6 @@ def region_quads(row, first, last, after, box, head, least_side, least_squash):
             ok = ok and _fit_side(extremes, box[i], rough[k], rough[(k + 1) % 4], lines[k]) > 0
         for k in range(4):
             ok = ok and _meet(lines[(k + 3) % 4], lines[k], quads[n, k])
-        if ok and could_be_square(quads[n], least_side, least_squash):
+        if ok and could_be_square(quads[n], min_side, min_squash):
             n += 1
     return quads[:n].copy()

@@ -84,7 +84,7 @@ class CapturedLandmark:
             `covariance_mm2`, and common to all landmarks that this tool touches.
         images: how many.
         spread_mm: (3,) standard deviation along the anchor's axes.
-        most_off_mm: the farthest single image from the mean.
+        max_off_mm: the farthest single image from the mean.
         lasted_s: from the first image to the last.
     """
 
@@ -92,7 +92,7 @@ class CapturedLandmark:
     covariance_mm2: Array
     images: int
     spread_mm: Array
-    most_off_mm: float
+    max_off_mm: float
     lasted_s: float
     anchor_from_marker: Array = field(default_factory=lambda: np.eye(3))
     tip_covariance_mm2: Array = field(default_factory=lambda: np.zeros((3, 3)))
@@ -202,7 +202,7 @@ def captured(
         covariance_mm2=covariance,
         images=len(seen),
         spread_mm=spread,
-        most_off_mm=off,
+        max_off_mm=off,
         lasted_s=seen[-1].at_s - seen[0].at_s,
         anchor_from_marker=nearest_rotation(np.mean([sample.anchor_from_marker for sample in seen], axis=0)),
         tip_covariance_mm2=seen[0].tip_covariance_mm2,
@@ -303,5 +303,5 @@ def _reject_moved(scatter: Array, off_mm: float, settings: CaptureSettings) -> N
             f"the tip moved: it spreads by {sd:.2f} mm (standard deviation, allowed {settings.max_sd_mm:g}) "
             f"and by {off_mm:.2f} mm at most (allowed {settings.max_off_mm:g})",
             "Rest the hand, hold the tip still on the landmark, and touch it again.",
-            {"spread_mm": sd, "most_off_mm": off_mm, "allowed_mm": settings.max_sd_mm},
+            {"spread_mm": sd, "max_off_mm": off_mm, "allowed_mm": settings.max_sd_mm},
         )

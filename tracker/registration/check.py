@@ -10,9 +10,9 @@ from tracker.errors import RegistrationError
 from tracker.geometry import Array
 from tracker.registration.record import Registration
 
-MOST_MM = 2.0
+MAX_MM = 2.0
 # Nearer to a landmark that was used, a check repeats what the fit has made small already.
-LEAST_APART_MM = 5.0
+MIN_APART_MM = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,19 +24,19 @@ class LandmarkCheck:
         distance_mm: between tip and landmark.
         off_mm: (3,) tip minus landmark to the patient's left, back and head.
         sd_mm: how unsure that distance is (3-D RMS) by what registration and tip state.
-        most_mm: what was allowed.
+        max_mm: what was allowed.
     """
 
     landmark: str
     distance_mm: float
     off_mm: Array
     sd_mm: float
-    most_mm: float
+    max_mm: float
 
     @property
     def passed(self) -> bool:
         """Whether navigation may go on."""
-        return self.distance_mm <= self.most_mm
+        return self.distance_mm <= self.max_mm
 
     def failures(self) -> tuple[RegistrationError, ...]:
         """What keeps navigation from going on; nothing where the check passes."""
@@ -47,9 +47,9 @@ class LandmarkCheck:
             RegistrationError(
                 "LANDMARK_CHECK_FAILED",
                 f"on '{self.landmark}' the tip seems to be {self.distance_mm:.1f} mm off, allowed "
-                f"{self.most_mm:g} mm (left {left:+.1f}, back {back:+.1f}, head {head:+.1f} mm)",
+                f"{self.max_mm:g} mm (left {left:+.1f}, back {back:+.1f}, head {head:+.1f} mm)",
                 "Touch it again; if that stays, patient or reference has moved: register again.",
-                {"landmark": self.landmark, "distance_mm": self.distance_mm, "allowed_mm": self.most_mm},
+                {"landmark": self.landmark, "distance_mm": self.distance_mm, "allowed_mm": self.max_mm},
             ),
         )
 
@@ -62,7 +62,7 @@ def check_landmark(
     *,
     used_mm: Mapping[str, npt.ArrayLike],
     tip_covariance_mm2: npt.ArrayLike | None = None,
-    most_mm: float = MOST_MM,
+    max_mm: float = MAX_MM,
 ) -> LandmarkCheck:
     """The distance of the tip (3,) from a landmark (3,) of the CT, by a registration that did not use it.
 
@@ -81,11 +81,11 @@ def check_landmark(
         )
     for name, place in used_mm.items():
         apart = float(np.linalg.norm(np.asarray(place, dtype=np.float64) - at))
-        if name == landmark or apart < LEAST_APART_MM:
+        if name == landmark or apart < MIN_APART_MM:
             raise RegistrationError(
                 "LANDMARK_WAS_USED",
                 f"'{landmark}' lies {apart:.1f} mm from '{name}', which the registration was made with; "
-                f"needed {LEAST_APART_MM:g} mm",
+                f"needed {MIN_APART_MM:g} mm",
                 "Check on another landmark: one that was used fits by construction.",
                 {"landmark": landmark, "used": name, "apart_mm": apart},
             )
@@ -100,5 +100,5 @@ def check_landmark(
         distance_mm=float(np.linalg.norm(off)),
         off_mm=off,
         sd_mm=float(np.sqrt(np.trace(covariance))),
-        most_mm=most_mm,
+        max_mm=max_mm,
     )

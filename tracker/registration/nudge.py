@@ -67,8 +67,8 @@ class Nudge:
 class NudgeLimits:
     """How far all nudges together may lead from the registration as it was made."""
 
-    most_mm: float = 5.0
-    most_deg: float = 5.0
+    max_mm: float = 5.0
+    max_deg: float = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,14 +107,14 @@ class NudgedRegistration:
         after = replace(self, nudges=(*self.nudges, nudge))
         shift_mm, turn_deg = after.shift_mm, after.turn_deg
         # What leads back is always let through, also where limits were made narrower meanwhile.
-        too_far = shift_mm > max(self.limits.most_mm, self.shift_mm) + ROUNDING
-        too_turned = turn_deg > max(self.limits.most_deg, self.turn_deg) + ROUNDING
+        too_far = shift_mm > max(self.limits.max_mm, self.shift_mm) + ROUNDING
+        too_turned = turn_deg > max(self.limits.max_deg, self.turn_deg) + ROUNDING
         if too_far or too_turned:
             raise RegistrationError(
                 "NUDGE_TOO_FAR",
                 f"with this nudge the registration would be {shift_mm:.1f} mm and {turn_deg:.1f} deg "
-                f"from where it was made, allowed {self.limits.most_mm:g} mm and "
-                f"{self.limits.most_deg:g} deg",
+                f"from where it was made, allowed {self.limits.max_mm:g} mm and "
+                f"{self.limits.max_deg:g} deg",
                 "Undo nudges, or register again: what is this far off is no matter of nudging.",
                 {"shift_mm": shift_mm, "turn_deg": turn_deg},
             )

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from tracker.errors import InvalidInput
 
-MOST_S, MOST_MM, MOST_DEG = 1e5, 60.0, 20.0
+MAX_S, MAX_MM, MAX_DEG = 1e5, 60.0, 20.0
 
 
 class EventKind(StrEnum):
@@ -45,7 +45,7 @@ class Event:
     size_deg: float = 2.0
 
     def __post_init__(self) -> None:
-        for key, most in (("at_s", MOST_S), ("size_mm", MOST_MM), ("size_deg", MOST_DEG)):
+        for key, most in (("at_s", MAX_S), ("size_mm", MAX_MM), ("size_deg", MAX_DEG)):
             value = float(getattr(self, key))
             if not 0.0 <= value <= most:
                 raise refused(f"events.{key}", value, f"a number from 0 to {most:g}")

@@ -14,14 +14,14 @@ HOP_S = 2.2
 STROKE_S, STROKE_HOP_S = 2.6, 1.2
 # What a hop between two landmarks must clear: spinous process, needles' feet.
 HOP_HEIGHT_MM = 80.0
-STROKE_HEIGHT_MM, LEAST_LIFT_MM = 26.0, 24.0
+STROKE_HEIGHT_MM, MIN_LIFT_MM = 26.0, 24.0
 # A hand lands beside a landmark by this much (SD in each of two directions), and trembles on it.
 LANDING_SD_MM = 0.15
 SHAKE_HZ = np.array([1.3, 8.4, 9.3, 10.6])
 SHAKE_MM = np.array([0.05, 0.06, 0.055, 0.04])
 PRESSED_RATIO = 0.45  # across the surface a tip shakes more than into it
 SHAKE_DEG = 0.25
-LEAN_RATIO, MOST_LEAN_DEG = 0.45, 16.0
+LEAN_RATIO, MAX_LEAN_DEG = 0.45, 16.0
 
 # A stroke: its ends inside the bone, the ways out to the surface there, and how far it zigzags along z.
 Stroke = tuple[
@@ -186,7 +186,7 @@ def _held(points_mm: Array, outwards: Array, rest: Rigid[Vertebra, Tool]) -> Arr
     # From straight down (0, 0, 1) towards the surface's own direction.
     sideways = np.hypot(inwards[:, 0], inwards[:, 1])
     angle_deg = np.degrees(np.arctan2(sideways, inwards[:, 2]))
-    lean_deg = np.clip(LEAN_RATIO * angle_deg, 0.0, MOST_LEAN_DEG)
+    lean_deg = np.clip(LEAN_RATIO * angle_deg, 0.0, MAX_LEAN_DEG)
     axis = np.stack([-inwards[:, 1], inwards[:, 0], np.zeros(len(inwards))], axis=1)
     axis /= np.maximum(sideways, 1e-9)[:, None]
     return np.hstack([tips, lean_deg[:, None] * axis])
@@ -205,7 +205,7 @@ def _hop(before: Stay, after: Stay, hop_s: float, height_mm: float, rest: Rigid[
     from_mm, to_mm = before.points_mm[-1], after.points_mm[0]
     # The spinous process and the needles stand between left and right.
     height_mm = HOP_HEIGHT_MM if from_mm[0] * to_mm[0] < -20.0 else height_mm
-    above = np.maximum(height_mm - np.array([from_mm[1], to_mm[1]]), LEAST_LIFT_MM)
+    above = np.maximum(height_mm - np.array([from_mm[1], to_mm[1]]), MIN_LIFT_MM)
     back = rest.rotation.T @ np.array([0.0, 1.0, 0.0])
     over_a, over_b = a + above[0] * back, b + above[1] * back
     weights = [(1 - share) ** 3, 3 * (1 - share) ** 2 * share, 3 * (1 - share) * share**2, share**3]

@@ -20,7 +20,7 @@ NEGLIGIBLE_RATIO = 0.02
 # OpenCV counts the taps of a filter from 8 bit to 8 bit in 1/256; they must add up to 1 in these.
 FIXED_POINT = 256.0
 # More taps are too small for that.
-MOST_FIXED_TAPS = 15
+MAX_FIXED_TAPS = 15
 
 # A Gaussian that is sampled once a pixel has less variance than its formula says: the formula's sigma by the
 # variance of the samples.
@@ -49,7 +49,7 @@ class PointSpread:
 
     def of(self, layer: Image8) -> Image8:
         """What it makes of a layer (h, w, channels); beyond its borders the layer goes on as it ends."""
-        if len(self.along_x) == 1 and self.along_x.shape[1] <= MOST_FIXED_TAPS:
+        if len(self.along_x) == 1 and self.along_x.shape[1] <= MAX_FIXED_TAPS:
             soft = cv2.sepFilter2D(
                 layer, -1, self.along_x[0], self.along_y[0], borderType=cv2.BORDER_REPLICATE
             )
@@ -106,7 +106,7 @@ def _even_or_odd(taps: Array) -> Array:
 
 def _in_256ths(taps: Array) -> Array:
     """The taps (k,) as (1, k), few ones in 1/256, that add up to 1; the middle one takes what is over."""
-    if len(taps) > MOST_FIXED_TAPS:
+    if len(taps) > MAX_FIXED_TAPS:
         return np.asarray(taps[None] / taps.sum(), dtype=np.float64)
     out = np.rint(taps / taps.sum() * FIXED_POINT)
     out[len(out) // 2] += FIXED_POINT - out.sum()

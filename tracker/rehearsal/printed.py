@@ -15,7 +15,7 @@ Image8 = npt.NDArray[np.uint8]
 Frame = TypeVar("Frame")
 
 # To a pixel's side. Where few samples are taken, what is printed is softened before.
-FEWEST_SAMPLES, MOST_SAMPLES = 1, 4
+FEWEST_SAMPLES, MAX_SAMPLES = 1, 4
 # A Gaussian of half a sample's distance lets an edge wander by 0.002 px with its place among the samples.
 SOFT_PER_SAMPLE = 0.5
 SOFTER = 2.0**0.25
@@ -69,14 +69,14 @@ class PrintedPlane:
         three[:, :2] = (middle + np.array([[0, 0], [1, 0], [0, 1]])) / self._per_mm
         px = camera.px_from_camera(camera_from_plane.move_points(three))
         largest, smallest = np.linalg.svd(px[1:] - px[0], compute_uv=False)
-        for samples in range(fewest, MOST_SAMPLES):
+        for samples in range(fewest, MAX_SAMPLES):
             level = int(np.ceil(np.log(SOFT_PER_SAMPLE / samples / smallest) / np.log(SOFTER)))
             # A sample between pixels of the face softens it, too: by 1/6 in the mean.
             face_px2 = SOFTER ** (2 * level) + 1.0 / 6.0
             drawn_px2 = float(largest * smallest * face_px2 - 1.0 / (12.0 * samples**2))
             if drawn_px2 <= blur_px2:
                 return Sampled(face=self._softened_at(level), samples=samples, drawn_px2=drawn_px2)
-        return Sampled(face=self._face, samples=MOST_SAMPLES, drawn_px2=0.0)
+        return Sampled(face=self._face, samples=MAX_SAMPLES, drawn_px2=0.0)
 
     def outline_px(self, camera: CameraModel, camera_from_plane: Rigid[Camera, Frame]) -> Array:
         """Its outline (n, 2) in the image, with sides as the lens bends them."""

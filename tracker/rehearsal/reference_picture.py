@@ -12,7 +12,7 @@ from tracker.rehearsal.drill import BOARD_EDGE_GREY, BOARD_PER_MM, BOARD_THICK_M
 from tracker.rehearsal.lamp import lit
 from tracker.rehearsal.lens import Box, RayGrid
 from tracker.rehearsal.placement import Placement, Room
-from tracker.rehearsal.printed import MOST_SAMPLES, PrintedPlane, Sampled, covered_px
+from tracker.rehearsal.printed import MAX_SAMPLES, PrintedPlane, Sampled, covered_px
 from tracker.rehearsal.reference import (
     CLAMP_IN_VERTEBRA_MM,
     REFERENCE_HALF_MM,
@@ -87,7 +87,7 @@ def lay_reference(
     outline = plane.outline_px(camera, pose)
     layer = board_layer(
         plane,
-        plane.sampled(camera, pose, fewest=MOST_SAMPLES),
+        plane.sampled(camera, pose, fewest=MAX_SAMPLES),
         box=box,
         rays=rays,
         pose=pose,

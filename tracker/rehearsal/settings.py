@@ -8,7 +8,7 @@ from tracker.rehearsal.events import Event, refused
 
 HARDEST = 10.0
 SIDE_PX = (160, 4096)
-LEAST_REST_S, LONGEST_REST_S = 0.5, 60.0
+MIN_REST_S, LONGEST_REST_S = 0.5, 60.0
 
 
 class Scene(StrEnum):
@@ -79,8 +79,8 @@ class TheatreSettings:
             raise refused("seed", self.seed, f"a whole number from 0 to {2**32 - 1}")
         if not all(SIDE_PX[0] <= side <= SIDE_PX[1] for side in self.size_wh_px):
             raise refused("size_wh_px", self.size_wh_px, f"sides from {SIDE_PX[0]} to {SIDE_PX[1]} px")
-        if not LEAST_REST_S <= self.rest_s <= LONGEST_REST_S:
-            raise refused("rest_s", self.rest_s, f"seconds from {LEAST_REST_S:g} to {LONGEST_REST_S:g}")
+        if not MIN_REST_S <= self.rest_s <= LONGEST_REST_S:
+            raise refused("rest_s", self.rest_s, f"seconds from {MIN_REST_S:g} to {LONGEST_REST_S:g}")
         for name in ("noise", "blur", "clutter", "light"):
             value = float(getattr(self, name))
             if not (math.isfinite(value) and 0.0 <= value <= HARDEST):

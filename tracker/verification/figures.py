@@ -13,7 +13,7 @@ from tracker.verification.held import Held
 from tracker.verification.rows import ImageRow, RegistrationRow, TheatreRows, Variant, Way
 
 # What is stated as 95 % should hold the truth in so many cases.
-LEAST_COVERED, MOST_COVERED = 0.92, 0.98
+MIN_COVERED, MAX_COVERED = 0.92, 0.98
 QUANTITIES = {"entry": "mm", "angle": "deg", "depth": "mm", "tip": "mm"}
 
 
@@ -33,7 +33,7 @@ class Share:
     @property
     def is_outside(self) -> bool:
         """Whether it surely lies outside of what is allowed to a stated 95 %."""
-        return self.of > 0 and (self.high < LEAST_COVERED or self.low > MOST_COVERED)
+        return self.of > 0 and (self.high < MIN_COVERED or self.low > MAX_COVERED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,7 +124,7 @@ class Figures:
             found += [
                 f"{name}: the stated 95 % of the {quantity} hold the truth in {figures.covered.ratio:.1%} "
                 f"({figures.covered.low:.1%} to {figures.covered.high:.1%}), allowed "
-                f"{LEAST_COVERED:.0%} to {MOST_COVERED:.0%}"
+                f"{MIN_COVERED:.0%} to {MAX_COVERED:.0%}"
                 for quantity, figures in one.quantities.items()
                 if figures.covered.is_outside
             ]

@@ -45,7 +45,7 @@ CoefficientsOption = Annotated[
 ]
 RmsOption = Annotated[
     float | None,
-    typer.Option("--most-rms-px", help="Allowed RMS; calibration.most_rms_px if left out.", metavar="PX"),
+    typer.Option("--max-rms-px", help="Allowed RMS; calibration.max_rms_px if left out.", metavar="PX"),
 ]
 ConfigOption = Annotated[
     Path | None,
@@ -75,7 +75,7 @@ def calibrate(
     camera_name: CameraNameOption = None,
     camera_source: CameraSourceOption = None,
     coefficients: CoefficientsOption = None,
-    most_rms_px: RmsOption = None,
+    max_rms_px: RmsOption = None,
     plots: PlotsOption = None,
     json: JsonOption = False,
     config: ConfigOption = None,
@@ -105,7 +105,7 @@ def calibrate(
         camera_name=camera_name,
         camera_source=camera_source,
         coefficients=coefficients,
-        most_rms_px=most_rms_px,
+        max_rms_px=max_rms_px,
         config=config,
     )
     raise typer.Exit(calibrate_camera(order, as_json=json))
@@ -130,7 +130,7 @@ def calibrate_rig(
     output: Annotated[
         Path | None, typer.Option(help="Rig file that is written, as rig.yaml.", metavar="FILE")
     ] = None,
-    most_rms_px: RmsOption = None,
+    max_rms_px: RmsOption = None,
     json: JsonOption = False,
     config: ConfigOption = None,
 ) -> None:
@@ -147,7 +147,5 @@ def calibrate_rig(
         fiducials=fiducials,
         layout=layout,
     )
-    order = RigOrder(
-        cameras=tuple(camera), board=board, output=output, most_rms_px=most_rms_px, config=config
-    )
+    order = RigOrder(cameras=tuple(camera), board=board, output=output, max_rms_px=max_rms_px, config=config)
     raise typer.Exit(calibrate_cameras(order, as_json=json))

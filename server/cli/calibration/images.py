@@ -13,7 +13,7 @@ from server.picture_file import decoded
 from tracker.errors import CalibrationError, InvalidInput
 
 ENDINGS = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp", ".pgm", ".ppm"}
-LEAST_SIDE_PX = 16
+MIN_SIDE_PX = 16
 REMEDY = "Give images of the board: files, a folder, or a pattern as 'images/*.png'."
 
 
@@ -77,9 +77,9 @@ def read_picture(file: Path, name: str) -> Picture | Unusable:
     image = decoded(content)
     if image is None:
         return Unusable(name=name, sentence=f"its {len(content)} bytes are no image")
-    if min(image.shape[:2]) < LEAST_SIDE_PX:
+    if min(image.shape[:2]) < MIN_SIDE_PX:
         size = f"{image.shape[1]}x{image.shape[0]}"
-        return Unusable(name=name, sentence=f"it has {size} px, needed are {LEAST_SIDE_PX}x{LEAST_SIDE_PX}")
+        return Unusable(name=name, sentence=f"it has {size} px, needed are {MIN_SIDE_PX}x{MIN_SIDE_PX}")
     return Picture(name=name, image=image)
 
 

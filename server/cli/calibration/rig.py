@@ -29,7 +29,7 @@ class RigOrder:
     cameras: tuple[str, ...]
     board: BoardOptions
     output: Path | None
-    most_rms_px: float | None
+    max_rms_px: float | None
     config: Path | None
 
 
@@ -40,7 +40,7 @@ def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
         NavigationError: images, board or views cannot be used, or a file cannot be written.
     """
     config = load_config(order.config)
-    most_rms_px = config.calibration.most_rms_px if order.most_rms_px is None else order.most_rms_px
+    max_rms_px = config.calibration.max_rms_px if order.max_rms_px is None else order.max_rms_px
     files_from_camera = _files(order.cameras)
     boards = boards_of(order.board)
     with shown_steps() as steps:
@@ -56,19 +56,19 @@ def calibrate_cameras(order: RigOrder, *, as_json: bool) -> int:
         for index in range(len(names))
     ]
     report = calibrate_rig(shots, reports, names=names)
-    passed = report.rms_px <= most_rms_px
+    passed = report.rms_px <= max_rms_px
     whole = _whole(report, reports)
     if passed and order.output is not None:
         text = yaml.safe_dump({**whole, "boards": [described(board) for board in boards]}, sort_keys=False)
         write_whole(order.output, text.encode())
     if as_json:
-        typer.echo(json.dumps({**whole, "most_rms_px": most_rms_px, "passed": passed}, allow_nan=False))
+        typer.echo(json.dumps({**whole, "max_rms_px": max_rms_px, "passed": passed}, allow_nan=False))
     else:
-        _tell(report, most_rms_px)
+        _tell(report, max_rms_px)
     if not passed:
         typer.echo(
-            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {most_rms_px:g} px.\n"
-            "Take images of all cameras at the same instant, or allow more with --most-rms-px.",
+            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {max_rms_px:g} px.\n"
+            "Take images of all cameras at the same instant, or allow more with --max-rms-px.",
             err=True,
         )
     return 0 if passed else FAILED
@@ -140,9 +140,9 @@ def _camera(camera: RigCamera) -> dict[str, object]:
     }
 
 
-def _tell(report: RigReport, most_rms_px: float) -> None:
+def _tell(report: RigReport, max_rms_px: float) -> None:
     typer.echo(
-        f"RMS {report.rms_px:.3f} px (allowed {most_rms_px:g} px), {report.shared_shots} shared views of "
+        f"RMS {report.rms_px:.3f} px (allowed {max_rms_px:g} px), {report.shared_shots} shared views of "
         f"{len(report.shots)}."
     )
     for camera in report.cameras:

@@ -37,7 +37,7 @@ class CalibrationOrder:
     camera_name: str | None
     camera_source: str | None
     coefficients: int | None
-    most_rms_px: float | None
+    max_rms_px: float | None
     config: Path | None
 
 
@@ -65,7 +65,7 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
         NavigationError: the images, the board or the views cannot be used, or a file cannot be written.
     """
     config = load_config(order.config)
-    most_rms_px = config.calibration.most_rms_px if order.most_rms_px is None else order.most_rms_px
+    max_rms_px = config.calibration.max_rms_px if order.max_rms_px is None else order.max_rms_px
     boards = boards_of(order.board)
     files = files_of(order.images)
     _refuse_writing_over(order.output, files)
@@ -82,7 +82,7 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
         shown = [sight[at] for sight in looked.seen if at < len(sight)]
         report = with_board_judged(report, [one for one in shown if isinstance(one, BoardView)], board)
     entries = entries_of(looked.names, looked.seen, report)
-    passed = report.rms_px <= most_rms_px
+    passed = report.rms_px <= max_rms_px
     written = _write(order, report, entries, looked.boards) if passed else ()
     if as_json:
         typer.echo(
@@ -90,19 +90,19 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
                 report,
                 entries,
                 boards=[described(board) for board in looked.boards],
-                more={"most_rms_px": most_rms_px, "passed": passed, "files": [str(one) for one in written]},
+                more={"max_rms_px": max_rms_px, "passed": passed, "files": [str(one) for one in written]},
             )
         )
     else:
-        tell(report, entries, most_rms_px=most_rms_px)
+        tell(report, entries, max_rms_px=max_rms_px)
         if written:
             typer.echo(f"Wrote {', '.join(map(str, written))}.")
         if passed and order.output is None:
             typer.echo("No camera file was written: name one with --output camera.yaml.")
     if not passed:
         typer.echo(
-            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {most_rms_px:g} px.\n"
-            "Take sharp images of a flat, stiff board, or allow more with --most-rms-px.",
+            f"Error: points lie off by {report.rms_px:.3f} px RMS, allowed {max_rms_px:g} px.\n"
+            "Take sharp images of a flat, stiff board, or allow more with --max-rms-px.",
             err=True,
         )
     return 0 if passed else FAILED

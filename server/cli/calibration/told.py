@@ -84,7 +84,7 @@ def json_of(
     return json.dumps(whole, allow_nan=False)
 
 
-def tell(report: CalibrationReport, entries: Sequence[ImageEntry], *, most_rms_px: float) -> None:
+def tell(report: CalibrationReport, entries: Sequence[ImageEntry], *, max_rms_px: float) -> None:
     """Print the report."""
     console = Console(file=sys.stdout, width=None if sys.stdout.isatty() else WIDTH_WITHOUT_TERMINAL)
     used = sum(entry.used for entry in entries)
@@ -113,15 +113,15 @@ def tell(report: CalibrationReport, entries: Sequence[ImageEntry], *, most_rms_p
             one.name, *(f"{value:.{digits}f}" for value in (one.value, one.sd, one.low_95, one.high_95))
         )
     console.print(numbers, markup=False)
-    for sentence in _sentences(report, most_rms_px):
+    for sentence in _sentences(report, max_rms_px):
         console.print(sentence, highlight=False, markup=False)
 
 
-def _sentences(report: CalibrationReport, most_rms_px: float) -> list[str]:
+def _sentences(report: CalibrationReport, max_rms_px: float) -> list[str]:
     coverage = report.coverage
     width, height = report.camera.size_wh_px
     said = [
-        f"RMS {report.rms_px:.3f} px (allowed {most_rms_px:g} px), {width}x{height} px, "
+        f"RMS {report.rms_px:.3f} px (allowed {max_rms_px:g} px), {width}x{height} px, "
         f"fy/fx {report.pixel_aspect_ratio:.4f}.",
         f"Points lie in {100 * coverage.cells_ratio:.0f} % of the image's cells, and reach to its corners "
         + ", ".join(f"{100 * reach:.0f} %" for reach in coverage.corner_reach_ratios)

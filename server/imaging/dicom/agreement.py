@@ -8,12 +8,12 @@ import numpy as np
 from server.imaging.dicom.frame import Frame
 from server.imaging.dicom.pixels import check_readable
 from server.imaging.dicom.series import check_one_patient
-from server.imaging.voxels import LEAST_HU, MOST_HU, check_voxels
+from server.imaging.voxels import MAX_HU, MIN_HU, check_voxels
 from tracker.errors import InvalidInput
-from tracker.plan.stack import EXPORT_AGAIN, MOST_JITTER_MM, Stack
+from tracker.plan.stack import EXPORT_AGAIN, MAX_JITTER_MM, Stack
 
-MOST_SIDE_PX = 8192
-LEAST_PIXEL_MM, MOST_PIXEL_MM = 0.02, 10.0
+MAX_SIDE_PX = 8192
+MIN_PIXEL_MM, MAX_PIXEL_MM = 0.02, 10.0
 THICK_MM = 3.0
 TOLD_JITTER_MM = 0.02
 IS_HU = {"", "HU", "HU_MOD", "US"}
@@ -62,16 +62,16 @@ def _check_geometry(frames: list[Frame]) -> None:
         np.isfinite(spacings).all()
         and np.isfinite([frame.position_lps_mm for frame in frames]).all()
         and min(columns, rows) >= 2
-        and max(columns, rows) <= MOST_SIDE_PX
-        and least >= LEAST_PIXEL_MM
-        and most <= MOST_PIXEL_MM
+        and max(columns, rows) <= MAX_SIDE_PX
+        and least >= MIN_PIXEL_MM
+        and most <= MAX_PIXEL_MM
     ):
         raise InvalidInput(
             "CT_PIXELS_INVALID",
             f"the slices are declared as {columns} x {rows} pixels of {least:g} to {most:g} mm, allowed 2 to "
-            f"{MOST_SIDE_PX} pixels a side of {LEAST_PIXEL_MM} to {MOST_PIXEL_MM:.0f} mm",
+            f"{MAX_SIDE_PX} pixels a side of {MIN_PIXEL_MM} to {MAX_PIXEL_MM:.0f} mm",
             EXPORT_AGAIN,
-            {"columns": columns, "rows": rows, "least_mm": least, "most_mm": most},
+            {"columns": columns, "rows": rows, "min_mm": least, "max_mm": most},
         )
     check_voxels((len(frames), rows, columns))
     spaces = {frame.shared.space for frame in frames} - {""}
@@ -128,7 +128,7 @@ def said_of(frames: list[Frame], stack: Stack, beyond: int) -> list[str]:
         said.append(f"{doubles} slices were there twice with the same pixels, and are used once.")
     if stack.jitter_mm > TOLD_JITTER_MM:
         said.append(
-            f"A slice lies up to {stack.jitter_mm:.2f} mm from its even place; up to {MOST_JITTER_MM:.1f} mm "
+            f"A slice lies up to {stack.jitter_mm:.2f} mm from its even place; up to {MAX_JITTER_MM:.1f} mm "
             "are tolerated."
         )
     if stack.tilt_deg > 0.05:
@@ -154,7 +154,7 @@ def said_of(frames: list[Frame], stack: Stack, beyond: int) -> list[str]:
         said.append("The scanner does not call its numbers plain Hounsfield units; they are taken as such.")
     if beyond:
         said.append(
-            f"{beyond} voxels lay beyond {LEAST_HU} to {MOST_HU} HU and were set to the nearest of both."
+            f"{beyond} voxels lay beyond {MIN_HU} to {MAX_HU} HU and were set to the nearest of both."
         )
     if not first.owner.identifier and not first.owner.name:
         said.append("The files do not tell whose CT this is; make sure that it is this patient's.")

@@ -24,9 +24,9 @@ from server.imaging.dicom import worker
 # Whole numbers of any size, with or without sign, as the file holds them.
 Stored: TypeAlias = npt.NDArray[np.integer[Any]]
 # Each holds 75 MiB while it runs.
-MOST_PROCESSES = 2
+MAX_PROCESSES = 2
 # A decoder that is silent for so long is stuck.
-MOST_SECONDS = 60.0
+MAX_SECONDS = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +56,7 @@ class _Process:
 
     def decode(self, one: Encoded) -> Stored | None:
         """The pixels (rows, columns), or None where they cannot be decoded."""
-        timer = threading.Timer(MOST_SECONDS, self.process.kill)
+        timer = threading.Timer(MAX_SECONDS, self.process.kill)
         timer.start()
         try:
             worker.write_message(cast("Any", self.process.stdin), one.options, one.content)
@@ -120,7 +120,7 @@ def _decoders() -> Iterator[_Decoders]:
 
 def decoded(images: Iterable[Encoded]) -> Iterator[tuple[int, Stored | None]]:
     """Each image's index and its pixels (rows, columns), in their order; None where one cannot be decoded."""
-    count = max(1, min(MOST_PROCESSES, os.cpu_count() or 1))
+    count = max(1, min(MAX_PROCESSES, os.cpu_count() or 1))
     waiting: deque[Future[tuple[int, Stored | None]]] = deque()
     with _decoders() as decoders, ThreadPoolExecutor(count, thread_name_prefix="decode") as threads:
         for one in images:

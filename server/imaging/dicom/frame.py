@@ -9,7 +9,7 @@ from server.imaging.container import Entry
 from server.imaging.dicom.header import BAD_DICOM, CT_CLASSES, NotUsed, number, numbers, text, words
 
 SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
-MOST_FRAMES = 20_000
+MAX_FRAMES = 20_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,8 +69,8 @@ def frames_of(entry: Entry, header: Dataset) -> list[Frame] | NotUsed:
     shared = _shared(entry, header)
     if shared.frames == 1 and "PerFrameFunctionalGroupsSequence" not in header:
         return [_frame(shared, 0, header, header)]
-    if shared.frames > MOST_FRAMES:
-        return NotUsed(reason=f"files that declare more than {MOST_FRAMES} images")
+    if shared.frames > MAX_FRAMES:
+        return NotUsed(reason=f"files that declare more than {MAX_FRAMES} images")
     try:
         common = _only(header, "SharedFunctionalGroupsSequence")
         groups = list(header.get("PerFrameFunctionalGroupsSequence") or [])

@@ -14,7 +14,7 @@ import pydicom
 from pydicom.dataset import Dataset
 from pydicom.errors import BytesLengthException, InvalidDicomError
 
-from server.imaging.container import BAD_ARCHIVE, MOST_BYTES, Entry
+from server.imaging.container import BAD_ARCHIVE, MAX_BYTES, Entry
 from server.imaging.nifti import is_nifti
 
 # pydicom's words may quote what a file holds, and that may be the patient's name.
@@ -144,7 +144,7 @@ def _inflates(file: BinaryIO) -> bool:
         while block:
             unpacked += len(unpack.decompress(block, 2**24))
             block = unpack.unconsumed_tail
-            if unpacked > MOST_BYTES // 8:
+            if unpacked > MAX_BYTES // 8:
                 return False
     return True
 

@@ -6,7 +6,7 @@ import numpy.typing as npt
 from server.imaging.dicom.decoding import Stored
 from server.imaging.dicom.frame import Frame, Shared
 from server.imaging.dicom.pixels import is_encoded
-from server.imaging.voxels import LEAST_HU, MOST_HU, NOTHING_HU
+from server.imaging.voxels import MAX_HU, MIN_HU, NOTHING_HU
 
 
 def hounsfield(stored: Stored, frame: Frame) -> tuple[npt.NDArray[np.int16], int]:
@@ -24,8 +24,8 @@ def hounsfield(stored: Stored, frame: Frame) -> tuple[npt.NDArray[np.int16], int
         hu = np.rint(values.astype(np.float64) * slope + intercept)
     if padded is not None:
         hu = np.where(padded, np.asarray(NOTHING_HU, dtype=hu.dtype), hu)
-    beyond = int(np.count_nonzero((hu < LEAST_HU) | (hu > MOST_HU)))
-    return np.clip(hu, LEAST_HU, MOST_HU).astype(np.int16), beyond
+    beyond = int(np.count_nonzero((hu < MIN_HU) | (hu > MAX_HU)))
+    return np.clip(hu, MIN_HU, MAX_HU).astype(np.int16), beyond
 
 
 def _without_unused_bits(stored: Stored, shared: Shared) -> Stored:

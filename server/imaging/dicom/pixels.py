@@ -15,7 +15,7 @@ from server.imaging.dicom.header import BAD_DICOM, quietly
 from tracker.errors import InvalidInput
 
 # Of one slice, whatever else its file holds; more would be read into memory at once.
-MOST_SLICE_BYTES = 2**29
+MAX_SLICE_BYTES = 2**29
 END_OF_IMAGE = b"\xff\xd9"
 SEND_AGAIN = "Copy or export the series again; a slice that breaks off cannot be repaired."
 UNCOMPRESSED = "Export the series again uncompressed, or with lossless JPEG 2000, JPEG-LS, JPEG or RLE."
@@ -47,13 +47,13 @@ def check_readable(shared: Shared) -> None:
             UNCOMPRESSED,
             {"transfer_syntax": shared.compression, "bits": stored},
         )
-    if shared.frames == 1 and shared.entry.size > MOST_SLICE_BYTES:
+    if shared.frames == 1 and shared.entry.size > MAX_SLICE_BYTES:
         raise InvalidInput(
             "CT_SLICE_TOO_LARGE",
             f"a slice has a file of {shared.entry.size / 2**20:.0f} MiB, allowed "
-            f"{MOST_SLICE_BYTES / 2**20:.0f} MiB",
+            f"{MAX_SLICE_BYTES / 2**20:.0f} MiB",
             UNCOMPRESSED,
-            {"bytes": shared.entry.size, "most_bytes": MOST_SLICE_BYTES},
+            {"bytes": shared.entry.size, "max_bytes": MAX_SLICE_BYTES},
         )
     if allocated not in {8, 16, 32} or not 1 <= stored <= allocated or high != stored - 1:
         raise InvalidInput(

@@ -18,7 +18,7 @@ from pydicom.pixels.decoders.base import get_decoder
 from pydicom.uid import UID
 
 # What a stream may make a decoder take, however large an image it claims to hold.
-MOST_MEMORY_BYTES = 4 * 2**30
+MAX_MEMORY_BYTES = 4 * 2**30
 LENGTHS = struct.Struct("<II")
 
 
@@ -27,7 +27,7 @@ def main() -> None:
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource  # noqa: PLC0415  not there on every system
 
-        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY_BYTES, MOST_MEMORY_BYTES))
+        resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY_BYTES, MAX_MEMORY_BYTES))
     with contextlib.suppress(OSError):
         os.nice(10)  # The tracker's images come first.
     warnings.simplefilter("ignore")

@@ -10,7 +10,7 @@ from tracker.geometry import Array
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 UNITS = {0: ("unknown", 1.0), 1: ("metres", 1000.0), 2: ("mm", 1.0), 3: ("micrometres", 0.001)}
-LEAST_VOXEL_MM, MOST_VOXEL_MM = 0.02, 20.0
+MIN_VOXEL_MM, MAX_VOXEL_MM = 0.02, 20.0
 # Talairach and MNI: stretched onto an atlas, so that their millimetres are not the patient's.
 ATLAS_CODES = {3, 4, 5}
 CONVERT = "Convert the CT again with its geometry (dcm2niix does), or give its DICOM slices."
@@ -125,17 +125,17 @@ def _compared(sform: Array, qform: Array, shape_ijk: tuple[int, ...]) -> list[st
 
 def _check_size(affine: Array, unit: str) -> None:
     sizes = np.linalg.norm(affine[:3, :3], axis=0)
-    if sizes.min() >= LEAST_VOXEL_MM and sizes.max() <= MOST_VOXEL_MM:
+    if sizes.min() >= MIN_VOXEL_MM and sizes.max() <= MAX_VOXEL_MM:
         return
     told = " x ".join(f"{size:g}" for size in sizes)
     guess = ""
     for name, factor in (("metres", 1000.0), ("micrometres", 0.001)):
-        if sizes.min() * factor >= LEAST_VOXEL_MM and sizes.max() * factor <= MOST_VOXEL_MM:
+        if sizes.min() * factor >= MIN_VOXEL_MM and sizes.max() * factor <= MAX_VOXEL_MM:
             guess = f"; they would fit if they were in {name}"
     raise InvalidInput(
         "CT_VOXEL_SIZE_ODD",
-        f"the voxels are {told} mm large (unit in the file: {unit}), allowed {LEAST_VOXEL_MM} to "
-        f"{MOST_VOXEL_MM:.0f} mm{guess}",
+        f"the voxels are {told} mm large (unit in the file: {unit}), allowed {MIN_VOXEL_MM} to "
+        f"{MAX_VOXEL_MM:.0f} mm{guess}",
         CONVERT,
         {"voxel_mm": sizes.tolist(), "unit": unit},
     )

@@ -18,13 +18,13 @@ from server.imaging.nifti.header import (
     unpacked,
 )
 from server.imaging.plausible import refuse_beyond, said_of_values
-from server.imaging.voxels import LEAST_HU, MOST_HU, NOTHING_HU, Voxels, voxels_to_fill
+from server.imaging.voxels import MAX_HU, MIN_HU, NOTHING_HU, Voxels, voxels_to_fill
 from tracker.errors import InvalidInput
 from tracker.plan import Volume
 
 # Slices that are read at once: few, so that their unpacked numbers stay small beside the volume.
 AT_ONCE = 8
-MOST_NAN_RATIO = 0.5
+MAX_NAN_RATIO = 0.5
 
 
 def describe_nifti(entry: Entry) -> SeriesDescription:
@@ -74,7 +74,7 @@ def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Pat
         warnings.append(f"{missing} voxels are no numbers (NaN) and were set to {NOTHING_HU} HU.")
     if beyond:
         warnings.append(
-            f"{beyond} voxels lay beyond {LEAST_HU} to {MOST_HU} HU and were set to the nearest of both."
+            f"{beyond} voxels lay beyond {MIN_HU} to {MAX_HU} HU and were set to the nearest of both."
         )
     warnings.append("A NIfTI file does not tell whose CT this is; make sure that it is this patient's.")
     return Ct(
@@ -116,15 +116,15 @@ def _hounsfield(
     if count:
         values[lacking] = NOTHING_HU
     np.rint(values, out=values)
-    lost = int(np.count_nonzero((values < LEAST_HU) | (values > MOST_HU)))
-    return np.clip(values, LEAST_HU, MOST_HU).astype(np.int16), count, lost
+    lost = int(np.count_nonzero((values < MIN_HU) | (values > MAX_HU)))
+    return np.clip(values, MIN_HU, MAX_HU).astype(np.int16), count, lost
 
 
 def _check_missing(missing: int, voxels: int) -> None:
-    if missing > MOST_NAN_RATIO * voxels:
+    if missing > MAX_NAN_RATIO * voxels:
         raise InvalidInput(
             "CT_VALUES_MISSING",
-            f"{missing} of {voxels} voxels are no numbers (NaN), allowed {MOST_NAN_RATIO:.0%}",
+            f"{missing} of {voxels} voxels are no numbers (NaN), allowed {MAX_NAN_RATIO:.0%}",
             CONVERT_AGAIN,
             {"missing": missing, "voxels": voxels},
         )

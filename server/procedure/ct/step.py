@@ -23,7 +23,7 @@ from tracker.errors import NavigationError
 MAIN_CT = "main"
 # An upload that waits for somebody to choose a series.
 KEPT_S = 3600.0
-MOST_KEPT = 2
+MAX_KEPT = 2
 UPLOAD = "upload"
 
 
@@ -195,7 +195,7 @@ class CtStep:
         waiting = sorted((one for one in idle if one.is_kept), key=lambda one: -one.began_s)
         now_s = time.monotonic()
         for upload in idle:
-            if upload not in waiting[: MOST_KEPT - 1] or now_s - upload.began_s > KEPT_S:
+            if upload not in waiting[: MAX_KEPT - 1] or now_s - upload.began_s > KEPT_S:
                 self._forget(upload)
 
     def _is_read(self, upload: _Upload) -> bool:

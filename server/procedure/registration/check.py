@@ -26,16 +26,16 @@ class CheckStatus:
         vertebra: that is checked.
         tool: that touches.
         capture: of the tip on the landmark.
-        most_mm: how far the tip may be from where the plan has the landmark.
-        most_spread_mm: standard deviation that the tip may have while it is held there.
+        max_mm: how far the tip may be from where the plan has the landmark.
+        max_spread_mm: standard deviation that the tip may have while it is held there.
         outcome: what the case would keep; None until the tip was captured.
     """
 
     vertebra: str
     tool: str
     capture: TouchStatus
-    most_mm: float
-    most_spread_mm: float
+    max_mm: float
+    max_spread_mm: float
     outcome: KeptCheck | None
 
 
@@ -73,8 +73,8 @@ class CheckSession:
             vertebra=self.ground.vertebra.name,
             tool=self.ground.tool,
             capture=capture,
-            most_mm=self._gate.most_check_mm,
-            most_spread_mm=self._gate.most_capture_sd_mm,
+            max_mm=self._gate.max_check_mm,
+            max_spread_mm=self._gate.max_capture_sd_mm,
             outcome=None if capture.touched is None else self._outcome(capture, capture.touched),
         )
 
@@ -89,7 +89,7 @@ class CheckSession:
             landmark=capture.landmark,
             tool=self.ground.tool,
             distance_mm=held.distance_mm,
-            most_mm=held.most_mm,
+            max_mm=held.max_mm,
             passed=held.passed,
             run=self._run,
             from_s=capture.from_s or 0.0,
@@ -106,7 +106,7 @@ class CheckSession:
             touched.tip_in_anchor_mm,
             used_mm=used_mm(self.shelved),
             tip_covariance_mm2=touched.covariance_mm2,
-            most_mm=self._gate.most_check_mm,
+            max_mm=self._gate.max_check_mm,
         )
 
 

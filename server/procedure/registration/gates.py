@@ -16,6 +16,6 @@ def capture_settings(gate: RegistrationConfig) -> CaptureSettings:
         min_images=gate.capture_images,
         min_s=gate.capture_s,
         max_s=max(PATIENCE * gate.capture_s, gate.capture_images / MIN_RATE_HZ),
-        gap=GapLimit(max_s=gate.most_capture_gap_s),
-        max_sd_mm=gate.most_capture_sd_mm,
+        gap=GapLimit(max_s=gate.max_capture_gap_s),
+        max_sd_mm=gate.max_capture_sd_mm,
     )

@@ -55,7 +55,7 @@ class NudgeStep:
     ) -> None:
         self._grounds = grounds
         self._shelf = shelf
-        self._limits = NudgeLimits(most_mm=gate.most_nudge_mm, most_deg=gate.most_nudge_deg)
+        self._limits = NudgeLimits(max_mm=gate.max_nudge_mm, max_deg=gate.max_nudge_deg)
         self._clock = clock
 
     def status(self) -> NudgesStatus:

@@ -74,7 +74,7 @@ class PointsStep:
             RegistrationError: LANDMARKS_TOO_FEW.
         """
         ground = self._grounds.find(vertebra=vertebra, tool=tool)
-        there, needed = len(ground.vertebra.landmarks), self.gate.least_points
+        there, needed = len(ground.vertebra.landmarks), self.gate.min_points
         if there < needed:
             raise RegistrationError(
                 "LANDMARKS_TOO_FEW",
@@ -104,13 +104,13 @@ class PointsStep:
 
     def failures(self, status: PointsStatus) -> tuple[RegistrationError, ...]:
         """What keeps these points from being used; nothing where they pass their gate."""
-        if len(status.used) < self.gate.least_points:
+        if len(status.used) < self.gate.min_points:
             return (
                 RegistrationError(
                     "POINTS_TOO_FEW",
-                    f"{len(status.used)} landmarks are touched and used, needed {self.gate.least_points}",
+                    f"{len(status.used)} landmarks are touched and used, needed {self.gate.min_points}",
                     "Touch another landmark, or use one that was left out.",
-                    {"points": len(status.used), "needed": self.gate.least_points},
+                    {"points": len(status.used), "needed": self.gate.min_points},
                 ),
             )
         if status.fit is None:
@@ -118,10 +118,10 @@ class PointsStep:
             if trouble is None:
                 raise RuntimeError("neither a fit nor a trouble")
             return (RegistrationError(trouble.code, trouble.message, trouble.remedy, trouble.context),)
-        gate = PointGate(most_fre_mm=self.gate.most_fre_mm, most_tre_mm=self.gate.most_tre_mm)
+        gate = PointGate(max_fre_mm=self.gate.max_fre_mm, max_tre_mm=self.gate.max_tre_mm)
         return (
             *status.fit.failures(gate, list(status.ground.entries_mm)),
-            *strays(status.fit, most_mm=self.gate.most_left_out_mm),
+            *strays(status.fit, max_mm=self.gate.max_left_out_mm),
         )
 
     def conclude(self, *, made_by: str) -> Document:
@@ -155,11 +155,11 @@ class PointsStep:
         return {
             "points": int(fit.used.sum()),
             "fre_rms_mm": fit.fre_rms_mm,
-            "most_fre_mm": self.gate.most_fre_mm,
+            "max_fre_mm": self.gate.max_fre_mm,
             "left_out_mm": max(fit.left_out_mm.values(), default=None),
-            "most_left_out_mm": self.gate.most_left_out_mm,
+            "max_left_out_mm": self.gate.max_left_out_mm,
             "tre_at_entry_mm": max((error.stated_mm for error in entries), default=None),
-            "most_tre_mm": self.gate.most_tre_mm,
+            "max_tre_mm": self.gate.max_tre_mm,
         }
 
 
@@ -190,21 +190,21 @@ def touched_points(step: PointsStep) -> tuple[TouchedPoint, ...]:
     )
 
 
-def strays(fit: PointRegistration, *, most_mm: float) -> tuple[RegistrationError, ...]:
+def strays(fit: PointRegistration, *, max_mm: float) -> tuple[RegistrationError, ...]:
     """The landmark that lies farthest from where all others have it, if that is too far.
 
     One mistaken landmark among five draws the fit to itself, and the RMS of all hides it.
     """
     worst = max(fit.left_out_mm, key=lambda index: fit.left_out_mm[index], default=None)
-    if worst is None or fit.left_out_mm[worst] <= most_mm:
+    if worst is None or fit.left_out_mm[worst] <= max_mm:
         return ()
     name, far_mm = fit.pairs.labels[worst], fit.left_out_mm[worst]
     return (
         RegistrationError(
             "POINT_STRAYS",
-            f"'{name}' lies {far_mm:.2f} mm from where all other landmarks have it, allowed {most_mm:.2f} mm",
+            f"'{name}' lies {far_mm:.2f} mm from where all other landmarks have it, allowed {max_mm:.2f} mm",
             "Touch that landmark again, or leave it out.",
-            {"landmark": name, "left_out_mm": far_mm, "allowed_mm": most_mm},
+            {"landmark": name, "left_out_mm": far_mm, "allowed_mm": max_mm},
         ),
     )
 

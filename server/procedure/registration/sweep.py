@@ -30,7 +30,7 @@ from tracker.registration.surface import (
 )
 
 # Two minutes at 30 images a second; more says nothing new.
-MOST_POINTS = 3600
+MAX_POINTS = 3600
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,7 +110,7 @@ class SweepSession:
         self._image_number = snapshot.image_number
         tip = tip_of(snapshot, self._ground.tool, self._ground.reference)
         with self._lock:
-            if not self._taking or len(self._points) >= MOST_POINTS:
+            if not self._taking or len(self._points) >= MAX_POINTS:
                 return
             if not isinstance(tip, TipSample):
                 self._unseen += 1
@@ -146,7 +146,7 @@ class SweepStep:
         self._shelf = shelf
         self._procedure = procedure
         self._surfaces = surfaces
-        self._gate = SurfaceGate(most_rms_mm=gate.most_surface_rms_mm, most_tre_mm=gate.most_tre_mm)
+        self._gate = SurfaceGate(max_rms_mm=gate.max_surface_rms_mm, max_tre_mm=gate.max_tre_mm)
         self._lock = threading.Lock()
         self._nearest: tuple[str, NearestOnSurface] | None = None
         self._held: Held[SweepSession] = Held("sweep is", remedy="Begin a sweep, and say with which tool.")
@@ -249,11 +249,11 @@ class SweepStep:
             "points": len(found.used),
             "used_ratio": found.used_ratio,
             "rms_mm": found.rms_mm,
-            "most_rms_mm": self._gate.most_rms_mm,
+            "max_rms_mm": self._gate.max_rms_mm,
             "tre_at_entry_mm": max(
                 (found.tre_stated_mm(entry) for entry in status.ground.entries_mm), default=None
             ),
-            "most_tre_mm": self._gate.most_tre_mm,
+            "max_tre_mm": self._gate.max_tre_mm,
             "moved_mm": found.moved_mm,
             "moved_deg": found.moved_deg,
             "weakest_sd_mm": found.weakest.sd_mm if np.isfinite(found.weakest.sd_mm) else None,

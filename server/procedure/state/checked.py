@@ -53,12 +53,12 @@ def _of(kept: KeptCheck, check: Document, *, again_after_min: float, minutes: fl
     """Whether it passed, and is still young enough."""
     numbers: dict[str, Number] = {
         "distance_mm": kept.distance_mm,
-        "most_mm": kept.most_mm,
+        "max_mm": kept.max_mm,
         "landmark": kept.landmark,
         "age_min": minutes,
     }
     told = f"the tip on {kept.landmark} was {kept.distance_mm:.2f} mm from where the plan has it, allowed "
-    told += f"{kept.most_mm:.2f} mm"
+    told += f"{kept.max_mm:.2f} mm"
     if not kept.passed:
         state, remedy = StepState.FAILED, "Check again, nudge the registration, or register again."
     # A clock that was set back says nothing of the age.

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from server.security.person import Person
 
-MOST_TEXT = 200
+MAX_TEXT = 200
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,12 +34,12 @@ class Entry:
         """The line's own words, as JSON takes them; empty ones are left out."""
         line: dict[str, object] = {
             "who": {"id": self.who.id, "name": self.who.name, "role": self.who.role.value},
-            "what": self.what[:MOST_TEXT],
+            "what": self.what[:MAX_TEXT],
         }
         if self.address:
             line["address"] = self.address
         if self.of:
-            line["of"] = {key: value[:MOST_TEXT] for key, value in self.of.items()}
+            line["of"] = {key: value[:MAX_TEXT] for key, value in self.of.items()}
         if self.status is not None:
             line["status"] = self.status
         if self.code:

@@ -31,7 +31,7 @@ from tracker.errors import NavigationError
 AUDIT_FILE, HEAD_FILE, RESERVE_FILE = "audit.jsonl", "audit-head.json", "audit-reserve"
 # Room for some hundred lines on a full disk: whoever makes room there is in the log, too.
 RESERVE_BYTES = 128 * 1024
-MOST_WAITING = 2000
+MAX_WAITING = 2000
 REFUSED_A_MINUTE = 60
 log = structlog.get_logger(__name__)
 
@@ -81,7 +81,7 @@ class AuditLog:
         """
         line = {"at": self._now(), **entry.told()}
         with self._turn:
-            if len(self._waiting) < MOST_WAITING:
+            if len(self._waiting) < MAX_WAITING:
                 self._waiting.append(line)
             with told(self.folder):
                 self._write_waiting()

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 
 _noted: ContextVar[list[dict[str, object]] | None] = ContextVar("coaxial_audit_noted", default=None)
-MOST_CHANGES = 100
+MAX_CHANGES = 100
 
 
 @contextmanager
@@ -24,6 +24,6 @@ def note(change: dict[str, object]) -> bool:
     changes = _noted.get()
     if changes is None:
         return False
-    if len(changes) < MOST_CHANGES:
+    if len(changes) < MAX_CHANGES:
         changes.append(change)
     return True

@@ -30,7 +30,7 @@ PEOPLE_FILE = "people.json"
 OPERATOR_NAME = "Operator"
 OPERATOR_LINK_LASTS = timedelta(hours=24)
 # Who is in by one link: a hall of onlookers, and not a program that signs in again and again.
-MOST_BY_ONE_LINK = 20
+MAX_BY_ONE_LINK = 20
 # Each sign-in is a line of the audit log: a full hall twice in an hour, and no program that fills the disk.
 SIGN_INS_BY_ONE_LINK, SIGN_INS_WITHIN_S = 40, 3600.0
 REFUSED_BY_STATE = {
@@ -186,7 +186,7 @@ class PeopleDesk:
             if state is not InvitationState.OPEN:
                 raise REFUSED_BY_STATE[state]()
             by_it = sum(one.invitation_id == invitation.id for one in self.sessions())
-            if by_it >= MOST_BY_ONE_LINK:
+            if by_it >= MAX_BY_ONE_LINK:
                 raise InvitationRefused.full(by_it)
             wait_s = self._sign_ins.wait_s(invitation.id, self._seconds())
             if wait_s > 0.0:

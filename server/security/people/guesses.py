@@ -7,9 +7,9 @@ from collections.abc import Callable
 from server.security.people.often import Often
 
 WINDOW_S = 60.0
-MOST_OF_ONE = 10
-MOST_OF_ALL = 100
-MOST_ADDRESSES = 1000
+MAX_OF_ONE = 10
+MAX_OF_ALL = 100
+MAX_ADDRESSES = 1000
 ALL = "all"
 
 
@@ -18,20 +18,20 @@ class Guesses:
 
     Args:
         clock: monotonic, in seconds.
-        most_of_one: wrong ones of one address within `WINDOW_S`.
-        most_of_all: of all addresses together, also of those that are forgotten.
+        max_of_one: wrong ones of one address within `WINDOW_S`.
+        max_of_all: of all addresses together, also of those that are forgotten.
     """
 
     def __init__(
         self,
         *,
         clock: Callable[[], float],
-        most_of_one: int = MOST_OF_ONE,
-        most_of_all: int = MOST_OF_ALL,
+        max_of_one: int = MAX_OF_ONE,
+        max_of_all: int = MAX_OF_ALL,
     ) -> None:
         self._clock = clock
-        self._of_one = Often(most=most_of_one, window_s=WINDOW_S, most_keys=MOST_ADDRESSES)
-        self._of_all = Often(most=most_of_all, window_s=WINDOW_S)
+        self._of_one = Often(most=max_of_one, window_s=WINDOW_S, max_keys=MAX_ADDRESSES)
+        self._of_all = Often(most=max_of_all, window_s=WINDOW_S)
         self._turn = threading.Lock()
 
     def wrong(self, address: str) -> float:

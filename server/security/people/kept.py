@@ -10,7 +10,7 @@ from server.security.refusals import PeopleRefused
 
 # What has ended is remembered for so long, to tell people why they do not get in.
 REMEMBERED = timedelta(days=2)
-MOST_KEPT = 1000
+MAX_KEPT = 1000
 OVER = frozenset(InvitationState) - {InvitationState.OPEN}
 
 
@@ -28,13 +28,13 @@ class People:
             PeopleRefused: TOO_MANY_PEOPLE.
         """
         count = len(self.invitations) + len(self.sessions)
-        if count > MOST_KEPT:
-            raise PeopleRefused.too_many(count, MOST_KEPT)
+        if count > MAX_KEPT:
+            raise PeopleRefused.too_many(count, MAX_KEPT)
 
     def with_these(self, invitation: Invitation | None, session: Session | None, *, now: datetime) -> Self:
         """With these two; what ended two days ago, and first of all where there are too many, is forgotten.
 
-        What holds is never forgotten: there can be more than `MOST_KEPT`.
+        What holds is never forgotten: there can be more than `MAX_KEPT`.
         """
         sessions = {key: one for key, one in self.sessions.items() if now < one.over_at() + REMEMBERED}
         if session is not None:
@@ -42,11 +42,11 @@ class People:
         invitations = {key: one for key, one in self.invitations.items() if now < _over_at(one) + REMEMBERED}
         if invitation is not None:
             invitations[invitation.id] = invitation
-        too_many = max(0, len(sessions) + len(invitations) - MOST_KEPT)
+        too_many = max(0, len(sessions) + len(invitations) - MAX_KEPT)
         ended = {key: one.over_at() for key, one in sessions.items() if not one.holds(now)}
         for key in _oldest(ended, too_many):
             del sessions[key]
-        too_many = max(0, len(sessions) + len(invitations) - MOST_KEPT)
+        too_many = max(0, len(sessions) + len(invitations) - MAX_KEPT)
         over = {key: _over_at(one) for key, one in invitations.items() if one.state(now) in OVER}
         for key in _oldest(over, too_many):
             del invitations[key]

@@ -11,12 +11,12 @@ class Often:
     Attributes:
         most: how often within the window.
         window_s: how long that is.
-        most_keys: more are not remembered: the one that came first is let go.
+        max_keys: more are not remembered: the one that came first is let go.
     """
 
     most: int
     window_s: float
-    most_keys: int = 1000
+    max_keys: int = 1000
     _times_s: dict[str, deque[float]] = field(default_factory=dict)
 
     def wait_s(self, key: str, now_s: float) -> float:
@@ -28,6 +28,6 @@ class Often:
 
     def count(self, key: str, now_s: float) -> None:
         """It was done once more."""
-        if key not in self._times_s and len(self._times_s) >= self.most_keys:
+        if key not in self._times_s and len(self._times_s) >= self.max_keys:
             del self._times_s[next(iter(self._times_s))]
         self._times_s.setdefault(key, deque(maxlen=self.most)).append(now_s)

@@ -19,7 +19,7 @@ VERSION: Final = 1
 MANIFEST, CASE, DOCUMENTS, FILES = "manifest.json", "case.json", "documents.jsonl", "files/"
 FILE_ID = r"[0-9a-f]{16}(\.[a-z0-9]{1,10}){1,2}"
 PART = re.compile(rf"{re.escape(CASE)}|{re.escape(DOCUMENTS)}|{FILES}{FILE_ID}")
-MOST_PARTS = 20_000
+MAX_PARTS = 20_000
 LARGEST_MANIFEST_BYTES = 8 * 2**20
 LARGEST_DOCUMENTS_BYTES = 512 * 2**20
 LARGEST_WHOLE_BYTES = 32 * 2**30
@@ -51,7 +51,7 @@ class ManifestForm(Form):
     format: Literal["coaxial-case"]
     version: Literal[1]
     made_at: Time
-    parts: Annotated[list[PartForm], Field(max_length=MOST_PARTS)]
+    parts: Annotated[list[PartForm], Field(max_length=MAX_PARTS)]
 
 
 class FileForm(Form):

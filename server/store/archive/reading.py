@@ -22,7 +22,7 @@ from server.store.archive.form import (
     LARGEST_MANIFEST_BYTES,
     LARGEST_WHOLE_BYTES,
     MANIFEST,
-    MOST_PARTS,
+    MAX_PARTS,
     PART,
     VERSION,
     Form,
@@ -119,8 +119,8 @@ def shaped(form: type[Shape], text: bytes, *, where: str) -> Shape:
 
 def _entries(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
     infos = archive.infolist()
-    if len(infos) > MOST_PARTS + 1:
-        raise refused(f"it has {len(infos)} parts, allowed are {MOST_PARTS}", parts=len(infos))
+    if len(infos) > MAX_PARTS + 1:
+        raise refused(f"it has {len(infos)} parts, allowed are {MAX_PARTS}", parts=len(infos))
     for info in infos:
         known = info.filename == MANIFEST or PART.fullmatch(info.filename)
         if not known or info.flag_bits & 1 or stat.S_IFMT(info.external_attr >> 16) == SYMLINK:

@@ -10,7 +10,7 @@ from server.stream.fitting.sizes import Choice, Size
 # Of the time that was looked at: a line that rests for longer is not what holds the images up.
 BUSY_RATIO = 0.75
 # Of the images that came meanwhile; with fewer than this, a smaller size shows more than it loses.
-LEAST_SENT_RATIO = 0.5
+MIN_SENT_RATIO = 0.5
 DOWN_AFTER_S = 0.9
 UP_AFTER_S = 3.0
 # A picture of twice the width and height has about this many times the bytes.
@@ -74,7 +74,7 @@ class Pace:
         if span_s <= 0.0:
             return
         busy_ratio, sent_ratio = self._busy_s / span_s, self._images / (self._images + self._missed)
-        if span_s >= DOWN_AFTER_S and busy_ratio >= BUSY_RATIO and sent_ratio < LEAST_SENT_RATIO:
+        if span_s >= DOWN_AFTER_S and busy_ratio >= BUSY_RATIO and sent_ratio < MIN_SENT_RATIO:
             self._reduce(ended_s)
         elif span_s >= UP_AFTER_S:
             if busy_ratio * LARGER_BYTES_RATIO <= UP_BUSY_RATIO and ended_s >= self._up_from_s:

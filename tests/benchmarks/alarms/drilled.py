@@ -41,14 +41,14 @@ class Told:
     Attributes:
         images: how many there were.
         roomy: of these, with a true clearance over the warning distance.
-        least_mm: the least true clearance of all.
+        min_mm: the least true clearance of all.
         raised: alarms by condition, at any image.
         raised_in_roomy: of these, while the true clearance was over the warning distance.
     """
 
     images: int = 0
     roomy: int = 0
-    least_mm: float = NOT_ENTERED_MM
+    min_mm: float = NOT_ENTERED_MM
     raised: Counter[str] = field(default_factory=Counter)
     raised_in_roomy: Counter[str] = field(default_factory=Counter)
 
@@ -161,7 +161,7 @@ class DrilledTheatre:
             is_roomy = clearance > limit_mm
             told.images += 1
             told.roomy += is_roomy
-            told.least_mm = min(told.least_mm, clearance)
+            told.min_mm = min(told.min_mm, clearance)
             for condition in self._raised_by(conclude(number, at_s)):
                 told.raised[condition] += 1
                 told.raised_in_roomy[condition] += is_roomy

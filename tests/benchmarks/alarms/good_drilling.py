@@ -30,7 +30,7 @@ def good_drilling_table() -> Table:
                 str(len(seeds)),
                 number(told.images / rate_hz, 0),
                 str(told.images),
-                number(told.least_mm),
+                number(told.min_mm),
                 str(sum(told.raised_in_roomy.values())),
                 str(sum(told.raised.values())),
             ]

@@ -22,7 +22,7 @@ EVERY_S, LASTS_S, JUMP_MM = 1.9, 0.5, 7.0
 # An alarm that is over clears after a second; a breach sooner than that is the same one.
 APART_S = 1.2
 # Less deep than this a breach is a matter of the tracker's noise, not of time.
-LEAST_MM = 0.3
+MIN_MM = 0.3
 GOAL_MS = 250.0
 
 
@@ -60,7 +60,7 @@ def breach_table(asked: Asked, *, seconds: float) -> Table:
         ],
         note=(
             "The image that shows it is the first one, taken or skipped, in which the true drill is through "
-            f"the true wall; breaches that stay under {LEAST_MM:g} mm are left out. Two images in a row must "
+            f"the true wall; breaches that stay under {MIN_MM:g} mm are left out. Two images in a row must "
             "show it, so that one spoilt image raises nothing."
         ),
     )
@@ -112,7 +112,7 @@ def _true_starts(asked: Asked, played: Mapping[str, object], *, last_number: int
             starts.append((image, depth_mm))
         starts[-1] = (starts[-1][0], max(starts[-1][1], depth_mm))
         through_last = image
-    return [one for one in starts if one[1] >= LEAST_MM]
+    return [one for one in starts if one[1] >= MIN_MM]
 
 
 def _announced(start: int, depth_mm: float, heard: list[tuple[int, float, float]]) -> Breach:

@@ -9,7 +9,7 @@ from tracker.camera.detection import BoardView
 from tracker.geometry import Array, rotation_from_vector
 
 BOARD = DotBoard(columns=14, rows=10, pitch_mm=8.0)
-MOST_TILT_DEG = 40.0
+MAX_TILT_DEG = 40.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,7 +77,7 @@ def _pose(
     spread = float(np.linalg.norm(np.ptp(points, axis=0)))
     distance = spread * float(model.matrix[0, 0]) / model.size_wh_px[0] * rng.uniform(1.0, 2.2)
     turn = rng.uniform(0, 2 * np.pi)
-    tilt = 0.0 if parallel else np.radians(rng.uniform(0.0, MOST_TILT_DEG))
+    tilt = 0.0 if parallel else np.radians(rng.uniform(0.0, MAX_TILT_DEG))
     rotation = rotation_from_vector(
         tilt * np.array([np.cos(turn), np.sin(turn), 0.0])
     ) @ rotation_from_vector(np.array([0.0, 0.0, rng.uniform(-0.5, 0.5)]))

@@ -18,7 +18,7 @@ from tests.benchmarks.scenes.scene import image_of
 # A hand holds the marker, two images are sound, then the condition sets in.
 SOUND_IMAGES, SPOILT_IMAGES = 2, 4
 SCENES_FOR_A_SEQUENCE = 4
-MOST_BOUNDS = 12
+MAX_BOUNDS = 12
 
 
 @dataclass(slots=True)
@@ -60,7 +60,7 @@ def measure_condition(
     count: int,
     seed: int,
     with_tracking: bool = True,
-    most_bounds: int = MOST_BOUNDS,
+    max_bounds: int = MAX_BOUNDS,
 ) -> ConditionRun:
     """`count` scenes, the faces in turn."""
     run = ConditionRun(rig=rig.name, condition=condition.name, peers={peer.name: [] for peer in peers})
@@ -69,7 +69,7 @@ def measure_condition(
         scene = random_scene(rig, face, condition, seed=seed + number)
         run.faces.append(face.name)
         run.searched.append(judged(scene, searchers.claim(scene)))
-        if number < most_bounds and has_bound(condition):
+        if number < max_bounds and has_bound(condition):
             run.bounds.append(bound_of(scene))
         for peer in peers:
             own = random_scene(rig, peer.face, condition, seed=seed + number)

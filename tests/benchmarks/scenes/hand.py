@@ -22,7 +22,7 @@ SPEEDS = {
     "fast": (300.0, 100.0, 0.20, 0.20),
 }
 SWINGS, TREMORS = 4, 3
-MOST_TILT_DEG = 55.0
+MAX_TILT_DEG = 55.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +63,7 @@ class Hand:
         moved = self._start_mm + [wave.at(time_s) for wave in self._moves]
         roll, *lean = (wave.at(time_s) for wave in self._turns)
         leaning = self._lean_deg + lean
-        tilt = MOST_TILT_DEG * np.tanh(float(np.linalg.norm(leaning)) / MOST_TILT_DEG)
+        tilt = MAX_TILT_DEG * np.tanh(float(np.linalg.norm(leaning)) / MAX_TILT_DEG)
         return posed(
             self._middle_mm + self._box_mm * np.tanh(moved / self._box_mm),
             tilt_deg=float(tilt),

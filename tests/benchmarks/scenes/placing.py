@@ -17,7 +17,7 @@ from tracker.geometry import Array, Rigid, rotation_between, rotation_from_vecto
 BACKGROUNDS = 24
 EDGE_PX = 12.0
 FACING = np.diag([1.0, -1.0, -1.0])
-MOST_TRIES = 2000
+MAX_TRIES = 2000
 
 
 def posed(position_mm: Array, *, tilt_deg: float, about_deg: float, roll_deg: float) -> Pose:
@@ -33,7 +33,7 @@ def random_pose(
     rig: Rig, face: Face, random: np.random.Generator, tilt_deg: tuple[float, float] = BASE.tilt_deg
 ) -> Pose:
     """A marker anywhere in the image with all its paper."""
-    for _ in range(MOST_TRIES):
+    for _ in range(MAX_TRIES):
         far, at_px = random.uniform(*rig.depth_mm), random.uniform([0.0, 0.0], rig.size_wh_px)
         pose = posed(
             rig.sight_through(at_px) * far,
@@ -113,7 +113,7 @@ def crowded_scene(rig: Rig, faces: Sequence[Face], *, seed: int = 0) -> Scene:
     scene = random_scene(rig, faces[0], seed=seed)
     boards = list(scene.boards)
     for face in faces[1:]:
-        for _ in range(MOST_TRIES):
+        for _ in range(MAX_TRIES):
             pose = random_pose(rig, face, random)
             centre = rig.px_of(pose, np.zeros((1, 3)))[0]
             others = [rig.px_of(board.pose, np.zeros((1, 3)))[0] for board in boards]

@@ -13,13 +13,13 @@ from tests.browser.theatre import SCREENSHOTS, Watched
 LANDSCAPE: ViewportSize = {"width": 1280, "height": 800}
 UPRIGHT: ViewportSize = {"width": 800, "height": 1280}
 PHONE: ViewportSize = {"width": 390, "height": 844}
-LEAST_TARGET_PX = 48.0
+MIN_TARGET_PX = 48.0
 # A box to be ticked is hit by its label; what is only read may be as small as it likes.
 SMALL_TARGETS = f"""() => [...document.querySelectorAll("main :is(button, a, input, select, summary)")]
     .filter(one => one.type !== "file" && one.checkVisibility())
     .map(one => [/radio|checkbox/.test(one.type) ? one.labels[0] : one, one])
     .map(([target, one]) => [target.getBoundingClientRect(), one])
-    .filter(([box]) => box.width > 0 && Math.min(box.width, box.height) < {LEAST_TARGET_PX - 0.5})
+    .filter(([box]) => box.width > 0 && Math.min(box.width, box.height) < {MIN_TARGET_PX - 0.5})
     .map(([box, one]) => `${{box.width}} x ${{box.height}}: ${{one.outerHTML.slice(0, 160)}}`)"""
 WIDER_THAN_SCREEN = "() => document.documentElement.scrollWidth > document.documentElement.clientWidth + 1"
 

@@ -18,7 +18,7 @@ from tests.procedure.team import BY, POINTS, Team
 
 HOLDS = {"done", "due"}
 CONFIRM = "/api/procedure/confirmation"
-SERVERS_MISTAKE, MOST_REFUSED = 500, 20
+SERVERS_MISTAKE, MAX_REFUSED = 500, 20
 
 
 class KilledUnderUs(Exception):
@@ -134,7 +134,7 @@ class People:
             except Refused as why:
                 # A collection that lost its images is refused; whoever was told so begins again.
                 refused += 1
-                if why.status == SERVERS_MISTAKE or refused > MOST_REFUSED:
+                if why.status == SERVERS_MISTAKE or refused > MAX_REFUSED:
                     raise
             self._server.promised.observe(self._server)
 

@@ -117,7 +117,7 @@ def _check(theatre: Theatre) -> dict[str, Any]:
         landmark=theatre.check_landmark.name,
         tool=theatre.tool.name,
         distance_mm=0.3,
-        most_mm=2.0,
+        max_mm=2.0,
         passed=True,
         run=EARLIER,
         from_s=0.0,

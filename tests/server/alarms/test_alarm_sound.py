@@ -69,9 +69,9 @@ def test_pulses_and_gaps_are_those_of_the_table(priority: Priority, level: float
 @pytest.mark.parametrize("priority", Priority)
 def test_bursts_come_again_as_the_table_says_however_it_is_counted(priority: Priority) -> None:
     samples, rate_hz = heard(priority)
-    least_s, most_s = TABLE[priority].again_s
+    min_s, max_s = TABLE[priority].again_s
     every_s, length_s = BURSTS[priority].repeat_every_s, len(samples) / rate_hz
-    assert least_s <= every_s - length_s < every_s <= most_s
+    assert min_s <= every_s - length_s < every_s <= max_s
     assert length_s == pytest.approx(BURSTS[priority].length_s, abs=1e-3)
 
 

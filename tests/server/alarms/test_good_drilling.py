@@ -11,14 +11,14 @@ def test_good_drilling_raises_nothing() -> None:
     theatre, told = DrilledTheatre(7), Told()
     theatre.drill(theatre.simulated, seconds=40.0, rate_hz=10.0, told=told)
     assert told.roomy == told.images == 400
-    assert 1.5 < told.least_mm < 4.0
+    assert 1.5 < told.min_mm < 4.0
     assert told.raised == {}
 
 
 def test_a_breach_is_raised_and_no_sooner_than_it_is_true() -> None:
     theatre, told = DrilledTheatre(7, skill="breaching"), Told()
     theatre.drill(theatre.simulated, seconds=24.0, rate_hz=10.0, told=told)
-    assert told.least_mm < -1.0
+    assert told.min_mm < -1.0
     assert told.raised[Condition.BREACH] == 1
     assert told.raised_in_roomy[Condition.BREACH] == 0
 

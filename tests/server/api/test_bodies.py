@@ -9,7 +9,7 @@ import pytest
 from starlette.types import Message, Receive, Scope, Send
 
 from server.api import bodies
-from server.api.bodies import MOST_BYTES, MOST_TO_SIGN_IN_BYTES, UPLOADS, LimitedBodies
+from server.api.bodies import MAX_BYTES, MAX_TO_SIGN_IN_BYTES, UPLOADS, LimitedBodies
 from tests.served import served
 from tests.server.security.doors import Guarded, guarded
 from tests.server.stream.made_time import run_in_made_time
@@ -31,22 +31,22 @@ def in_pieces(size_bytes: int) -> Iterator[bytes]:
 
 @pytest.mark.parametrize("is_told", [True, False])
 @pytest.mark.parametrize(
-    ("path", "most_bytes"), [("/api/session", MOST_TO_SIGN_IN_BYTES), ("/api/cases", MOST_BYTES)]
+    ("path", "max_bytes"), [("/api/session", MAX_TO_SIGN_IN_BYTES), ("/api/cases", MAX_BYTES)]
 )
-def test_more_than_is_taken_is_refused(house: Guarded, path: str, most_bytes: int, *, is_told: bool) -> None:
+def test_more_than_is_taken_is_refused(house: Guarded, path: str, max_bytes: int, *, is_told: bool) -> None:
     headers = {"Content-Type": "application/json", **({} if path == "/api/session" else house.bearer())}
-    pieces = in_pieces(most_bytes + 2**16)
+    pieces = in_pieces(max_bytes + 2**16)
     answer = house.door.post(path, content=b"".join(pieces) if is_told else pieces, headers=headers)
     assert (answer.status_code, answer.json()["code"]) == (413, "BODY_TOO_LARGE"), answer.text
-    assert f"allowed are {most_bytes // 1024} kB" in answer.json()["message"]
+    assert f"allowed are {max_bytes // 1024} kB" in answer.json()["message"]
     assert answer.json()["remedy"]
 
 
 def test_as_much_as_is_taken_is_read(house: Guarded) -> None:
     content = b'{"invitation": "a"}'
     for path, size, more in (
-        ("/api/session", MOST_TO_SIGN_IN_BYTES, {}),
-        ("/api/cases", MOST_BYTES, house.bearer()),
+        ("/api/session", MAX_TO_SIGN_IN_BYTES, {}),
+        ("/api/cases", MAX_BYTES, house.bearer()),
     ):
         headers = {"Content-Type": "application/json", **more}
         answer = house.door.post(path, content=content.ljust(size), headers=headers)

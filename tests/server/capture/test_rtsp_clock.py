@@ -21,7 +21,7 @@ from tests.server.capture.rtsp_server import RtpImage, RtspServer
 
 PERIOD_S = 1 / 30
 AHEAD = 12  # the decoder looks ahead: so many more are sent than a test reads
-LEAST_S = 0.02  # of the way from the camera to here
+MIN_S = 0.02  # of the way from the camera to here
 
 
 @pytest.fixture
@@ -65,8 +65,8 @@ def delays_kept_s(shots: Sequence[Shot]) -> list[float]:
 
 def jittery(count: int) -> list[float]:
     """Never so much that an image seems to have waited."""
-    delays_s = LEAST_S + 0.012 * np.random.default_rng(7).random(count)
-    delays_s[::9] = LEAST_S
+    delays_s = MIN_S + 0.012 * np.random.default_rng(7).random(count)
+    delays_s[::9] = MIN_S
     return [float(delay_s) for delay_s in delays_s]
 
 
@@ -77,7 +77,7 @@ def test_the_jitter_of_the_network_is_taken_out_by_the_senders_clock(
     source = source_of(serve(images(120)), delays_s)
     shots = read(source, 100)
     assert float(np.std([delays_s[shot.number] for shot in shots[20:]])) > 0.003
-    assert delays_kept_s(shots[20:]) == pytest.approx([LEAST_S] * len(shots[20:]), abs=2e-4)
+    assert delays_kept_s(shots[20:]) == pytest.approx([MIN_S] * len(shots[20:]), abs=2e-4)
     assert source.camera is not None
     assert source.camera.clock is ImageClock.SENDER
 
@@ -85,13 +85,13 @@ def test_the_jitter_of_the_network_is_taken_out_by_the_senders_clock(
 def test_an_image_that_was_held_back_for_a_moment_is_as_old_as_it_is(
     serve: Callable[..., RtspServer],
 ) -> None:
-    delays_s = [LEAST_S] * 60
+    delays_s = [MIN_S] * 60
     # Less than a pause is: by their rhythm alone these would be live.
     held_s = (PAUSE_PERIODS - 1.5) * PERIOD_S
-    delays_s[30:33] = [LEAST_S + held_s] * 3
+    delays_s[30:33] = [MIN_S + held_s] * 3
     shots = read(source_of(serve(images(60)), delays_s), 50)
     assert {30, 31, 32} <= {shot.number for shot in shots}
-    assert delays_kept_s(shots) == pytest.approx([LEAST_S] * len(shots), abs=2e-4)
+    assert delays_kept_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
 
 
 # FFmpeg takes a step back by more than a minute for a counter that began anew, and steps forward.
@@ -100,11 +100,11 @@ def test_a_clock_that_jumps_is_told_once_and_taken_up_anew(
     serve: Callable[..., RtspServer], jump_s: float
 ) -> None:
     server = serve(images(60, lambda taken_s: taken_s + (jump_s if taken_s > 5001.0 else 0.0)))
-    source = source_of(server, [LEAST_S] * 60)
+    source = source_of(server, [MIN_S] * 60)
     with capture_logs() as logs:
         shots = read(source, 50)
     assert [line["code"] for line in logs if line["log_level"] == "warning"] == ["STREAM_CLOCK_JUMPED"]
-    assert delays_kept_s(shots) == pytest.approx([LEAST_S] * len(shots), abs=2e-4)
+    assert delays_kept_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
     assert source.camera is not None
     assert source.camera.clock is ImageClock.SENDER
 
@@ -114,17 +114,17 @@ def test_a_clock_that_does_not_keep_time_is_given_up_and_no_image_looked_younger
     serve: Callable[..., RtspServer], rate_ratio: float
 ) -> None:
     server = serve(images(320, lambda taken_s: 5000.0 + (taken_s - 5000.0) * rate_ratio))
-    source = source_of(server, [LEAST_S] * 320)
+    source = source_of(server, [MIN_S] * 320)
     with capture_logs() as logs:
         shots = read(source, 310)
     assert "STREAM_CLOCK_IMPLAUSIBLE" in [line.get("code") for line in logs]
     assert source.camera is not None
     assert source.camera.clock is ImageClock.ARRIVAL
     kept_s = delays_kept_s(shots)
-    assert max(kept_s) <= LEAST_S + 1e-4
+    assert max(kept_s) <= MIN_S + 1e-4
     # What runs slow makes them look older, until that is more than can be.
-    assert min(kept_s) > LEAST_S - MAX_AGE_S - 0.2
-    assert kept_s[-1] == pytest.approx(LEAST_S, abs=1e-4)
+    assert min(kept_s) > MIN_S - MAX_AGE_S - 0.2
+    assert kept_s[-1] == pytest.approx(MIN_S, abs=1e-4)
 
 
 def test_sound_beside_the_video_is_not_asked_for_and_sender_reports_move_nothing(
@@ -136,10 +136,10 @@ def test_sound_beside_the_video_is_not_asked_for_and_sender_reports_move_nothing
     ]
     server = serve(sent, has_sound=True)
     with capture_logs() as logs:
-        shots = read(source_of(server, [LEAST_S] * 60), 50)
+        shots = read(source_of(server, [MIN_S] * 60), 50)
     assert server.methods.count("SETUP") == 1
     assert [line for line in logs if line["log_level"] == "warning"] == []
-    assert delays_kept_s(shots) == pytest.approx([LEAST_S] * len(shots), abs=2e-4)
+    assert delays_kept_s(shots) == pytest.approx([MIN_S] * len(shots), abs=2e-4)
 
 
 def test_of_the_senders_wall_clock_the_first_report_alone_is_known(serve: Callable[..., RtspServer]) -> None:
@@ -159,7 +159,7 @@ def test_each_image_has_the_size_that_it_was_sent_with_in_rtsp_too(serve: Callab
     sent = [
         RtpImage(grey=40 + n, time_s=n * PERIOD_S, size_wh_px=sizes[n // 12 % 3]) for n in range(36 + AHEAD)
     ]
-    shots = read(source_of(serve(sent), [LEAST_S] * 36), 30)
+    shots = read(source_of(serve(sent), [MIN_S] * 36), 30)
     assert {shot.image.shape[1::-1] for shot in shots} == set(sizes)
     for shot in shots:
         assert shot.image.shape[1::-1] == sizes[(round(float(shot.image.mean())) - 40) // 12 % 3]

@@ -63,7 +63,7 @@ def test_a_camera_file_plots_and_json_are_written(images: Path, tmp_path: Path) 
 
 def test_the_report_is_readable_and_the_gate_fails_with_status_1(images: Path, tmp_path: Path) -> None:
     output = tmp_path / "camera.yaml"
-    status, text = typed(*BOARD, "--output", output, "--most-rms-px", "0.001", str(images / "*.png"))
+    status, text = typed(*BOARD, "--output", output, "--max-rms-px", "0.001", str(images / "*.png"))
     assert status == 1
     assert "RMS" in text
     assert "view9.png" in text

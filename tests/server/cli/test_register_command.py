@@ -88,7 +88,7 @@ def test_a_limit_that_was_asked_for_ends_with_status_1(tmp_path: Path) -> None:
     moving = written(tmp_path / "m.csv", truth.moving_mm)
     words = ("points", "--fixed", fixed, "--moving", moving, "--json", "--target-mm", "0,-40,0")
     assert typed(*words)[0] == 0
-    status, text = typed(*words, "--most-fre-mm", "0.2", "--most-tre-mm", "0.2")
+    status, text = typed(*words, "--max-fre-mm", "0.2", "--max-tre-mm", "0.2")
     assert status == 1
     assert [one["code"] for one in json.loads(text)["gate"]["failures"]] == [
         "POINTS_FIT_TOO_LARGE",

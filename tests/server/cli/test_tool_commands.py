@@ -91,7 +91,7 @@ def test_a_pivot_over_the_gate_is_told_in_full_with_status_1_and_writes_no_file(
 
 
 def test_the_gate_is_the_one_of_the_settings(tmp_path: Path, pivot_poses: Path) -> None:
-    (tmp_path / "strict.yaml").write_text("tool_calibration: {most_rms_3d_mm: 0.01}")
+    (tmp_path / "strict.yaml").write_text("tool_calibration: {max_rms_3d_mm: 0.01}")
     result = CliRunner().invoke(app, ["pivot", str(pivot_poses), "--config", str(tmp_path / "strict.yaml")])
     assert result.exit_code == 1
     assert "allowed 0.01 mm" in result.output
@@ -229,7 +229,7 @@ def test_the_tip_check_passes_the_tip_that_was_found_and_fails_another(
     file = tool_file(tmp_path, pivot_poses)
     answer = told("tip-check", clean, "--tool", file, folder=tmp_path)
     assert answer["rms_3d_mm"] < 0.6
-    assert answer["most_mm"] > answer["rms_3d_mm"]
+    assert answer["max_mm"] > answer["rms_3d_mm"]
     other = told("tip-check", clean, "--tip-mm", "5 -110 0", folder=tmp_path, status=1)
     assert other["gate"]["failures"][0]["code"] == "TIP_CHECK_FAILED"
 

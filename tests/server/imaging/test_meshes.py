@@ -171,7 +171,7 @@ def test_damaged_files_end_in_a_surface_or_in_a_sentence(content: bytes, file_fo
 
 
 def test_a_file_too_large_is_refused_unread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("server.imaging.meshes.MOST_BYTES", 100)
+    monkeypatch.setattr("server.imaging.meshes.MAX_BYTES", 100)
     path = tmp_path / "bone.obj"
     path.write_bytes(obj())
     with pytest.raises(InvalidInput) as told:

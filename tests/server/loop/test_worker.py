@@ -85,7 +85,7 @@ class Prepared(Preparation):
             registration=setup.registration,
             reference=setup.reference,
             score_settings=ScoreSettings(),
-            most_tip_sd_mm=3.0,
+            max_tip_sd_mm=3.0,
         )
         object.__setattr__(self, "made", tracker)
 

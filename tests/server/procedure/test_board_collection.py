@@ -137,7 +137,7 @@ def test_an_image_that_was_taken_by_hand_counts_as_it_is(camera: Camera) -> None
 
 
 def test_there_is_an_end_to_how_many_are_kept(camera: Camera, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("server.procedure.board_collection.MOST_VIEWS", 2)
+    monkeypatch.setattr("server.procedure.board_collection.MAX_VIEWS", 2)
     for index in range(2):
         camera.collection.add(images()[0], name=str(index))
     with pytest.raises(InvalidInput, match="2 views are taken"):

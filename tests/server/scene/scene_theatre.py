@@ -145,10 +145,10 @@ class Running:
 
 @contextmanager
 def running(
-    theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0, most_viewers: int = 32
+    theatre: Theatre, *, port: int = 0, stale_after_ms: float = 500.0, max_viewers: int = 32
 ) -> Iterator[Running]:
     """The scene behind a real socket on 127.0.0.1, with a page around it at `/`."""
-    hub, viewers = LiveHub(), Viewers(most=most_viewers)
+    hub, viewers = LiveHub(), Viewers(most=max_viewers)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:

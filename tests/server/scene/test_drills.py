@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from server.live import Instant
-from server.scene.drills import LEAST_MM
+from server.scene.drills import MIN_MM
 from server.scene.stage import Stage
 from tests.server.scene.scene_theatre import Theatre, block
 from tests.server.scene.test_stage import Viewer, of_kind, on_stage
@@ -94,7 +94,7 @@ def test_the_ellipsoid_has_the_size_and_the_place_of_the_tips_spread(theatre: Th
         scaled = [m for m in batch if m["type"] == "SceneNodeUpdateMessage" and m["name"] == PARTS[2]]
         np.testing.assert_allclose(
             scaled[0]["updates"]["scale"],
-            np.maximum(np.linalg.norm(told.spread.tip_ellipsoid_mm, axis=1), LEAST_MM),
+            np.maximum(np.linalg.norm(told.spread.tip_ellipsoid_mm, axis=1), MIN_MM),
             rtol=1e-6,
         )
 

@@ -174,7 +174,7 @@ def test_nothing_outside_is_called_and_no_control_of_viser_is_there(
 def test_a_line_that_fell_silent_is_asked_for_anew(
     browser: Browser, theatre: Theatre, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(scene_module, "LEAST_SILENCE_MS", 1000.0)
+    monkeypatch.setattr(scene_module, "MIN_SILENCE_MS", 1000.0)
     with running(theatre, stale_after_ms=100) as server:
         page = opened(browser, server.address)
         with fed(server, theatre):

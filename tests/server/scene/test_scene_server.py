@@ -157,7 +157,7 @@ def test_a_stranger_is_refused_before_the_handshake(theatre: Theatre, wish: dict
 
 
 def test_a_crowd_is_refused(theatre: Theatre) -> None:
-    with running(theatre, most_viewers=1) as server, viewer(server) as line:
+    with running(theatre, max_viewers=1) as server, viewer(server) as line:
         line.recv(timeout=20)
         with pytest.raises(InvalidStatus), viewer(server):
             pass

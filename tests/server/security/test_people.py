@@ -205,7 +205,7 @@ def test_a_damaged_file_is_told(desk: PeopleDesk, tmp_path: Path, clock: Clock) 
 def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_are(
     desk: PeopleDesk, tmp_path: Path, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(kept, "MOST_KEPT", 12)
+    monkeypatch.setattr(kept, "MAX_KEPT", 12)
     link = invited(desk, single_use=False)
     held, _ = desk.enter(link, address=HERE)
     for _ in range(30):

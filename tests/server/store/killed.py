@@ -248,7 +248,7 @@ def main() -> None:
     """Kill so many times, and tell how it went."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--times", type=int, default=200)
-    parser.add_argument("--most-changes", type=int, default=10, help="before a kill")
+    parser.add_argument("--max-changes", type=int, default=10, help="before a kill")
     parser.add_argument("--longest-s", type=float, default=0.1, help="after the last of them")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--fault", choices=FAULTS, default="none")
@@ -265,7 +265,7 @@ def main() -> None:
                 confirmed += promised.count
                 promised, home = Promised(), Path(folder) / f"{number}"
             seed = given.seed * 1_000_000 + number
-            changes, after_s = chance.randrange(given.most_changes), chance.uniform(0, given.longest_s)
+            changes, after_s = chance.randrange(given.max_changes), chance.uniform(0, given.longest_s)
             writers.kill_once(home, promised, after_changes=changes, after_s=after_s, seed=seed)
             found += [f"kill {number}: {one}" for one in broken_promises(home, promised)]
         confirmed += promised.count

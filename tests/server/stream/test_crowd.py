@@ -20,7 +20,7 @@ OpenSocket = Callable[..., WebSocketTestSession]
 @pytest.fixture
 def client(hub: LiveHub) -> Iterator[TestClient]:
     config = Config()
-    two = config.model_copy(update={"video": config.video.model_copy(update={"most_viewers": 2})})
+    two = config.model_copy(update={"video": config.video.model_copy(update={"max_viewers": 2})})
     with TestClient(create_app(AppParts(hub=hub, config=two)), base_url="http://127.0.0.1:8000") as client:
         yield client
 
@@ -37,7 +37,7 @@ def test_the_third_of_two_is_refused_with_a_remedy(
         assert answer.status_code == 503
         assert answer.json()["code"] == "TOO_MANY_VIEWERS"
         assert answer.json()["message"] == "2 viewers watch already, at most 2 may"
-        assert "video.most_viewers" in answer.json()["remedy"]
+        assert "video.max_viewers" in answer.json()["remedy"]
         for path in ("/ws/view", "/ws/live"):
             with open_socket(path) as third, pytest.raises(WebSocketDisconnect) as told:
                 third.receive_bytes()

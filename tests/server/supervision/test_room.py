@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from server.security import Person, Role
-from server.supervision.marks import MOST_DRAWINGS_A_PERSON, MOST_POINTS_A_DRAWING, Moment, Shape
+from server.supervision.marks import MAX_DRAWINGS_A_PERSON, MAX_POINTS_A_DRAWING, Moment, Shape
 from server.supervision.people import LineState, Seat, View
 from server.supervision.room import MARKS_AT_ONCE, Room, RoomFull, Shown, Unfair
 from server.supervision.told import News, RoomPicture, Told
@@ -166,17 +166,17 @@ def test_too_many_marks_are_cut_off_and_a_steady_hand_is_not(scene: Scene) -> No
 def test_a_drawing_has_an_end(scene: Scene) -> None:
     seat = scene.enter(SATO)
     scene.draw(seat, points=50)
-    for _ in range(MOST_POINTS_A_DRAWING // 50 - 1):
+    for _ in range(MAX_POINTS_A_DRAWING // 50 - 1):
         scene.room.extend(seat, 1, [(1.0, 1.0)] * 50, scene.shown, now_s=scene.now_s)
-    with pytest.raises(Unfair, match=str(MOST_POINTS_A_DRAWING)):
+    with pytest.raises(Unfair, match=str(MAX_POINTS_A_DRAWING)):
         scene.room.extend(seat, 1, [(1.0, 1.0)], scene.shown, now_s=scene.now_s)
 
 
 def test_the_oldest_of_too_many_drawings_goes(scene: Scene) -> None:
     seat = scene.enter(SATO)
-    for key in range(MOST_DRAWINGS_A_PERSON + 3):
+    for key in range(MAX_DRAWINGS_A_PERSON + 3):
         scene.draw(seat, key)
-    assert scene.drawn == [f"1-{key}" for key in range(3, MOST_DRAWINGS_A_PERSON + 3)]
+    assert scene.drawn == [f"1-{key}" for key in range(3, MAX_DRAWINGS_A_PERSON + 3)]
 
 
 def test_own_drawings_are_taken_back_and_the_operator_clears_all(scene: Scene) -> None:

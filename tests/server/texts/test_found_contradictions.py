@@ -146,7 +146,7 @@ def test_a_channel_that_is_removed_in_a_breach_ends_it_without_saying_that_it_is
 
 def test_a_number_that_is_not_measured_any_more_is_not_told_as_of_now() -> None:
     stream = Stream()
-    stream.images(2.0, tip_sd_mm=2.4, most_tip_sd_mm=1.0)
+    stream.images(2.0, tip_sd_mm=2.4, max_tip_sd_mm=1.0)
     picture = stream.images(
         1.0, pose_certain=False, tip_sd_mm=NOT_KNOWN, clearance_mm=NOT_KNOWN, breach_ratio=NOT_KNOWN
     )

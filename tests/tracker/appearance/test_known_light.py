@@ -7,7 +7,7 @@ import pytest
 
 from tests.tracker.scenes import Image8, Print, camera_of, code_model, facing_at_px, rendered
 from tracker.appearance import KnownLight, WholeFit, textures_of, whole_fits
-from tracker.appearance.uneven import MOST_IMAGES
+from tracker.appearance.uneven import MAX_IMAGES
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.pose import other_solution
 
@@ -65,7 +65,7 @@ def test_what_explains_less_than_it_did_is_asked_anew() -> None:
 
 
 def test_after_some_images_it_is_asked_anew_and_may_be_even() -> None:
-    (found,) = fits(half_in_shadow(1500.0), replace(known_at(330.0), images=MOST_IMAGES))
+    (found,) = fits(half_in_shadow(1500.0), replace(known_at(330.0), images=MAX_IMAGES))
     assert found.light is None
 
 

@@ -14,7 +14,7 @@ from tracker.edges import (
     joined_segments,
     segments_of,
 )
-from tracker.edges.gradient import LEAST_THRESHOLD, MOST_THRESHOLD, SOBEL_GAIN
+from tracker.edges.gradient import MAX_THRESHOLD, MIN_THRESHOLD, SOBEL_GAIN
 from tracker.edges.kernels import crossing
 
 FINE = 8
@@ -89,7 +89,7 @@ def test_an_even_image_has_no_edges() -> None:
     chains = chains_of(edgels)
     assert len(edgels.x) == 0
     assert len(chains.closed) == 0
-    assert segments_of(edgels, chains, least_length_px=4.0).shape == (0, 4)
+    assert segments_of(edgels, chains, min_length_px=4.0).shape == (0, 4)
     assert joined_segments(np.empty((0, 4), np.float32)).shape == (0, 4)
 
 
@@ -100,11 +100,11 @@ def test_the_threshold_follows_the_noise_between_its_limits() -> None:
         gradient_of(np.asarray(np.clip(even + random.normal(0, sd, even.shape), 0, 255), np.uint8)).threshold
         for sd in (0.0, 3.0, 6.0, 60.0)
     ]
-    assert thresholds[0] == LEAST_THRESHOLD
+    assert thresholds[0] == MIN_THRESHOLD
     # Sobel makes sqrt(12) sd of the noise; the median of its magnitude is 1.18 of that, and three are taken.
     assert thresholds[1] == pytest.approx(3 * 1.18 * np.sqrt(12) * 3.0, rel=0.1)
     assert thresholds[2] == pytest.approx(2 * thresholds[1], rel=0.1)
-    assert thresholds[3] == MOST_THRESHOLD
+    assert thresholds[3] == MAX_THRESHOLD
 
 
 def test_little_of_pure_noise_becomes_edgels_and_less_a_straight_piece() -> None:
@@ -112,7 +112,7 @@ def test_little_of_pure_noise_becomes_edgels_and_less_a_straight_piece() -> None
     image = np.asarray(np.clip(120 + random.normal(0, 5.0, (240, 320)), 0, 255), np.uint8)
     edgels = edgels_of(gradient_of(image))
     assert len(edgels.x) < image.size / 300
-    assert len(segments_of(edgels, chains_of(edgels), least_length_px=8.0)) == 0
+    assert len(segments_of(edgels, chains_of(edgels), min_length_px=8.0)) == 0
 
 
 def test_a_step_of_opposite_polarity_has_opposite_normals() -> None:
@@ -144,7 +144,7 @@ def test_a_dark_square_is_four_segments_clockwise_with_its_corners(turn_deg: flo
     image, corners = _dark_square(40.0, turn_deg)
     edgels = edgels_of(gradient_of(image))
     chains = chains_of(edgels)
-    segments = segments_of(edgels, chains, least_length_px=6.0).astype(np.float64)
+    segments = segments_of(edgels, chains, min_length_px=6.0).astype(np.float64)
     assert segments.shape == (4, 4)
     starts, ends = segments[:, :2], segments[:, 2:]
     order = np.argsort(np.arctan2(*(starts.mean(axis=0) - starts).T[::-1]))
@@ -174,7 +174,7 @@ def test_the_outline_of_a_turned_square_is_one_closed_chain(turn_deg: float) -> 
 def test_a_bright_square_is_walked_the_other_way_round() -> None:
     image, _ = _dark_square(40.0, 10.0, bright=True)
     edgels = edgels_of(gradient_of(image))
-    segments = segments_of(edgels, chains_of(edgels), least_length_px=6.0).astype(np.float64)
+    segments = segments_of(edgels, chains_of(edgels), min_length_px=6.0).astype(np.float64)
     turns = [
         (a[2] - a[0]) * (b[3] - b[1]) - (a[3] - a[1]) * (b[2] - b[0])
         for a in segments
@@ -189,7 +189,7 @@ def test_a_bright_square_is_walked_the_other_way_round() -> None:
 def test_the_dark_side_of_a_chain_is_on_its_right_hand(turn_deg: float) -> None:
     image, normal = _step(turn_deg, 0.1)
     edgels = edgels_of(gradient_of(image))
-    segments = segments_of(edgels, chains_of(edgels), least_length_px=20.0)
+    segments = segments_of(edgels, chains_of(edgels), min_length_px=20.0)
     assert len(segments) >= 1
     for x0, y0, x1, y1 in segments.tolist():
         # On the screen (y down) the right hand of (dx, dy) is (-dy, dx).
@@ -218,7 +218,7 @@ def test_two_squares_side_by_side_are_two_chains() -> None:
     edgels = edgels_of(gradient_of(_area_sampled(~dark)))
     chains = chains_of(edgels)
     assert chains.closed.tolist() == [True, True]
-    assert segments_of(edgels, chains, least_length_px=6.0).shape == (8, 4)
+    assert segments_of(edgels, chains, min_length_px=6.0).shape == (8, 4)
 
 
 @pytest.mark.parametrize(

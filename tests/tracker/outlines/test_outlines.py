@@ -37,32 +37,32 @@ def test_two_sides_at_a_corner_are_enough_when_one_is_whole(
     """Of the other as much may be hidden as there is: its length is tried."""
     a, b = _sides(SQUARE)[[corner, (corner + 1) % 4]].astype(np.float64)
     a[:2], b[2:] = a[2:] + first_seen * (a[:2] - a[2:]), b[:2] + second_seen * (b[2:] - b[:2])
-    quads = corner_quads_of(_picture(), np.array([a, b], np.float32), least_step_grey=20.0)
+    quads = corner_quads_of(_picture(), np.array([a, b], np.float32), min_step_grey=20.0)
     # A tenth of the side between two lengths, and what perspective adds to a parallelogram.
     assert _nearest_px(quads) < 9.0
 
 
 def test_without_a_step_from_paper_to_ink_there_is_no_corner() -> None:
     even = _picture(paper=100, ink=95)
-    assert len(corner_quads_of(even, _sides(SQUARE), least_step_grey=20.0)) == 0
-    assert len(corner_quads_of(even, _sides(SQUARE), least_step_grey=2.0)) > 0
+    assert len(corner_quads_of(even, _sides(SQUARE), min_step_grey=20.0)) == 0
+    assert len(corner_quads_of(even, _sides(SQUARE), min_step_grey=2.0)) > 0
 
 
 def test_a_bright_square_has_no_corner() -> None:
     negative = _picture(paper=30, ink=220)
-    assert len(corner_quads_of(negative, _sides(SQUARE[::-1]), least_step_grey=20.0)) == 0
-    assert len(corner_quads_of(negative, _sides(SQUARE), least_step_grey=20.0)) == 0
+    assert len(corner_quads_of(negative, _sides(SQUARE[::-1]), min_step_grey=20.0)) == 0
+    assert len(corner_quads_of(negative, _sides(SQUARE), min_step_grey=20.0)) == 0
 
 
 def test_no_outline_is_tilted_more_than_a_marker_can_be() -> None:
-    for quad in corner_quads_of(_picture(), _sides(SQUARE), least_step_grey=20.0).astype(np.float64):
+    for quad in corner_quads_of(_picture(), _sides(SQUARE), min_step_grey=20.0).astype(np.float64):
         halves = np.linalg.svd(np.array([quad[1] - quad[0], quad[3] - quad[0]]), compute_uv=False)
         assert halves[1] / halves[0] > 0.35
 
 
 @pytest.mark.parametrize("count", [0, 1])
 def test_fewer_than_two_sides_make_none(count: int) -> None:
-    assert corner_quads_of(_picture(), _sides(SQUARE)[:count], least_step_grey=5.0).shape == (0, 4, 2)
+    assert corner_quads_of(_picture(), _sides(SQUARE)[:count], min_step_grey=5.0).shape == (0, 4, 2)
 
 
 @pytest.mark.parametrize("side", range(2))

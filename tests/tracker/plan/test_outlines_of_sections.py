@@ -17,12 +17,12 @@ def test_between_voxels_and_beyond_the_block_a_number_is_that_of_the_common_libr
     assert own == pytest.approx(common, abs=1e-9)
 
 
-def _steps(profile: Array, *, start: float = 0.0, least_fall: float = 100.0, behind: int = 3) -> float:
+def _steps(profile: Array, *, start: float = 0.0, min_fall: float = 100.0, behind: int = 3) -> float:
     """How many voxels from `start` the wall of a block that changes along x alone is, in steps of a half."""
     block = np.tile(np.asarray(profile, np.float32), (2, 2, 1))
     out = np.empty((1, 1))
     centre, step = np.array([[start, 0.5, 0.5]]), np.array([[[0.5, 0.0, 0.0]]])
-    walls_around(block, centre, step, 2 * len(profile), least_fall, behind, out)
+    walls_around(block, centre, step, 2 * len(profile), min_fall, behind, out)
     return float(0.5 * out[0, 0])
 
 

@@ -14,8 +14,8 @@ from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.plausible import (
     agrees,
     beyond_medial_wall_mm,
+    max_beyond_mm,
     medial_wall_mm,
-    most_beyond_mm,
     unsure_as,
 )
 from tracker.plan.pedicle.remarks import canal_remarks
@@ -50,7 +50,7 @@ def test_the_canal_begins_at_a_true_pedicles_medial_wall_and_not_at_the_bodys_si
     made, near, solid = vertebra
     truth, outwards = made.truth(side), 1.0 if side == "left" else -1.0
     named = checked_side(side)
-    allowed = most_beyond_mm(near)
+    allowed = max_beyond_mm(near)
     true = beyond_medial_wall_mm(solid, truth.isthmus_lps_mm, truth.axis_lps, 4.0, named)
     on_body = np.array([outwards * 18.0, -22.0, 0.0])
     wrong = beyond_medial_wall_mm(

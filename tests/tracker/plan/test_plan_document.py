@@ -25,7 +25,7 @@ from tracker.plan import (
 )
 from tracker.plan.document import FORMAT_VERSION, refuse_odd
 from tracker.plan.document.changes import channel_name, settled, with_landmarks
-from tracker.plan.document.checks import MOST_LANDMARKS
+from tracker.plan.document.checks import MAX_LANDMARKS
 
 
 def volume() -> Volume:
@@ -170,7 +170,7 @@ def test_a_landmark_beside_the_ct_is_refused_in_a_change_and_in_a_whole_plan() -
 def test_more_landmarks_than_anybody_sets_are_refused(count: int) -> None:
     landmarks = tuple(Landmark(name=f"{n}", point_lps_mm=np.zeros(3)) for n in range(count))
     plan = PlanDocument(vertebrae=(VertebraPlan(name="L3", landmarks=landmarks),))
-    if count <= MOST_LANDMARKS:
+    if count <= MAX_LANDMARKS:
         refuse_odd(plan)
     else:
         with pytest.raises(PlanError, match="41 landmarks"):

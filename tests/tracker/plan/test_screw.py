@@ -92,8 +92,8 @@ def test_a_screw_too_far_to_the_side_breaks_out() -> None:
 
 def test_tolerance_is_what_keeps_the_cylinder_within_the_walls() -> None:
     left = tolerance_of(shifted(0.0), pedicle(), diameter_mm=5.0)
-    assert left.most_offset_mm == pytest.approx(1.5, abs=0.02)
-    assert left.most_angle_deg == pytest.approx(np.degrees(np.arctan(1.5 / 18.0)), abs=0.1)
+    assert left.max_offset_mm == pytest.approx(1.5, abs=0.02)
+    assert left.max_angle_deg == pytest.approx(np.degrees(np.arctan(1.5 / 18.0)), abs=0.1)
     assert left.deg_at_offset[-1] == pytest.approx(0.0, abs=1e-9)
     # Held against the walls themselves: the worst combination is still inside, a little more is not.
     for share, inside in ((0.98, True), (1.15, False)):
@@ -112,8 +112,8 @@ def test_tolerance_is_what_keeps_the_cylinder_within_the_walls() -> None:
 def test_a_longer_pedicle_leaves_less_angle() -> None:
     long = dataclasses.replace(pedicle(), opens_ahead_mm=9.0)
     left = tolerance_of(shifted(0.0), long, diameter_mm=5.0)
-    assert left.most_offset_mm == pytest.approx(1.5, abs=0.02)
-    assert left.most_angle_deg == pytest.approx(np.degrees(np.arctan(1.5 / 24.0)), abs=0.1)
+    assert left.max_offset_mm == pytest.approx(1.5, abs=0.02)
+    assert left.max_angle_deg == pytest.approx(np.degrees(np.arctan(1.5 / 24.0)), abs=0.1)
     assert left.deg_at_offset[-1] == pytest.approx(0.0, abs=1e-9)
     # What turns out of the longer pedicle is a breach, which the isthmus alone would not show.
     tilted = channel_from_points(
@@ -128,7 +128,7 @@ def test_a_longer_pedicle_leaves_less_angle() -> None:
 
 def test_a_plan_without_room_leaves_no_tolerance() -> None:
     left = tolerance_of(shifted(3.0), pedicle(), diameter_mm=5.0)
-    assert (left.most_offset_mm, left.most_angle_deg) == (0.0, 0.0)
+    assert (left.max_offset_mm, left.max_angle_deg) == (0.0, 0.0)
 
 
 def test_the_thickest_and_longest_that_fit_are_proposed() -> None:

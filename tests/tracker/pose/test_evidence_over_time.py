@@ -18,7 +18,7 @@ from tracker import Seen, Sighting
 from tracker.geometry import Camera, Marker, Rigid
 from tracker.geometry.kernels import turn_between
 from tracker.pose import Prior, other_solution
-from tracker.pose.prior import MOST_LEAD_SD2
+from tracker.pose.prior import MAX_LEAD_SD2
 from tracker.pose.rivals import DECIDED_COST
 
 POSE = pose_of(side_px=26.0, tilt_deg=11.0)
@@ -47,7 +47,7 @@ def test_images_that_agree_say_as_much_together_as_is_new_in_them(unexplained_ra
 def test_where_noise_explains_all_that_is_left_images_decide_together_and_where_it_does_not_none_does() -> (
     None
 ):
-    assert _lead_after(10, 0.0) == pytest.approx(SAYS_SD2 + MOST_LEAD_SD2)
+    assert _lead_after(10, 0.0) == pytest.approx(SAYS_SD2 + MAX_LEAD_SD2)
     assert _lead_after(60, 1.0) == SAYS_SD2
 
 
@@ -55,8 +55,8 @@ def test_an_image_that_cannot_be_explained_takes_little_from_what_clean_ones_sai
     prior = Prior()
     prior.learn(_seen(POSE, lead_sd2=40.0, unexplained_ratio=0.0), 0.0)
     prior.learn(_seen(POSE, lead_sd2=prior.lead_sd2 + 3.0, unexplained_ratio=1.0), 1 / 30.0)
-    assert prior.lead_sd2 == pytest.approx(0.9 * MOST_LEAD_SD2)
-    assert prior.lead_before_sd2 == MOST_LEAD_SD2
+    assert prior.lead_sd2 == pytest.approx(0.9 * MAX_LEAD_SD2)
+    assert prior.lead_before_sd2 == MAX_LEAD_SD2
 
 
 def test_edges_alone_that_fit_one_solution_only_say_nothing_for_the_next_images() -> None:
@@ -64,7 +64,7 @@ def test_edges_alone_that_fit_one_solution_only_say_nothing_for_the_next_images(
     prior.learn(_seen(POSE, lead_sd2=float("inf"), unexplained_ratio=1.0), 0.0)
     assert prior.lead_sd2 == 0.0
     prior.learn(_seen(POSE, lead_sd2=float("inf"), unexplained_ratio=0.0), 1 / 30.0)
-    assert prior.lead_sd2 == MOST_LEAD_SD2
+    assert prior.lead_sd2 == MAX_LEAD_SD2
 
 
 def test_against_what_was_said_before_an_image_speaks_with_its_own_weight() -> None:

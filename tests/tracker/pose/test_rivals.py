@@ -9,7 +9,7 @@ from tracker.edges import gradient_of
 from tracker.geometry import Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
 from tracker.geometry.kernels import RIDGE, pose_rows, turn_between
 from tracker.pose import Prior, Seen, occurrence_near, other_solution
-from tracker.pose.prior import MOST_LEAD_SD2
+from tracker.pose.prior import MAX_LEAD_SD2
 from tracker.pose.rivals import Expected, doubt_between, lead_between, surprise
 
 TRUTH = pose_of(side_px=26.0, tilt_deg=11.0)
@@ -68,7 +68,7 @@ def test_a_prior_that_took_the_wrong_solution_gives_it_up_within_a_few_images() 
     prior = Prior()
     first = _fitted(_noisy(0), None)
     prior.learn(first, 0.0)
-    prior.pose, prior.lead_sd2 = wrong, MOST_LEAD_SD2
+    prior.pose, prior.lead_sd2 = wrong, MAX_LEAD_SD2
     off_deg, turning_deg_s = [], []
     for k in range(1, 12):
         seen = _fitted(_noisy(k), prior.expected(k / 30))
@@ -89,9 +89,9 @@ def test_what_the_images_say_adds_up_and_is_bounded() -> None:
         seen = _fitted(_noisy(k), prior.expected(k / 30) if k else None)
         prior.learn(seen, k / 30)
         leads.append(prior.lead_sd2)
-    assert leads[0] < 0.6 * MOST_LEAD_SD2
+    assert leads[0] < 0.6 * MAX_LEAD_SD2
     assert leads[0] < leads[1]
-    assert max(leads) == MOST_LEAD_SD2
+    assert max(leads) == MAX_LEAD_SD2
 
 
 def test_the_lead_is_that_over_another_solution_not_over_the_same_one() -> None:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from tracker.geometry import Array, Camera, Marker, Rigid, rotation_from_vector, vector_from_rotation
 from tracker.pose import Steady, SteadyPose
-from tracker.pose.steady import MOST_SURPRISE, STILL
+from tracker.pose.steady import MAX_SURPRISE, STILL
 
 SD = np.array([0.1, 0.1, 0.4, 0.01, 0.01, 0.003])
 COVARIANCE = np.diag(SD**2)
@@ -145,4 +145,4 @@ def test_what_is_shown_is_never_farther_from_its_image_than_noise_admits(
         at = at + size * SD * np.random.default_rng(seed).normal(0.0, 1.0, 6)
         out = steady.take(pose_at(at), COVARIANCE, at_s=k * PERIOD_S)
         off = apart(out.camera_from_marker, pose_at(at))
-        assert float(off @ np.linalg.solve(2.0 * COVARIANCE + STILL, off)) <= MOST_SURPRISE * (1.0 + 1e-6)
+        assert float(off @ np.linalg.solve(2.0 * COVARIANCE + STILL, off)) <= MAX_SURPRISE * (1.0 + 1e-6)

@@ -41,16 +41,14 @@ def _fit_at(pose: Rigid[Camera, Marker]) -> WholeFit:
 def _given(monkeypatch: pytest.MonkeyPatch, fits: Sequence[WholeFit]) -> None:
     monkeypatch.setattr(whole, "whole_fits", lambda *_, **__: list(fits))
     # Both are taken to lie where the edges are: only their residuals shall decide.
-    monkeypatch.setattr(whole, "MOST_APART_PX", 1e3)
+    monkeypatch.setattr(whole, "MAX_APART_PX", 1e3)
 
 
 def test_where_the_better_fit_just_fails_the_worse_does_not_stand_in(
     monkeypatch: pytest.MonkeyPatch, found: Seen
 ) -> None:
     fit = _fit_at(POSE)
-    better = replace(
-        fit, cost_sd2=500.0, scale_grey=1.01 * whole.MOST_LEFT_CONTRAST_RATIO * fit.contrast_grey
-    )
+    better = replace(fit, cost_sd2=500.0, scale_grey=1.01 * whole.MAX_LEFT_CONTRAST_RATIO * fit.contrast_grey)
     worse = replace(better, camera_from_marker=other_solution(POSE), cost_sd2=520.0, scale_grey=3.0)
     _given(monkeypatch, [better, worse])
     exact = whole.with_whole_shape(CAMERA, MODEL, PIXELS, replace(found, lead_sd2=0.0))

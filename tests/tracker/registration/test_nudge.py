@@ -73,7 +73,7 @@ def test_nudges_there_and_back_cancel() -> None:
 
 
 def test_all_together_are_bounded_and_leading_back_is_not() -> None:
-    nudged = NudgedRegistration(made=made(), pivot_mm=PIVOT, limits=NudgeLimits(most_mm=3.0, most_deg=2.0))
+    nudged = NudgedRegistration(made=made(), pivot_mm=PIVOT, limits=NudgeLimits(max_mm=3.0, max_deg=2.0))
     for _ in range(3):
         nudged = nudged.nudged(shift(NudgeAxis.LEFT, 1.0))
     with pytest.raises(RegistrationError) as caught:

@@ -70,7 +70,7 @@ def test_a_sure_tip_counts_for_more_than_an_unsure_one() -> None:
     moving[2] += [0.0, 0.0, 3.0]
     noise = np.broadcast_to(0.01 * np.eye(3), (6, 3, 3)).copy()
     noise[2] = np.diag([0.01, 0.01, 25.0])
-    limits = PointSettings(least_fle_mm=0.05)
+    limits = PointSettings(min_fle_mm=0.05)
     weighed = register_points(pairs(truth.fixed_mm, moving, noise), settings=limits)
     plain = register_points(pairs(truth.fixed_mm, moving), settings=limits)
     at = VERTEBRA[4]
@@ -111,11 +111,11 @@ def test_the_gate_names_the_worst_point_and_the_target() -> None:
     moving = truth.moving_mm.copy()
     moving[4] += [0.0, 5.0, 0.0]
     found = register_points(pairs(truth.fixed_mm, moving))
-    gate = PointGate(most_fre_mm=1.0, most_tre_mm=1.0)
+    gate = PointGate(max_fre_mm=1.0, max_tre_mm=1.0)
     codes = [error.code for error in found.failures(gate, [VERTEBRA[0] - [0, 60, 0]])]
     assert codes == ["POINTS_FIT_TOO_LARGE", "POINTS_TARGET_UNCERTAIN"]
     assert "point 5" in found.failures(gate, [])[0].message
-    assert found.failures(PointGate(most_fre_mm=9.0, most_tre_mm=9.0), [VERTEBRA[0]]) == ()
+    assert found.failures(PointGate(max_fre_mm=9.0, max_tre_mm=9.0), [VERTEBRA[0]]) == ()
 
 
 def test_navigation_gets_the_inverse_with_its_own_covariance() -> None:

@@ -24,7 +24,7 @@ RUNS = 500
 # Along the camera's depth noise is four times as large as across it.
 LIKE_A_NEEDLE = np.diag([0.3, 0.3, 1.2]) ** 2
 # No floor, and no order is judged: here the noise itself is looked at.
-BARE = PointSettings(least_fle_mm=1e-3, wrong_fre_mm=20.0)
+BARE = PointSettings(min_fle_mm=1e-3, wrong_fre_mm=20.0)
 
 
 @dataclass
@@ -122,7 +122,7 @@ def test_the_formula_on_a_constellation_by_hand() -> None:
 def test_a_lucky_fit_is_not_surer_than_a_landmark_can_be_found() -> None:
     truth = touched(VERTEBRA, np.random.default_rng(1))
     found = register_points(
-        PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm), settings=PointSettings(least_fle_mm=0.6)
+        PairedPoints(fixed_mm=VERTEBRA, moving_mm=truth.moving_mm), settings=PointSettings(min_fle_mm=0.6)
     )
     middle = VERTEBRA.mean(axis=0)
     assert found.tre_expected_mm(middle) < 1e-9
@@ -137,7 +137,7 @@ def test_what_tips_state_is_nearly_a_floor_and_residuals_widen_it() -> None:
     found = [
         register_points(
             PairedPoints(fixed_mm=VERTEBRA, moving_mm=one.moving_mm, moving_covariances_mm2=stated),
-            settings=PointSettings(least_fle_mm=1e-6),
+            settings=PointSettings(min_fle_mm=1e-6),
         ).tre_stated_mm(at)
         for one in (exact, rough)
     ]

@@ -191,7 +191,7 @@ def test_the_gate_names_what_is_too_large() -> None:
     truth = sweep_over(corners_from_behind(), np.random.default_rng(14))
     found = laid(truth)
     assert found.failures(SurfaceGate(), [TARGET]) == ()
-    gate = SurfaceGate(most_rms_mm=0.01, most_tre_mm=0.01, most_moved_mm=0.01)
+    gate = SurfaceGate(max_rms_mm=0.01, max_tre_mm=0.01, max_moved_mm=0.01)
     assert [error.code for error in found.failures(gate, [TARGET])] == [
         "SURFACE_FIT_TOO_LARGE",
         "SURFACE_TARGET_UNCERTAIN",

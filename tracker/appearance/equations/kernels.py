@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.appearance.light.fields.kernels import (
     AROUND,
-    MOST_SHARES,
+    MAX_SHARES,
     PLAIN,
     by_cells,
     hold_light,
@@ -20,11 +20,11 @@ from tracker.geometry.kernels import add_products, products_of_four
 EVEN = LIGHT + PLANE
 # A camera's response is bent by so much; gamma 2.2 is half.
 RESPONSE_SD = 0.3
-LEAST_SCALE_GREY = 0.3
+MIN_SCALE_GREY = 0.3
 # What lies beyond the paper is unknown: a whole contrast brighter or darker.
 BEYOND_CONTRAST = 1.0
 # Numbers that a pixel in uneven light sees, at most, and about half of them.
-WIDEST, HALF = LIGHT + MOST_SHARES, 12
+WIDEST, HALF = LIGHT + MAX_SHARES, 12
 
 
 @compiled
@@ -208,4 +208,4 @@ def typical_sd(rows, values, lit, response, own):
         i = k * every
         r = values[i] - lit[i, 0] - lit[i, 1] * shaped_by(rows[0, i], response)
         sizes[k] = abs(r) * np.sqrt(own[i])
-    return max(1.4826 * np.median(sizes), LEAST_SCALE_GREY)
+    return max(1.4826 * np.median(sizes), MIN_SCALE_GREY)

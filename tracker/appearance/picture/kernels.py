@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from tracker.appearance.taps.kernels import MOST_TAPS, taps_of
+from tracker.appearance.taps.kernels import MAX_TAPS, taps_of
 from tracker.appearance.texels.kernels import add_picture
 from tracker.camera.blur.kernels import mapped
 from tracker.camera.kernels import project_with_derivative
@@ -164,7 +164,7 @@ def predict(rays, lens, rotation, translation, side_mm, blur, tex, rows, at, fre
     Of rows: the picture 0..1, its derivatives by translation (3) and turn (3), by blur (3).
     False where the marker cannot be seen like that.
     """
-    ahead, taps = np.empty((2, 2)), np.empty((4, MOST_TAPS))
+    ahead, taps = np.empty((2, 2)), np.empty((4, MAX_TAPS))
     if translation[2] < 1.0 or not footprint(rotation, translation, lens, side_mm, ahead):
         return False
     level, many, spread, smear = taps_of(ahead, blur, tex[3], taps)

@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from tracker.camera.blur.kernels import MOST_OF_BELL, bell_on, mapped, smear_of
+from tracker.camera.blur.kernels import MAX_OF_BELL, bell_on, mapped, smear_of
 from tracker.compiled import compiled
 
 # Up to so much more of a bell's variance along one direction, by that of the picture, no taps are needed.
 LITTLE_MORE = 0.1
 # Taps stand so many sd of the picture's blur apart: farther, and they are seen one by one.
 TAP_GAP_SDS = 1.25
-MOST_OF_LINE = 41
-LEAST_SIDES2 = 1e-8
-MOST_TAPS = MOST_OF_BELL * MOST_OF_LINE
+MAX_OF_LINE = 41
+MIN_SIDES2 = 1e-8
+MAX_TAPS = MAX_OF_BELL * MAX_OF_LINE
 
 
 @compiled
@@ -28,9 +28,9 @@ def taps_of(ahead, blur, blurs, taps):
     bell[1] -= smear * sy * sy
     bell[2] -= smear * sx * sy
     m00, m11, m01 = mapped(ahead, bell)
-    offsets, weights = np.empty(MOST_OF_BELL), np.empty(MOST_OF_BELL)
+    offsets, weights = np.empty(MAX_OF_BELL), np.empty(MAX_OF_BELL)
     level, bells, ex, ey, along, across = bell_on(
-        m00, m11, m01, blurs, LEAST_SIDES2, LITTLE_MORE, TAP_GAP_SDS, offsets, weights
+        m00, m11, m01, blurs, MIN_SIDES2, LITTLE_MORE, TAP_GAP_SDS, offsets, weights
     )
     # What a pixel along the smear is on the plane.
     px, py = ahead[0, 0] * sx + ahead[0, 1] * sy, ahead[1, 0] * sx + ahead[1, 1] * sy
@@ -38,7 +38,7 @@ def taps_of(ahead, blur, blurs, taps):
     if smear > 0.0:
         length = np.sqrt(12.0 * smear)
         lines = int(np.ceil(length * np.sqrt(px * px + py * py) / (TAP_GAP_SDS * blurs[level])))
-        lines = min(max(lines, 3), MOST_OF_LINE)
+        lines = min(max(lines, 3), MAX_OF_LINE)
         # So far apart that the variance is the line's.
         gap = length / np.sqrt(lines * lines - 1.0)
     count = 0

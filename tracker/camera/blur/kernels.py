@@ -5,8 +5,8 @@ import numpy as np
 from tracker.compiled import compiled
 
 # A smear with less of the bell's variance is as good as a longer bell.
-LEAST_SMEAR_RATIO = 0.25
-MOST_OF_BELL = 13
+MIN_SMEAR_RATIO = 0.25
+MAX_OF_BELL = 13
 
 
 @compiled
@@ -53,7 +53,7 @@ def smear_of(blur):
     """The variance that motion added to a blur (3,) in px^2, 0 where it is a bell; its direction (x, y)."""
     larger, smaller, x, y = axes_of(blur[0], blur[1], blur[2])
     more = larger - smaller
-    return (more if more > LEAST_SMEAR_RATIO * smaller else 0.0), x, y
+    return (more if more > MIN_SMEAR_RATIO * smaller else 0.0), x, y
 
 
 @compiled
@@ -73,7 +73,7 @@ def bell_over(more, has, little, gap_sds, offsets, weights):
         return 3
     sd = np.sqrt(more)
     reach = int(np.ceil(2.3 * sd / (gap_sds * np.sqrt(has))))
-    reach = min(max(reach, 1), MOST_OF_BELL // 2)
+    reach = min(max(reach, 1), MAX_OF_BELL // 2)
     gap = 2.3 * sd / reach
     count = 2 * reach + 1
     total, variance = 0.0, 0.0

@@ -9,7 +9,7 @@ from tracker.camera.boards import Board, CharucoBoard, CheckerBoard
 from tracker.camera.calibration.report import CalibrationReport, CalibrationWarning
 from tracker.camera.detection.view import BoardView
 
-LEAST_ALIKE, LEAST_ALIKE_RATIO = 3, 0.5
+MIN_ALIKE, MIN_ALIKE_RATIO = 3, 0.5
 
 
 def with_board_judged(
@@ -50,6 +50,6 @@ def likely_size(views: Sequence[BoardView], board: Board) -> tuple[int, int] | N
     alike = sum(
         span == most and view.ids.size == most[0] * most[1] for span, view in zip(spans, views, strict=True)
     )
-    if most == (board.columns, board.rows) or alike < max(LEAST_ALIKE, LEAST_ALIKE_RATIO * len(views)):
+    if most == (board.columns, board.rows) or alike < max(MIN_ALIKE, MIN_ALIKE_RATIO * len(views)):
         return None
     return most

@@ -25,10 +25,10 @@ from tracker.camera.model import CameraModel
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array, Camera, Pattern, Rigid
 
-LEAST_VIEWS = 3
+MIN_VIEWS = 3
 FIRST_MODEL = 5
-MOST_OUT_RATIO = 0.5
-MOST_FOCAL_SD_RATIO = 0.1
+MAX_OUT_RATIO = 0.5
+MAX_FOCAL_SD_RATIO = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -200,15 +200,15 @@ def _refuse_model(settings: CalibrationSettings) -> None:
 
 
 def _refuse_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -> None:
-    if sound >= LEAST_VIEWS:
+    if sound >= MIN_VIEWS:
         return
     why = next((fault for fault in faults if fault), "")
     raise CalibrationError(
         "TOO_FEW_VIEWS",
-        f"{sound} of {len(views)} views of the board can be used, at least {LEAST_VIEWS} are needed"
+        f"{sound} of {len(views)} views of the board can be used, at least {MIN_VIEWS} are needed"
         + (f" (the first that cannot: {why})" if why else ""),
         "Take 10 to 20 images with the whole board in view, tilted by 20 to 45 deg to different sides.",
-        {"views": len(views), "usable": sound, "needed": LEAST_VIEWS},
+        {"views": len(views), "usable": sound, "needed": MIN_VIEWS},
     )
 
 
@@ -216,12 +216,12 @@ def _refuse_undetermined(reports: Sequence[ViewReport], parameters: Sequence[Par
     """A bent picture of parallel boards looks tilted before the lens is known: so once more with the lens."""
     widest = widest_tilt_deg([view for view in reports if view.used])
     unsure = max(one.sd / one.value for one in parameters if one.name in ("fx", "fy"))
-    if widest >= PARALLEL_DEG and unsure <= MOST_FOCAL_SD_RATIO:
+    if widest >= PARALLEL_DEG and unsure <= MAX_FOCAL_SD_RATIO:
         return
     raise CalibrationError(
         "VIEWS_ALL_PARALLEL",
         f"the board's directions differ by {widest:.1f} deg, needed {PARALLEL_DEG:g} deg, and the focal "
-        f"length is sure to {100 * unsure:.1f} %, needed {100 * MOST_FOCAL_SD_RATIO:.0f} %",
+        f"length is sure to {100 * unsure:.1f} %, needed {100 * MAX_FOCAL_SD_RATIO:.0f} %",
         "Take 10 to 20 views with the board tilted by 20 to 45 deg to different sides, near and far.",
         {"tilt_range_deg": widest, "focal_sd_ratio": unsure},
     )
@@ -229,7 +229,7 @@ def _refuse_undetermined(reports: Sequence[ViewReport], parameters: Sequence[Par
 
 def _refuse_disagreement(kept: Kept, usable: int) -> None:
     left = len(kept.indexes)
-    if left >= LEAST_VIEWS and usable - left <= MOST_OUT_RATIO * usable:
+    if left >= MIN_VIEWS and usable - left <= MAX_OUT_RATIO * usable:
         return
     raise CalibrationError(
         "VIEWS_DISAGREE",

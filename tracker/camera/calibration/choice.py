@@ -16,23 +16,23 @@ from tracker.errors import CalibrationError
 from tracker.geometry import Array
 
 USUAL = 5
-LEAST_VIEWS = 5
-MOST_FOLDS = 5
+MIN_VIEWS = 5
+MAX_FOLDS = 5
 # Fewer or more than the usual number must be better by so much: the usual one has the simple one inside, so
 # that taking it costs next to nothing, and eight run wild beyond the points where they are not needed.
 SIMPLER_BY, RICHER_BY = 0.005, 0.02
 # A single bad point must not choose the model.
-MOST_POINT_SDS = 6.0
+MAX_POINT_SDS = 6.0
 
 
 def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int], reach_px: float) -> ModelChoice:
     """4, 5 or 8 coefficients. `reach_px` is how far from the middle the lens must stay one to one."""
-    if len(views) < LEAST_VIEWS:
+    if len(views) < MIN_VIEWS:
         few = 4 if len(views) < 3 else USUAL
         return ModelChoice(
             coefficients=few,
             held_out_rms_px=(),
-            reason=f"{few} without a trial: {len(views)} views, to hold some out takes {LEAST_VIEWS}",
+            reason=f"{few} without a trial: {len(views)} views, to hold some out takes {MIN_VIEWS}",
         )
     held = {model: held_out_rms_px(views, size_wh_px, model) for model in MODELS}
     told = tuple((model, rms) for model, rms in held.items() if np.isfinite(rms))
@@ -58,7 +58,7 @@ def choose_model(views: Sequence[BoardView], size_wh_px: tuple[int, int], reach_
 
 def held_out_rms_px(views: Sequence[BoardView], size_wh_px: tuple[int, int], model: int) -> float:
     """Root mean square distance in views to which the camera was not fitted, only the board's pose."""
-    folds = min(MOST_FOLDS, len(views))
+    folds = min(MAX_FOLDS, len(views))
     squares: list[Array] = []
     for fold in range(folds):
         seen = [view for index, view in enumerate(views) if index % folds != fold]
@@ -73,7 +73,7 @@ def held_out_rms_px(views: Sequence[BoardView], size_wh_px: tuple[int, int], mod
             off = view.image_points_px - projected(view.object_points_mm, *pose, fit.matrix, fit.distortion)
             squares.append((off**2).sum(axis=1))
     together = np.concatenate(squares)
-    limit = MOST_POINT_SDS**2 * float(np.median(together)) / (2.0 * np.log(2.0))
+    limit = MAX_POINT_SDS**2 * float(np.median(together)) / (2.0 * np.log(2.0))
     return float(np.sqrt(np.minimum(together, limit).mean()))
 
 

@@ -18,7 +18,7 @@ GRID = (8, 6)
 FEW_VIEWS = 8
 LITTLE_TILT_DEG = 15.0
 ONE_DISTANCE_RATIO = 1.15
-LEAST_CORNER_REACH_RATIO = 0.7
+MIN_CORNER_REACH_RATIO = 0.7
 UNSURE_FOCAL_RATIO, UNSURE_MIDDLE_RATIO = 0.01, 0.01
 MANY_OUT_RATIO = 0.25
 MORE_VIEWS = "Take 10 to 20 views; a few views determine the lens poorly."
@@ -88,14 +88,14 @@ def warnings_of(
             coverage.corner_reach_ratios,
             strict=True,
         )
-        if reach < LEAST_CORNER_REACH_RATIO
+        if reach < MIN_CORNER_REACH_RATIO
     ]
     if low:
         least = 100 * min(coverage.corner_reach_ratios)
         warn(
             "CORNERS_UNCOVERED",
             f"towards the image's {', '.join(low)} corner points reach {least:.0f} % of the way, advised are "
-            f"{100 * LEAST_CORNER_REACH_RATIO:.0f} %",
+            f"{100 * MIN_CORNER_REACH_RATIO:.0f} %",
             "Add views with the board there: beyond its points the lens is a guess.",
         )
     told.extend(_unsure(parameters, size_wh_px))

@@ -20,13 +20,13 @@ from tracker.geometry import Array
 
 # Focal lengths and middle; the lens stays common, or the groups would explain anything.
 OWN = 4
-LEAST_VIEWS, LEAST_MEMBERS = 8, 2
+MIN_VIEWS, MIN_MEMBERS = 8, 2
 # Of the squared residuals, what two cameras may leave. Of real single cameras they leave 0.88 and more, of
 # pairs of one make 0.80 and less.
 CLEAR_RATIO = 0.85
 # Or else: how much more the first split explains than any further one, above what noise does. Of single
 # cameras up to 5, of pairs in white noise 10 to 300.
-CLEAR_FACTOR, LEAST_CHI2 = 8.0, 60.0
+CLEAR_FACTOR, MIN_CHI2 = 8.0, 60.0
 STARTS, ROUNDS = 24, 30
 # More views are counted and not named.
 NAMED = 4
@@ -65,7 +65,7 @@ def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
     To first order about the common camera: each view's own pull (`Block`) says which of two it prefers. A
     bent board, too, pulls views apart, in the same ways; so this warns and never refuses.
     """
-    if len(blocks) < LEAST_VIEWS:
+    if len(blocks) < MIN_VIEWS:
         return None
     split = _best_split(blocks)
     if split is None:
@@ -75,7 +75,7 @@ def two_groups(blocks: Sequence[Block]) -> TwoGroups | None:
     noise_px2 = left_px2 / sum(block.coordinates - block.own for block in blocks)
     further_px2 = _further_gain_px2(blocks, split)
     by_rms = left_px2 <= CLEAR_RATIO * squares_px2
-    by_factor = split.gain_px2 >= max(CLEAR_FACTOR * further_px2, LEAST_CHI2 * noise_px2)
+    by_factor = split.gain_px2 >= max(CLEAR_FACTOR * further_px2, MIN_CHI2 * noise_px2)
     if not (by_rms or by_factor):
         return None
     difference = (split.second_step - split.first_step)[:OWN]
@@ -133,7 +133,7 @@ def _best_split(blocks: Sequence[Block]) -> _Split | None:
 def _settled(second: Members, informations: Array, gradients: Array) -> _Split | None:
     split: _Split | None = None
     for _ in range(ROUNDS):
-        if min(int(second.sum()), int((~second).sum())) < LEAST_MEMBERS:
+        if min(int(second.sum()), int((~second).sum())) < MIN_MEMBERS:
             return split
         split = _fitted(second, informations, gradients)
         moved = _costs(split.second_step, informations, gradients) < _costs(
@@ -171,6 +171,6 @@ def _further_gain_px2(blocks: Sequence[Block], split: _Split) -> float:
             for block, is_member in zip(blocks, members, strict=True)
             if is_member
         ]
-        further = _best_split(group) if len(group) >= 2 * LEAST_MEMBERS else None
+        further = _best_split(group) if len(group) >= 2 * MIN_MEMBERS else None
         most = max(most, 0.0 if further is None else further.gain_px2)
     return most

@@ -10,17 +10,17 @@ from tracker.camera.detection.view import BoardView
 from tracker.errors import CalibrationError
 from tracker.geometry import Array
 
-LEAST_POINTS = 6
+MIN_POINTS = 6
 # A lens bends a board by part of a step; points in a wrong order are whole steps off.
-MOST_OFF_STEPS = 0.6
-LEAST_SPREAD_RATIO = 0.02
+MAX_OFF_STEPS = 0.6
+MIN_SPREAD_RATIO = 0.02
 PARALLEL_DEG, SAME_PLACE_RATIO = 4.0, 0.03
 
 
 def fault_of(view: BoardView, size_wh_px: tuple[int, int]) -> str:
     """Why this view cannot be used, with numbers, or an empty string."""
-    if view.ids.size < LEAST_POINTS:
-        return f"{view.ids.size} points, at least {LEAST_POINTS} are needed"
+    if view.ids.size < MIN_POINTS:
+        return f"{view.ids.size} points, at least {MIN_POINTS} are needed"
     px, board = view.image_points_px, view.object_points_mm[:, :2]
     beyond = (px < -0.5) | (px > np.array(size_wh_px) - 0.5)
     if beyond.any():
@@ -32,7 +32,7 @@ def fault_of(view: BoardView, size_wh_px: tuple[int, int]) -> str:
     if homography is None or residual is None:
         return "its points are no picture of a flat board"
     off = float(np.sqrt((residual**2).sum(axis=1).mean())) / _step_px(px)
-    if off > MOST_OFF_STEPS:
+    if off > MAX_OFF_STEPS:
         return (
             f"the order of its points is wrong: they lie {off:.1f} steps of the grid off a flat board (RMS)"
         )

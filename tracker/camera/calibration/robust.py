@@ -12,13 +12,13 @@ from tracker.camera.detection.view import BoardView
 from tracker.geometry import Array
 
 # A view is out when its RMS is so many times the usual one; honest views differ by less than twice.
-MOST_VIEW_RATIO = 3.0
+MAX_VIEW_RATIO = 3.0
 # Below this a view is never out, whatever the others reach: nobody measures better than that in a photo.
 GOOD_VIEW_PX = 0.3
 # A point is out beyond so many standard deviations of the noise: of 10 000 honest points none.
-MOST_POINT_SDS = 5.5
-MOST_POINTS_OUT_RATIO = 0.25
-LEAST_POINTS, LEAST_VIEWS = 6, 2
+MAX_POINT_SDS = 5.5
+MAX_POINTS_OUT_RATIO = 0.25
+MIN_POINTS, MIN_VIEWS = 6, 2
 DOT_ROUNDS = 2
 ROUNDS = 8
 
@@ -48,12 +48,12 @@ def without_odd_views(views: Sequence[BoardView], size_wh_px: tuple[int, int], c
     points = tuple(np.ones(view.ids.size, dtype=bool) for view in views)
     out: dict[int, str] = {}
     fit = fit_camera([views[i] for i in kept], size_wh_px, coefficients)
-    while len(kept) > LEAST_VIEWS:
+    while len(kept) > MIN_VIEWS:
         # A few bad points must not cost a good view: its median tells what the view is like.
         typical = np.array([_typical_px(residuals) for residuals in fit.residuals_px])
         usual = float(np.median(typical))
         worst = int(np.argmax(typical))
-        limit = max(MOST_VIEW_RATIO * usual, GOOD_VIEW_PX)
+        limit = max(MAX_VIEW_RATIO * usual, GOOD_VIEW_PX)
         if typical[worst] <= limit:
             break
         out[kept[worst]] = (
@@ -92,14 +92,14 @@ def without_odd_points(
         too_few = [
             at
             for at, i in enumerate(indexes)
-            if points[i].sum() < max(LEAST_POINTS, (1 - MOST_POINTS_OUT_RATIO) * points[i].size)
+            if points[i].sum() < max(MIN_POINTS, (1 - MAX_POINTS_OUT_RATIO) * points[i].size)
         ]
-        if too_few and len(indexes) - len(too_few) >= LEAST_VIEWS:
+        if too_few and len(indexes) - len(too_few) >= MIN_VIEWS:
             for at in reversed(too_few):
                 i = indexes[at]
                 out[i] = (
                     f"{int((~points[i]).sum())} of its {points[i].size} points lie off by more than "
-                    f"{MOST_POINT_SDS * sigma:.2f} px, allowed {100 * MOST_POINTS_OUT_RATIO:.0f} % of them"
+                    f"{MAX_POINT_SDS * sigma:.2f} px, allowed {100 * MAX_POINTS_OUT_RATIO:.0f} % of them"
                 )
                 points[i] = np.ones(points[i].size, dtype=bool)
                 del indexes[at], moved[at]
@@ -130,8 +130,8 @@ def _unshifted(view: BoardView, fit: Fit, at: int) -> BoardView:
 def _sound_points(residuals_px: Array, sigma_px: float) -> npt.NDArray[np.bool_]:
     """Which points of a view (n,) have a say; what is good in any photo never costs a view."""
     off = np.linalg.norm(residuals_px, axis=1)
-    near = off <= MOST_POINT_SDS * sigma_px
-    if near.mean() < 1 - MOST_POINTS_OUT_RATIO:
+    near = off <= MAX_POINT_SDS * sigma_px
+    if near.mean() < 1 - MAX_POINTS_OUT_RATIO:
         near |= off <= GOOD_VIEW_PX
     return np.asarray(near, dtype=bool)
 

@@ -17,7 +17,7 @@ from tracker.geometry import Array
 
 # By chance alone, errors of points that are independent look alike once in about a thousand calibrations.
 ALIKE_SDS = 3.3
-LEAST_VIEWS_FOR_DIFFERENCES = 4
+MIN_VIEWS_FOR_DIFFERENCES = 4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,7 +54,7 @@ def uncertainty(blocks: Sequence[Block], *, is_noise_alike: bool) -> Uncertainty
     variance_px2 = sum(block.squares_px2 for block in blocks) / max(free, 1)
     plain = inverse(information) * variance_px2
     count = len(blocks)
-    if not is_noise_alike or count < LEAST_VIEWS_FOR_DIFFERENCES:
+    if not is_noise_alike or count < MIN_VIEWS_FOR_DIFFERENCES:
         return Uncertainty(
             covariance=plain,
             degrees_of_freedom=max(free, 1),

@@ -10,11 +10,11 @@ from tracker.geometry import Array
 
 GreyImage = npt.NDArray[np.uint8]
 
-LEAST_AREA_PX, MOST_AREA_RATIO = 12.0, 0.02
-LEAST_AXES_RATIO = 0.25
+MIN_AREA_PX, MAX_AREA_RATIO = 12.0, 0.02
+MIN_AXES_RATIO = 0.25
 # How much of the ellipse with a spot's own moments the spot must fill, and how little lie outside of it.
-LEAST_OVERLAP_RATIO = 0.8
-LEAST_CONTRAST = 10.0
+MIN_OVERLAP_RATIO = 0.8
+MIN_CONTRAST = 10.0
 # A window's size as a part of the image's height, from small dots to large ones.
 WINDOW_RATIOS = (0.03, 0.07, 0.16)
 
@@ -42,11 +42,11 @@ def dark_blobs(grey: GreyImage, *, window_ratio: float) -> Blobs:
     binary = cv2.adaptiveThreshold(smooth, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, 5)
     count, labels, stats, _ = cv2.connectedComponentsWithStats(binary, connectivity=4)
     centres, areas, fourths = [], [], []
-    most = MOST_AREA_RATIO * grey.size
+    most = MAX_AREA_RATIO * grey.size
     for label in range(1, count):
         left, top, width, height, area = (int(v) for v in stats[label])
         touches = left <= 0 or top <= 0 or left + width >= grey.shape[1] or top + height >= grey.shape[0]
-        if touches or not LEAST_AREA_PX <= area <= most or not 0.2 < width / height < 5.0:
+        if touches or not MIN_AREA_PX <= area <= most or not 0.2 < width / height < 5.0:
             continue
         patch = labels[top : top + height, left : left + width] == label
         ellipse = _ellipse_of(patch)
@@ -72,15 +72,12 @@ def _ellipse_of(patch: npt.NDArray[np.bool_]) -> tuple[Array, Array, float] | No
     # A pixel is a square, not a point.
     moments = offset @ offset.T / x.size + np.eye(2) / 12.0
     small, large = np.sqrt(np.linalg.eigvalsh(moments))
-    if small < LEAST_AXES_RATIO * large:
+    if small < MIN_AXES_RATIO * large:
         return None
     squares = np.einsum("in,ij,jn->n", offset, np.linalg.inv(moments), offset)
     inside = squares <= 4.0
     area = 4.0 * np.pi * small * large
-    if (
-        inside.mean() < LEAST_OVERLAP_RATIO
-        or not LEAST_OVERLAP_RATIO < x.size / area < 1.0 / LEAST_OVERLAP_RATIO
-    ):
+    if inside.mean() < MIN_OVERLAP_RATIO or not MIN_OVERLAP_RATIO < x.size / area < 1.0 / MIN_OVERLAP_RATIO:
         return None
     return centre, moments, float((squares**2).mean() / squares.mean() ** 2)
 
@@ -106,11 +103,11 @@ def _measured(grey: GreyImage, centre: Array, moments: Array) -> tuple[Array, fl
     )
     light = ground[0] + ground[1] * dx + ground[2] * dy
     depth = float(np.median((light - patch)[core]))
-    if depth < max(LEAST_CONTRAST, 2.0 * float((patch - light)[ring].std())):
+    if depth < max(MIN_CONTRAST, 2.0 * float((patch - light)[ring].std())):
         return None
     weight = np.where(beyond < 1.5, (light - patch) / depth, 0.0)
     area = float(weight.sum())
-    if area < LEAST_AREA_PX / 2.0:
+    if area < MIN_AREA_PX / 2.0:
         return None
     moved = np.array([(weight * dx).sum(), (weight * dy).sum()]) / area
     if np.abs(moved).max() > 2.0:

@@ -13,12 +13,12 @@ from tracker.camera.detection.plane import off_plane_px
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason, Sureness
 from tracker.geometry import Array
 
-LEAST_CORNERS, LEAST_MARKERS = 6, 4
+MIN_CORNERS, MIN_MARKERS = 6, 4
 # A corner farther than this from where its neighbours expect it, in sides of a square, is another one.
 OFF_NEIGHBOURS_RATIO = 0.15
 # Of the margin between a square and the marker in it, how much is free of the blur of the marker's edge.
 MARGIN_PART = 0.8
-LEAST_WINDOW_PX = 3.0
+MIN_WINDOW_PX = 3.0
 
 
 def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFound:
@@ -31,12 +31,12 @@ def find_charuco(grey: GreyImage, board: CharucoBoard) -> BoardView | BoardNotFo
         # A patch in the middle of the board looks alike in both, one square farther.
         if board.rows % 2 == 0 and min(misfits) > 0.5 * max(misfits):
             sureness = Sureness.PLACE
-    ids, corners, most_markers = _detected(grey, board, layout)
-    if len(ids) < LEAST_CORNERS:
+    ids, corners, max_markers = _detected(grey, board, layout)
+    if len(ids) < MIN_CORNERS:
         return BoardNotFound(
-            reason=NotFoundReason.TOO_FEW_POINTS if most_markers else NotFoundReason.NO_POINTS,
-            sentence=f"{most_markers} markers of {board.dictionary} and {len(ids)} corners between them "
-            f"are seen, at least {LEAST_CORNERS} corners are needed",
+            reason=NotFoundReason.TOO_FEW_POINTS if max_markers else NotFoundReason.NO_POINTS,
+            sentence=f"{max_markers} markers of {board.dictionary} and {len(ids)} corners between them "
+            f"are seen, at least {MIN_CORNERS} corners are needed",
             seen_points=len(ids),
         )
     return BoardView(
@@ -53,7 +53,7 @@ def charuco_layout(misfits: list[tuple[float, float]]) -> CharucoLayout:
 def layout_misfits(grey: GreyImage, board: CharucoBoard) -> tuple[float, float]:
     """How far markers lie from a flat board (median, px) if it is of the newer, and of the older layout."""
     corners, ids, _ = cv2.aruco.ArucoDetector(board.opencv_dictionary).detectMarkers(grey)
-    if _count(ids) < LEAST_MARKERS:
+    if _count(ids) < MIN_MARKERS:
         return 0.0, 0.0
     named = [int(one) for one in np.asarray(ids).ravel()]
     as_newer, as_older = (
@@ -69,7 +69,7 @@ def _misfit(corners: Sequence[object], ids: list[int], board: cv2.aruco.CharucoB
         for one, at in zip(np.ravel(board.getIds()), board.getObjPoints(), strict=True)
     }
     both = [(place_of[one], np.asarray(px)) for one, px in zip(ids, corners, strict=True) if one in place_of]
-    if len(both) < LEAST_MARKERS:
+    if len(both) < MIN_MARKERS:
         return 0.0
     points = np.concatenate([at.reshape(-1, 3)[:, :2] for at, _ in both]).astype(np.float64)
     seen = np.concatenate([px.reshape(-1, 2) for _, px in both]).astype(np.float64)
@@ -84,13 +84,13 @@ def _detected(
     detector = cv2.aruco.CharucoDetector(board.opencv_board(layout))
     found, ids, _, marker_ids = detector.detectBoard(grey)
     markers = _count(marker_ids)
-    if not _count(ids) and markers >= LEAST_CORNERS:
+    if not _count(ids) and markers >= MIN_CORNERS:
         # One marker that was read wrongly makes OpenCV refuse all; wrong corners are taken out below.
         unchecked = cv2.aruco.CharucoParameters()
         unchecked.checkMarkers = False
         detector.setCharucoParameters(unchecked)
         found, ids, _, marker_ids = detector.detectBoard(grey)
-    if _count(ids) < LEAST_CORNERS:
+    if _count(ids) < MIN_CORNERS:
         return np.zeros(0, dtype=np.int64), np.zeros((0, 2)), markers
     named = np.asarray(ids, dtype=np.int64).ravel()
     px = np.asarray(found, dtype=np.float64).reshape(-1, 2)
@@ -98,7 +98,7 @@ def _detected(
     cells = np.column_stack([column, row])
     kept = _with_neighbours(px, cells)
     named, px, cells = named[kept], px[kept], cells[kept]
-    if len(named) < LEAST_CORNERS:
+    if len(named) < MIN_CORNERS:
         return np.zeros(0, dtype=np.int64), np.zeros((0, 2)), markers
     return named, _placed_finely(grey, px, cells, board), markers
 
@@ -110,7 +110,7 @@ def _placed_finely(grey: GreyImage, px: Array, cells: Cells, board: CharucoBoard
     """
     window_ratio = MARGIN_PART * 0.5 * (1.0 - board.marker_mm / board.square_mm)
     sides_px, _ = step_lengths_px(px, cells)
-    large = window_ratio * sides_px >= LEAST_WINDOW_PX
+    large = window_ratio * sides_px >= MIN_WINDOW_PX
     return np.where(large[:, None], refined(grey, px, sides_px, window_ratio=window_ratio), px)
 
 
@@ -126,7 +126,7 @@ def _with_neighbours(px: Array, cells: Cells) -> np.ndarray[tuple[int], np.dtype
         off = _off_map(px[kept], cells[kept])
         side, _ = step_lengths_px(px[kept], cells[kept])
         bad = off > OFF_NEIGHBOURS_RATIO * np.median(side) + 3.0 * np.median(off)
-        if not bad.any() or kept.sum() - bad.sum() < LEAST_CORNERS:
+        if not bad.any() or kept.sum() - bad.sum() < MIN_CORNERS:
             return kept
         kept[np.flatnonzero(kept)[bad]] = False
     return kept

@@ -14,13 +14,13 @@ from tracker.geometry import Array
 
 SECTOR_FLAGS = cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_EXHAUSTIVE | cv2.CALIB_CB_ACCURACY
 QUAD_FLAGS = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
-LEAST_CORNERS = 12
+MIN_CORNERS = 12
 ENLARGED, LARGEST_ENLARGED_PX = 1.5, 2_000_000
-LEAST_SIDE = 3
-MOST_GRIDS = 4
-LEAST_REGULAR_RATIO, LEAST_CONTRAST_RATIO = 0.75, 0.6
+MIN_SIDE = 3
+MAX_GRIDS = 4
+MIN_REGULAR_RATIO, MIN_CONTRAST_RATIO = 0.75, 0.6
 # Corners of a part of a board at which the colours may be told wrongly, as by glare.
-MOST_ODD_RATIO = 0.05
+MAX_ODD_RATIO = 0.05
 
 
 def find_checker(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
@@ -44,12 +44,12 @@ def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
     """The largest grid of corners that can be a part of the board; others may be in view."""
     best: BoardView | None = None
     other: BoardNotFound | None = None
-    most_seen = 0
+    max_seen = 0
     for smoothing_px in SADDLE_SMOOTHING_PX:
         points = saddles(grey, smoothing_px=smoothing_px)
-        for lattice in lattices(points, most=MOST_GRIDS):
-            most_seen = max(most_seen, len(lattice.members))
-            if len(lattice.members) < min(LEAST_CORNERS, board.columns * board.rows):
+        for lattice in lattices(points, most=MAX_GRIDS):
+            max_seen = max(max_seen, len(lattice.members))
+            if len(lattice.members) < min(MIN_CORNERS, board.columns * board.rows):
                 break
             seen = _part_viewed(grey, board, points[lattice.members], lattice.cells)
             if isinstance(seen, BoardNotFound):
@@ -59,9 +59,9 @@ def _in_part(grey: GreyImage, board: CheckerBoard) -> BoardView | BoardNotFound:
     if best is not None:
         return best
     return other or BoardNotFound(
-        reason=NotFoundReason.TOO_FEW_POINTS if most_seen else NotFoundReason.NO_POINTS,
-        sentence=f"{most_seen} corners of squares stand in a grid, at least {LEAST_CORNERS} are needed",
-        seen_points=most_seen,
+        reason=NotFoundReason.TOO_FEW_POINTS if max_seen else NotFoundReason.NO_POINTS,
+        sentence=f"{max_seen} corners of squares stand in a grid, at least {MIN_CORNERS} are needed",
+        seen_points=max_seen,
     )
 
 
@@ -71,18 +71,18 @@ def _part_viewed(
     """Without corners at which dark and light do not take turns, and without stray lines at the rim."""
     # The board's own rim has corners of half the contrast, and a flat part of the image those of noise.
     contrast = np.abs(_quarters(grey, points, cells))
-    clear = contrast > LEAST_CONTRAST_RATIO * np.percentile(contrast, 90)
+    clear = contrast > MIN_CONTRAST_RATIO * np.percentile(contrast, 90)
     points, cells = points[clear], cells[clear]
     odd = (_looks(grey, points, cells) + cells.sum(axis=1)) % 2
     usual = odd == round(float(odd.mean()))
     inside, kept = within(cells[usual], board.columns, board.rows)
     seen = points[usual][kept]
-    needed = min(LEAST_CORNERS, board.columns * board.rows)
-    if len(seen) < needed or usual.mean() < LEAST_REGULAR_RATIO:
+    needed = min(MIN_CORNERS, board.columns * board.rows)
+    if len(seen) < needed or usual.mean() < MIN_REGULAR_RATIO:
         few = f"{len(seen)} corners where dark and light take turns, at least {needed} are needed"
         mixed = (
             f"dark and light take turns at {100 * usual.mean():.0f} % of {len(points)} corners in a grid, "
-            f"needed {100 * LEAST_REGULAR_RATIO:.0f} %"
+            f"needed {100 * MIN_REGULAR_RATIO:.0f} %"
         )
         return BoardNotFound(
             reason=NotFoundReason.TOO_FEW_POINTS,
@@ -94,7 +94,7 @@ def _part_viewed(
 
 def _whole(grey: GreyImage, board: CheckerBoard) -> Array | None:
     size = (board.columns, board.rows)
-    if min(size) < LEAST_SIDE:
+    if min(size) < MIN_SIDE:
         return None
     found, corners = cv2.findChessboardCornersSB(grey, size, flags=SECTOR_FLAGS)
     if not found:
@@ -108,7 +108,7 @@ def _whole_enlarged(grey: GreyImage, board: CheckerBoard) -> Array | None:
     Its squares hang together only where the gaps between them are wide enough to be opened: enlarged.
     """
     size = (board.columns, board.rows)
-    if min(size) < LEAST_SIDE or grey.size > LARGEST_ENLARGED_PX:
+    if min(size) < MIN_SIDE or grey.size > LARGEST_ENLARGED_PX:
         return None
     larger = cv2.resize(grey, None, fx=ENLARGED, fy=ENLARGED, interpolation=cv2.INTER_CUBIC)
     found, corners = cv2.findChessboardCorners(larger, size, flags=QUAD_FLAGS & ~cv2.CALIB_CB_FAST_CHECK)
@@ -131,7 +131,7 @@ def _viewed(
     names = (column + row) % 2
     grid = np.arange(board.columns * board.rows).reshape(board.rows, board.columns)
     place = None
-    if min(wide, high) >= min(LEAST_SIDE, board.columns, board.rows):
+    if min(wide, high) >= min(MIN_SIDE, board.columns, board.rows):
         # Where the shape leaves a choice, the outermost square at the first corner is taken to be dark.
         looks = _looks(grey, corners, cells)
         place = placed(cells, corners, looks, grid, names, quarters_swap_looks=True)
@@ -141,7 +141,7 @@ def _viewed(
             sentence=f"a grid of {wide} x {high} corners, and the board has {board.columns} x {board.rows}",
             seen_points=len(cells),
         )
-    if not is_whole and place.misfits > MOST_ODD_RATIO * len(cells):
+    if not is_whole and place.misfits > MAX_ODD_RATIO * len(cells):
         return BoardNotFound(
             reason=NotFoundReason.TOO_FEW_POINTS,
             sentence=f"{len(cells)} corners stand in a grid, and dark and light do not take turns at "

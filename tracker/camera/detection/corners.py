@@ -13,9 +13,9 @@ REFINE_CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-4)
 WINDOW_RATIO = 0.3
 SMALLEST_WINDOW_PX, LARGEST_WINDOW_PX = 2, 12
 SADDLE_SMOOTHING_PX = (1.5, 3.0)
-MOST_SADDLES = 3000
+MAX_SADDLES = 3000
 # Light on a ring around a corner, so many smoothings away, is a wave of two periods before all others.
-RING_SMOOTHINGS, RING_POINTS, LEAST_CROSSED_RATIO = 2.5, 24, 0.7
+RING_SMOOTHINGS, RING_POINTS, MIN_CROSSED_RATIO = 2.5, 24, 0.7
 
 
 def refined(
@@ -46,7 +46,7 @@ def saddles(grey: GreyImage, *, smoothing_px: float) -> Array:
     peak = cv2.dilate(strength, np.ones((reach, reach), np.uint8))
     floor = 0.1 * float(np.percentile(peak, 99.0))
     y, x = np.nonzero((strength >= peak) & (strength > max(floor, 1.0)))
-    strongest = np.argsort(-strength[y, x])[:MOST_SADDLES]
+    strongest = np.argsort(-strength[y, x])[:MAX_SADDLES]
     points = np.stack([x[strongest], y[strongest]], axis=1).astype(np.float64)
     return points[_crossed(smooth, points, radius_px=RING_SMOOTHINGS * smoothing_px)]
 
@@ -61,7 +61,7 @@ def _crossed(smooth: npt.NDArray[np.float32], points: Array, *, radius_px: float
     # A ring that reaches out of the image is judged by what is inside.
     values = cv2.remap(smooth, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).reshape(x.shape)
     waves = np.abs(np.fft.rfft(values, axis=1))[:, 1:] ** 2
-    return np.asarray(waves[:, 1] >= LEAST_CROSSED_RATIO * waves.sum(axis=1), dtype=bool)
+    return np.asarray(waves[:, 1] >= MIN_CROSSED_RATIO * waves.sum(axis=1), dtype=bool)
 
 
 def quarter_signs(grey: GreyImage, corners_px: Array, a_px: Array, b_px: Array) -> Array:

@@ -10,11 +10,11 @@ from tracker.camera.detection.placing import placed, within
 from tracker.camera.detection.view import BoardNotFound, BoardView, NotFoundReason
 from tracker.geometry import Array
 
-LEAST_DOTS = 12
+MIN_DOTS = 12
 LARGER_AREA_RATIO = 1.6
 # Between an ellipse (4/3) and a square (1.4); told of spots that are large enough to show their shape.
-MOST_FOURTH_MOMENT = 1.368
-LEAST_AREA_FOR_SHAPE_PX2 = 60.0
+MAX_FOURTH_MOMENT = 1.368
+MIN_AREA_FOR_SHAPE_PX2 = 60.0
 
 
 def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
@@ -23,7 +23,7 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
     if seen is None:
         return BoardNotFound(reason=NotFoundReason.NO_POINTS, sentence="no dots that stand in a grid")
     blobs, lattice = seen
-    needed = min(LEAST_DOTS, board.columns * board.rows)
+    needed = min(MIN_DOTS, board.columns * board.rows)
     if len(lattice.members) < needed:
         return BoardNotFound(
             reason=NotFoundReason.TOO_FEW_POINTS,
@@ -32,7 +32,7 @@ def find_dots(grey: GreyImage, board: DotBoard) -> BoardView | BoardNotFound:
         )
     fourth = float(np.median(blobs.fourth_moments[lattice.members]))
     px, areas_px2 = blobs.centres_px[lattice.members], blobs.areas_px2[lattice.members]
-    if fourth > MOST_FOURTH_MOMENT and float(np.median(areas_px2)) > LEAST_AREA_FOR_SHAPE_PX2:
+    if fourth > MAX_FOURTH_MOMENT and float(np.median(areas_px2)) > MIN_AREA_FOR_SHAPE_PX2:
         return BoardNotFound(
             reason=NotFoundReason.NO_POINTS,
             sentence=f"{len(px)} spots stand in a grid, and they are square and not round",
@@ -85,13 +85,13 @@ def _best_grid(grey: GreyImage, board: DotBoard) -> tuple[Blobs, Lattice] | None
         for ratio in WINDOW_RATIOS:
             blobs = dark_blobs(image, window_ratio=ratio)
             lattice = largest_lattice(blobs.centres_px)
-            if len(lattice.members) >= LEAST_DOTS // 2 and (
+            if len(lattice.members) >= MIN_DOTS // 2 and (
                 best is None or len(lattice.members) > len(best[1].members)
             ):
                 best = blobs, lattice
             if best is not None and len(best[1].members) == whole:
                 return best
-        if best is not None and len(best[1].members) >= LEAST_DOTS:
+        if best is not None and len(best[1].members) >= MIN_DOTS:
             return best
     return best
 

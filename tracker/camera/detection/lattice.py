@@ -16,10 +16,10 @@ Cell = tuple[int, int]
 
 # A step is expected to be like the last one, within this part of its length.
 STEP_TOLERANCE_RATIO = 0.3
-LEAST_MEMBERS = 6
+MIN_MEMBERS = 6
 NEIGHBOURS = 9
 SEEDS = 40
-LEAST_ANGLE_SINE = 0.35
+MIN_ANGLE_SINE = 0.35
 # Farther than this from a smooth map of the grid, in steps, a point is none of it.
 OFF_GRID_RATIO = 0.2
 DIRECTIONS: tuple[Cell, ...] = ((1, 0), (-1, 0), (0, 1), (0, -1))
@@ -48,7 +48,7 @@ def lattices(points_px: Array, *, most: int) -> Iterator[Lattice]:
     left = np.arange(len(points_px))
     for _ in range(most):
         found = largest_lattice(points_px[left])
-        if len(found.members) < LEAST_MEMBERS:
+        if len(found.members) < MIN_MEMBERS:
             return
         yield Lattice(members=left[found.members], cells=found.cells)
         left = np.delete(left, found.members)
@@ -124,7 +124,7 @@ def _basis_at(points_px: Array, tree: cKDTree, seed: int) -> tuple[Array, Array]
             steps.append(step)
             continue
         sine = abs(steps[0][0] * step[1] - steps[0][1] * step[0]) / (float(np.linalg.norm(steps[0])) * length)
-        if sine > LEAST_ANGLE_SINE:
+        if sine > MIN_ANGLE_SINE:
             return steps[0], step
     return None
 

@@ -10,12 +10,12 @@ from tracker.camera.calibration.sureness import noise_is_alike, uncertainty
 from tracker.camera.detection.view import BoardView
 from tracker.camera.model import CameraModel
 from tracker.camera.rig.bundle import Bundle, adjusted, places_of, residuals_px, rig_blocks
-from tracker.camera.rig.consensus import LEAST_PAIRS, MOST_OUT_RATIO, Agreement, agreement
+from tracker.camera.rig.consensus import MAX_OUT_RATIO, MIN_PAIRS, Agreement, agreement
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array, Camera, Rigid
 
-MOST_POINT_SDS = 5.5
-MOST_SHOT_RATIO, GOOD_SHOT_PX = 3.0, 0.2
+MAX_POINT_SDS = 5.5
+MAX_SHOT_RATIO, GOOD_SHOT_PX = 3.0, 0.2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,11 +140,11 @@ def _without_odd_shots(start: Bundle, views: Sequence[dict[str, BoardView]]) -> 
         ]
         worst, usual = int(np.argmax(typical)), float(np.median(typical))
         shared = sum(len(shot) > 1 for shot in some)
-        if typical[worst] <= max(MOST_SHOT_RATIO * usual, GOOD_SHOT_PX) or shared <= LEAST_PAIRS:
+        if typical[worst] <= max(MAX_SHOT_RATIO * usual, GOOD_SHOT_PX) or shared <= MIN_PAIRS:
             return bundle, out
         out[kept[worst]] = (
             f"its points lie off by {typical[worst]:.2f} px where others have {usual:.2f} px, allowed "
-            f"{max(MOST_SHOT_RATIO * usual, GOOD_SHOT_PX):.2f} px: not of the same instant, or other order"
+            f"{max(MAX_SHOT_RATIO * usual, GOOD_SHOT_PX):.2f} px: not of the same instant, or other order"
         )
         del kept[worst]
 
@@ -153,7 +153,7 @@ def _left(
     agreed: Agreement, used: Sequence[int], views: Sequence[dict[str, BoardView]], out: dict[int, str]
 ) -> tuple[Agreement, list[int], list[dict[str, BoardView]]]:
     """The same without the instants that are out."""
-    if len(out) > MOST_OUT_RATIO * len(views):
+    if len(out) > MAX_OUT_RATIO * len(views):
         raise CalibrationError(
             "RIG_VIEWS_DISAGREE",
             f"{len(out)} of {len(views)} instants do not fit to one rig, allowed is a third of them",
@@ -184,7 +184,7 @@ def _without_odd_points(bundle: Bundle, views: list[dict[str, BoardView]]) -> li
     sigma_px = 1.4826 * float(np.median(np.abs(np.concatenate([r.ravel() for _, _, r in every])))) + 1e-9
     kept: list[dict[str, BoardView]] = [{} for _ in views]
     for index, name, residual in every:
-        near = np.linalg.norm(residual, axis=1) <= MOST_POINT_SDS * sigma_px
+        near = np.linalg.norm(residual, axis=1) <= MAX_POINT_SDS * sigma_px
         # A view of which most is odd is told by the RMS of its instant, not made smaller.
         kept[index][name] = views[index][name].part(near if near.mean() > 0.75 else np.ones_like(near))
     return kept

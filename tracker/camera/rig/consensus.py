@@ -11,11 +11,11 @@ from tracker.camera.model import CameraModel
 from tracker.errors import CalibrationError
 from tracker.geometry import Array, Camera, Pattern, Rigid
 
-LEAST_PAIRS = 3
+MIN_PAIRS = 3
 # A pair is out where it places a camera farther off than this from where most pairs place it; the shift is
 # told as a part of the board's distance.
-MOST_TURN_DEG, MOST_SHIFT_RATIO = 3.0, 0.04
-MOST_OUT_RATIO = 0.34
+MAX_TURN_DEG, MAX_SHIFT_RATIO = 3.0, 0.04
+MAX_OUT_RATIO = 0.34
 
 Shot = Mapping[str, BoardView]
 
@@ -72,11 +72,11 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
             if far not in places
         }
         near, far = max(counts, key=lambda pair: counts[pair])
-        if counts[near, far] < LEAST_PAIRS:
+        if counts[near, far] < MIN_PAIRS:
             raise CalibrationError(
                 "RIG_UNCONNECTED",
                 f"{far} sees the board together with another camera in {counts[near, far]} views, at least "
-                f"{LEAST_PAIRS} are needed",
+                f"{MIN_PAIRS} are needed",
                 "Take views in which both cameras see the board at the same time.",
                 {"camera": far, "views": counts[near, far]},
             )
@@ -86,7 +86,7 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
             del kept[index][far]
             reasons[index] = (
                 f"{far} does not see the board where {near} does (off the rest by more than "
-                f"{MOST_TURN_DEG:g} deg or {100 * MOST_SHIFT_RATIO:g} %): wrong pair, or other order"
+                f"{MAX_TURN_DEG:g} deg or {100 * MAX_SHIFT_RATIO:g} %): wrong pair, or other order"
             )
         places[far] = far_from_near @ places[near]
     return Agreement(camera_from_first=places, shots=tuple(kept), reasons=tuple(reasons))
@@ -126,7 +126,7 @@ def _is_near(one: Rigid[Camera, Camera], two: Rigid[Camera, Camera], distance_mm
     off = one @ two.inverse
     cosine = np.clip((np.trace(off.rotation) - 1.0) / 2.0, -1.0, 1.0)
     shift = float(np.linalg.norm(one.translation_mm - two.translation_mm))
-    return bool(np.degrees(np.arccos(cosine)) <= MOST_TURN_DEG and shift <= MOST_SHIFT_RATIO * distance_mm)
+    return bool(np.degrees(np.arccos(cosine)) <= MAX_TURN_DEG and shift <= MAX_SHIFT_RATIO * distance_mm)
 
 
 def _posed(view: BoardView, model: CameraModel) -> Seen | None:
@@ -160,7 +160,7 @@ def _distance_mm(seen: Seen) -> float:
 
 
 def _refuse_disagreement(near: str, far: str, odd: int, count: int) -> None:
-    if count - odd >= LEAST_PAIRS and odd <= MOST_OUT_RATIO * count:
+    if count - odd >= MIN_PAIRS and odd <= MAX_OUT_RATIO * count:
         return
     raise CalibrationError(
         "RIG_VIEWS_DISAGREE",

@@ -13,59 +13,59 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracker.geometry import Array
-from tracker.marker.explanation.cover import LEAST_AREA_RATIO, Mask
+from tracker.marker.explanation.cover import MIN_AREA_RATIO, Mask
 from tracker.marker.explanation.fields.kernels import FIELDS, RING, WIDE
-from tracker.marker.explanation.flips import MOST_FLIPPED_RATIO
+from tracker.marker.explanation.flips import MAX_FLIPPED_RATIO
 
 # In empty scenes other squares from 16 px reach 0.91 with a fitted blur, in shadow too, and 0.84 under fitted
 # highlights, which take away from both; the marker itself has 0.96 and more, at 20 px under glare 0.93.
 # What is small has little to say, and what is covered less.
-LIKENESS_SIDES_PX, LEAST_LIKENESS = (18.0, 24.0, 34.0), (0.975, 0.95, 0.94)
+LIKENESS_SIDES_PX, MIN_LIKENESS = (18.0, 24.0, 34.0), (0.975, 0.95, 0.94)
 HIGHLIGHTS_LESS = 0.02
 COVERED_MORE = 0.01
-COVERED_RATIO, MOST_HIDDEN_RATIO = 0.03, 0.45
+COVERED_RATIO, MAX_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
-MOST_INNER_HIDDEN_RATIO = 0.55
+MAX_INNER_HIDDEN_RATIO = 0.55
 # Of what was there a moment ago, so much more may be hidden, and so much lie on it apart from the border.
-LEAST_KNOWN_LIKENESS, MOST_KNOWN_HIDDEN_RATIO, MOST_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
+MIN_KNOWN_LIKENESS, MAX_KNOWN_HIDDEN_RATIO, MAX_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
 # In uneven light, the noise that the outline shows taken out, other squares reach 0.92 where they have 0.7
 # with it, and wide ones 0.95 with 0.89 (9,000 looked at), once 0.943; of a wide square the noise hides less.
 # Where the square is small, nothing is said.
-LEAST_UNEVEN_PX = 18.0
-IN_NOISE_SIDES_PX, LEAST_IN_NOISE, LEAST_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9), 0.955
+MIN_UNEVEN_PX = 18.0
+IN_NOISE_SIDES_PX, MIN_IN_NOISE, MIN_BESIDE_NOISE = (30.0, 45.0), (0.8, 0.9), 0.955
 # The more noise is taken out, the less else may be left. In shadow, highlights, smear and noise, framed
 # squares with a bent spot have reached 0.93 with noise and 0.96 without it, small ones 0.93 and 0.99 (3,300
 # looked at); nearly all had to be taken for blurred over more of their side than the next limit allows.
-BOTH_SIDES_PX, LEAST_BOTH = (20.0, 26.0), (1.93, 1.875)
+BOTH_SIDES_PX, MIN_BOTH = (20.0, 26.0), (1.93, 1.875)
 # Blurred over less of its side (geometric mean of both directions) one that is not small has more to say than
 # another can imitate: of the squares that the limit above alone refuses, one of 20 px was so sharp, and 19 of
 # 28 markers were.
-SHARP_MEAN_BLUR_SIDE_RATIOS, SHARP_SIDES_PX, LEAST_BOTH_SHARP = (0.055, 0.06), (20.0, 24.0), (1.93, 1.84)
+SHARP_MEAN_BLUR_SIDE_RATIOS, SHARP_SIDES_PX, MIN_BOTH_SHARP = (0.055, 0.06), (20.0, 24.0), (1.93, 1.84)
 # Blurred over more of its side, or more of it hidden or too bright to tell, a part of the shape passes for
 # light.
-MOST_UNEVEN_BLUR_SIDE_RATIO, MOST_UNEVEN_SMEAR_SIDE_RATIO, MOST_UNEVEN_HIDDEN_RATIO = 0.062, 0.105, 0.4
-MOST_UNEVEN_MEAN_BLUR_SIDE_RATIO = 0.072
-MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO = 2.0, 0.06
-MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO = 2.0, 0.04
+MAX_UNEVEN_BLUR_SIDE_RATIO, MAX_UNEVEN_SMEAR_SIDE_RATIO, MAX_UNEVEN_HIDDEN_RATIO = 0.062, 0.105, 0.4
+MAX_UNEVEN_MEAN_BLUR_SIDE_RATIO = 0.072
+MAX_UNEVEN_MOVED_PX, MAX_UNEVEN_MOVED_SIDE_RATIO = 2.0, 0.06
+MAX_MOVED_PX, MAX_MOVED_SIDE_RATIO = 2.0, 0.04
 # A cover's own edge pulls a fit to it: where there is one, the edges must have been right already.
-MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
+MAX_MOVED_COVERED_PX, MAX_MOVED_COVERED_SIDE_RATIO = 0.8, 0.02
 # Edges of what is smeared are found at either end of its way, an sd and three quarters of it off the middle;
 # a blur that is the same to all sides moves none.
-MOST_MOVED_BLURS = 1.75
+MAX_MOVED_BLURS = 1.75
 # Two sides that face each other tell less of where it is along them; wherever a smeared one is found there in
 # full sight, nothing else comes near to it.
-MOST_MOVED_SMEARS = 2.6
+MAX_MOVED_SMEARS = 2.6
 # Blurred over so much of its side, one square is like another: like this one under highlights, and in every
 # other light unless nearly all is explained. In blurred scenes other squares of 16 px in full sight reach
 # 0.973, of 24 px 0.943, covered ones 0.98; smear leaves one direction sharp, and others 0.88 (1,500 scenes,
 # five markers known; markers that are changed in a part reach 0.97 in either).
-BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MOST_BLUR_SIDE_RATIO, MOST_SMEAR_SIDE_RATIO = 0.1, 0.05, 0.16, 0.2
-LEAST_LIKENESS_BLURRED, LEAST_LIKENESS_SMEARED, LEAST_LIKENESS_BLURRED_COVERED = 0.975, 0.935, 0.98
+BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MAX_BLUR_SIDE_RATIO, MAX_SMEAR_SIDE_RATIO = 0.1, 0.05, 0.16, 0.2
+MIN_LIKENESS_BLURRED, MIN_LIKENESS_SMEARED, MIN_LIKENESS_BLURRED_COVERED = 0.975, 0.935, 0.98
 # Of what is small, so much more than where it is sharp.
 BLURRED_MORE = 0.01
 # Half as blurred, and sharp in no direction, squares with two spots in them have reached 0.95 where covered,
 # and 0.97 under highlights: there, none is believed.
-LEAST_LIKENESS_SOFT_COVERED = 0.965
+MIN_LIKENESS_SOFT_COVERED = 0.965
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,12 +142,12 @@ class Explanation:
             not self.is_turned
             and (self._is_alike if self.beside_noise is None else self._is_alike_beside_noise)
             and not (self.under_highlights and self._is_blurred)
-            and self.inside_ratio < LEAST_AREA_RATIO
-            and self.hidden_ratio <= MOST_HIDDEN_RATIO
-            and self.inner_hidden_ratio <= MOST_INNER_HIDDEN_RATIO
-            and self.moved_px <= self._most_moved_px
+            and self.inside_ratio < MIN_AREA_RATIO
+            and self.hidden_ratio <= MAX_HIDDEN_RATIO
+            and self.inner_hidden_ratio <= MAX_INNER_HIDDEN_RATIO
+            and self.moved_px <= self._max_moved_px
             and self.blur_px[0] <= BLURRED_SIDE_RATIO * self.side_px
-            and self.blur_px[1] <= self._most_blur_ratio * self.side_px
+            and self.blur_px[1] <= self._max_blur_ratio * self.side_px
         )
 
     @property
@@ -157,27 +157,27 @@ class Explanation:
             not self.is_turned
             and not self.under_highlights
             and not self._is_blurred
-            and min(self.likeness, self.inner_likeness) >= LEAST_KNOWN_LIKENESS
-            and self.inside_ratio < MOST_KNOWN_AREA_RATIO
-            and max(self.hidden_ratio, self.inner_hidden_ratio) <= MOST_KNOWN_HIDDEN_RATIO
-            and self.moved_px <= self._most_moved_px
+            and min(self.likeness, self.inner_likeness) >= MIN_KNOWN_LIKENESS
+            and self.inside_ratio < MAX_KNOWN_AREA_RATIO
+            and max(self.hidden_ratio, self.inner_hidden_ratio) <= MAX_KNOWN_HIDDEN_RATIO
+            and self.moved_px <= self._max_moved_px
         )
 
     @property
-    def _most_moved_px(self) -> float:
+    def _max_moved_px(self) -> float:
         px, ratio = (
-            (MOST_MOVED_COVERED_PX, MOST_MOVED_COVERED_SIDE_RATIO)
+            (MAX_MOVED_COVERED_PX, MAX_MOVED_COVERED_SIDE_RATIO)
             if self.is_covered
-            else (MOST_MOVED_PX, MOST_MOVED_SIDE_RATIO)
+            else (MAX_MOVED_PX, MAX_MOVED_SIDE_RATIO)
         )
         smeared_px = float(np.sqrt(max(self.blur_px[1] ** 2 - self.blur_px[0] ** 2, 0.0)))
         in_sight = self._is_smeared and not self.is_covered
-        smears = MOST_MOVED_SMEARS if in_sight else MOST_MOVED_BLURS
+        smears = MAX_MOVED_SMEARS if in_sight else MAX_MOVED_BLURS
         return max(px, ratio * self.side_px, smears * smeared_px)
 
     @property
-    def _most_blur_ratio(self) -> float:
-        return MOST_SMEAR_SIDE_RATIO if self._is_smeared and not self.is_covered else MOST_BLUR_SIDE_RATIO
+    def _max_blur_ratio(self) -> float:
+        return MAX_SMEAR_SIDE_RATIO if self._is_smeared and not self.is_covered else MAX_BLUR_SIDE_RATIO
 
     @property
     def _is_smeared(self) -> bool:
@@ -194,15 +194,15 @@ class Explanation:
         is_sharp = self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
         if self.under_highlights and not is_sharp:
             return False
-        least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, LEAST_LIKENESS))
+        least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, MIN_LIKENESS))
         if self._is_blurred and self.is_covered:
-            least = LEAST_LIKENESS_BLURRED_COVERED
+            least = MIN_LIKENESS_BLURRED_COVERED
         elif self._is_smeared:
-            least = LEAST_LIKENESS_SMEARED
+            least = MIN_LIKENESS_SMEARED
         elif self._is_blurred:
-            least = max(least + BLURRED_MORE, LEAST_LIKENESS_BLURRED)
+            least = max(least + BLURRED_MORE, MIN_LIKENESS_BLURRED)
         elif self.is_covered and not is_sharp:
-            least = max(least, LEAST_LIKENESS_SOFT_COVERED)
+            least = max(least, MIN_LIKENESS_SOFT_COVERED)
         least += COVERED_MORE * self.is_covered - HIGHLIGHTS_LESS * self.under_highlights
         return min(self.likeness, self.inner_likeness) >= least
 
@@ -213,26 +213,26 @@ class Explanation:
         if without is None:
             return False
         alike, beside = (min(one.likeness, one.inner_likeness) for one in (self, without))
-        moved_px = max(MOST_UNEVEN_MOVED_PX, MOST_UNEVEN_MOVED_SIDE_RATIO * self.side_px)
-        least = float(np.interp(self.side_px, IN_NOISE_SIDES_PX, LEAST_IN_NOISE))
+        moved_px = max(MAX_UNEVEN_MOVED_PX, MAX_UNEVEN_MOVED_SIDE_RATIO * self.side_px)
+        least = float(np.interp(self.side_px, IN_NOISE_SIDES_PX, MIN_IN_NOISE))
         return (
-            self.side_px >= LEAST_UNEVEN_PX
-            and max(self.hidden_ratio, self.inner_untold_ratio) <= MOST_UNEVEN_HIDDEN_RATIO
+            self.side_px >= MIN_UNEVEN_PX
+            and max(self.hidden_ratio, self.inner_untold_ratio) <= MAX_UNEVEN_HIDDEN_RATIO
             and self.moved_px <= moved_px
-            and self.blur_px[0] <= MOST_UNEVEN_BLUR_SIDE_RATIO * self.side_px
-            and self.blur_px[1] <= MOST_UNEVEN_SMEAR_SIDE_RATIO * self.side_px
-            and self._mean_blur_ratio <= MOST_UNEVEN_MEAN_BLUR_SIDE_RATIO
+            and self.blur_px[0] <= MAX_UNEVEN_BLUR_SIDE_RATIO * self.side_px
+            and self.blur_px[1] <= MAX_UNEVEN_SMEAR_SIDE_RATIO * self.side_px
+            and self._mean_blur_ratio <= MAX_UNEVEN_MEAN_BLUR_SIDE_RATIO
             and alike >= least
-            and beside >= LEAST_BESIDE_NOISE
-            and alike + beside >= self._least_both
-            and without.flipped_ratio <= MOST_FLIPPED_RATIO
+            and beside >= MIN_BESIDE_NOISE
+            and alike + beside >= self._min_both
+            and without.flipped_ratio <= MAX_FLIPPED_RATIO
         )
 
     @property
-    def _least_both(self) -> float:
+    def _min_both(self) -> float:
         """How like the model it must be with noise and without it, together."""
-        soft = float(np.interp(self.side_px, BOTH_SIDES_PX, LEAST_BOTH))
-        sharp = min(float(np.interp(self.side_px, SHARP_SIDES_PX, LEAST_BOTH_SHARP)), soft)
+        soft = float(np.interp(self.side_px, BOTH_SIDES_PX, MIN_BOTH))
+        sharp = min(float(np.interp(self.side_px, SHARP_SIDES_PX, MIN_BOTH_SHARP)), soft)
         return float(np.interp(self._mean_blur_ratio, SHARP_MEAN_BLUR_SIDE_RATIOS, (sharp, soft)))
 
     @property

@@ -14,8 +14,8 @@ from tracker.camera.blur.kernels import axes_of
 from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.acceptance import (
-    LEAST_BESIDE_NOISE,
-    LEAST_UNEVEN_PX,
+    MIN_BESIDE_NOISE,
+    MIN_UNEVEN_PX,
     BesideNoise,
     Explanation,
 )
@@ -26,18 +26,18 @@ from tracker.marker.explanation.cover import (
 )
 from tracker.marker.explanation.fields.kernels import FIELDS, SPREAD, WIDE
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
-from tracker.marker.explanation.flips import most_flipped
+from tracker.marker.explanation.flips import max_flipped
 from tracker.marker.explanation.kernels import SATURATED_GREY, likeness
 from tracker.marker.explanation.light import contrasts, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.poor_light import light_up
 from tracker.marker.explanation.shape import any_shape_of, shape_of
 from tracker.marker.explanation.turns import another_turn_is_nearer
-from tracker.marker.explanation.washed_out import LEAST_GLARING_RATIO
+from tracker.marker.explanation.washed_out import MIN_GLARING_RATIO
 from tracker.marker.sampling.kernels import through
 
 FIRST_ROUNDS, ROUNDS, ROUNDS_AGAIN = 3, 6, 4
-LEAST_HOPE = 0.55
+MIN_HOPE = 0.55
 WORTH_ANOTHER_LIGHT = 0.75
 COVER_ROUNDS = 2
 # What is so like the model as a whole, and inside, is worth the question whether it is a turn of it: what is
@@ -61,7 +61,7 @@ def explanation_of(
     """
     fit = Fit(image, pictures_of(square), corners_px, side_px)
     best = _in_usual_light(fit)
-    if (best is None or not best.explains) and side_px >= LEAST_UNEVEN_PX:
+    if (best is None or not best.explains) and side_px >= MIN_UNEVEN_PX:
         uneven = _in_uneven_light(Fit(image, pictures_of(square), corners_px, side_px))
         if uneven is not None and uneven.explains:
             return uneven
@@ -75,11 +75,11 @@ def _in_usual_light(fit: Fit) -> Explanation | None:
     if not fit.walk(FIRST_ROUNDS, weights_beside_a_cover(fit.seen, fit.picture)):
         return None
     # Even of a marker under a cover or glare most can be explained by now.
-    if float(fit.weight[inside_square()].mean()) < LEAST_HOPE or not fit.walk(ROUNDS, fit.weight):
+    if float(fit.weight[inside_square()].mean()) < MIN_HOPE or not fit.walk(ROUNDS, fit.weight):
         return None
     start = fit.place
     best = _told(fit)
-    glaring = float(np.mean((first.seen >= SATURATED_GREY) & inside_square())) > LEAST_GLARING_RATIO
+    glaring = float(np.mean((first.seen >= SATURATED_GREY) & inside_square())) > MIN_GLARING_RATIO
     for brighten in (_in_shadow, _under_highlights):
         if best is not None and best.explains:
             break
@@ -175,11 +175,11 @@ def _beside_noise(fit: Fit, telling: Mask, shape: Mask) -> BesideNoise:
     alike, inner = (
         likeness(fit.seen, fit.rest, telling & part, fit.light, noise) for part in (inside_square(), shape)
     )
-    hopeful = min(alike, inner) >= LEAST_BESIDE_NOISE
+    hopeful = min(alike, inner) >= MIN_BESIDE_NOISE
     return BesideNoise(
         likeness=alike,
         inner_likeness=inner,
-        flipped_ratio=most_flipped(fit, telling, any_shape_of(fit.picture), noise) if hopeful else 1.0,
+        flipped_ratio=max_flipped(fit, telling, any_shape_of(fit.picture), noise) if hopeful else 1.0,
     )
 
 

@@ -25,13 +25,13 @@ from tracker.marker.sampling.kernels import even_light, square_to_quad
 
 # Blur to begin with: a camera in focus, its pixel, the sampling between pixels.
 FIRST_BLUR_PX, WIDE_BLUR_SIDES = 0.8, 0.05
-LEAST_SIDE_PX = 8.0
+MIN_SIDE_PX = 8.0
 # Light without highlights has a quadratic and a step.
-MOST_SMOOTH_TERMS = 7
+MAX_SMOOTH_TERMS = 7
 # What is compared with what is around it: a sixth of a side away sees the border and the paper at once.
 AROUND_FIELDS, PICTURE_GREY = 4, 100.0
 SQUARE = np.s_[RING:-RING, RING:-RING]
-LEAST_SD_GREY, LEAST_SD_RATIO = 6.0, 0.1
+MIN_SD_GREY, MIN_SD_RATIO = 6.0, 0.1
 UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
@@ -108,7 +108,7 @@ class Fit:
     @property
     def is_under_highlights(self) -> bool:
         """Whether highlights are a part of its light."""
-        return bool(self.light.shape[1] > MOST_SMOOTH_TERMS)
+        return bool(self.light.shape[1] > MAX_SMOOTH_TERMS)
 
     @property
     def ahead(self) -> Array:
@@ -150,7 +150,7 @@ class Fit:
             self.look(blur_px)
             both = np.stack([self.seen[SQUARE], PICTURE_GREY * self.picture[SQUARE]])
             flat = both.reshape(2, -1).astype(np.float32)
-            even_light(flat, FIELDS, AROUND_FIELDS, LEAST_SD_GREY, LEAST_SD_RATIO)
+            even_light(flat, FIELDS, AROUND_FIELDS, MIN_SD_GREY, MIN_SD_RATIO)
             alike = float(flat[0] @ flat[1])
             if alike > best:
                 best, of_best = alike, self.blur
@@ -186,7 +186,7 @@ def likeness_part_by_part(
 
 def field_px_of(side_px: float) -> float:
     """How wide a field of a square is, in px."""
-    return max(side_px, LEAST_SIDE_PX) / FIELDS
+    return max(side_px, MIN_SIDE_PX) / FIELDS
 
 
 @cache

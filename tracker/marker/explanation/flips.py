@@ -18,14 +18,14 @@ from tracker.marker.explanation.light import grid
 
 # A part is a sixth of the side wide, as a disc of the same area; parts are asked every so many fields.
 PART_SIDES, APART_FIELDS, EDGE_FIELDS = 1.0 / 6.0, 2, 4
-LEAST_SEEN_RATIO = 0.6
+MIN_SEEN_RATIO = 0.6
 # Markers that differ in one field, a sixth of the side wide, have half of its contrast there, and more.
-MOST_FLIPPED_RATIO = 0.5
+MAX_FLIPPED_RATIO = 0.5
 # Neighbouring fields err alike, and many parts are asked.
 NOISES = 10.0
 
 
-def most_flipped(fit: Fit, telling: Mask, shape: Mask, noise_grey: float) -> float:
+def max_flipped(fit: Fit, telling: Mask, shape: Mask, noise_grey: float) -> float:
     """By how much of its contrast the most doubtful part of the shape (where it is `telling`) is changed.
 
     0 is the model, 1 a part that is dark for bright. A change of fewer than `NOISES` sd of the noise is none.
@@ -35,7 +35,7 @@ def most_flipped(fit: Fit, telling: Mask, shape: Mask, noise_grey: float) -> flo
     whole = np.sum((parts * gain) ** 2, axis=1)
     seen = parts * (gain * weight)
     rows, columns = centres.T
-    asked = (telling & shape)[rows, columns] & (np.sum(seen**2, axis=1) > LEAST_SEEN_RATIO * whole)
+    asked = (telling & shape)[rows, columns] & (np.sum(seen**2, axis=1) > MIN_SEEN_RATIO * whole)
     if not asked.any():
         return 0.0
     basis, _ = np.linalg.qr(_fitted(fit) * weight[:, None])

@@ -19,14 +19,14 @@ from tracker.marker.model import PAPER_RATIO
 PLACE, BLUR = 6, 3
 SATURATED_GREY = 250.0
 OUTLIER_CONTRAST = 0.2
-MOST_STEP_PX = 0.7
-LEAST_BLUR_PX, MOST_BLUR_PX = 0.3, 4.5
+MAX_STEP_PX = 0.7
+MIN_BLUR_PX, MAX_BLUR_PX = 0.3, 4.5
 SETTLED_FIELDS, SETTLED_BLUR = 0.01, 0.02
 # Fewer fields than this are like anything.
-LEAST_COUNT = 40
+MIN_COUNT = 40
 # What lies beyond the paper, so many sd of the blur away, is a thirtieth of a field.
 FAR_SDS = 1.85
-LEAST_WEIGHT = 1e-3
+MIN_WEIGHT = 1e-3
 
 
 @compiled
@@ -40,7 +40,7 @@ def _equations(values, shown, light, gains, gain, weight, free, a, g):
     g[:] = 0.0
     for i in range(WIDE * WIDE):
         r, c = i // WIDE, i % WIDE
-        if weight[r, c] >= LEAST_WEIGHT:
+        if weight[r, c] >= MIN_WEIGHT:
             row = rows[many]
             weights[many] = weight[r, c]
             many += 1
@@ -85,7 +85,7 @@ def _step(corners, blur, step, field_px):
         moved[k, 0] = step[0] + step[1] * x + step[2] * y
         moved[k, 1] = step[3] + step[4] * x + step[5] * y
         far = max(far, abs(moved[k, 0]), abs(moved[k, 1]))
-    share = min(1.0, MOST_STEP_PX / field_px / max(far, 1e-9))
+    share = min(1.0, MAX_STEP_PX / field_px / max(far, 1e-9))
     for k in range(4):
         corners[k, 0] -= share * moved[k, 0] / FIELDS
         corners[k, 1] -= share * moved[k, 1] / FIELDS
@@ -93,8 +93,8 @@ def _step(corners, blur, step, field_px):
     wide = max(blur[0], blur[1])
     for k in range(3):
         blur[k] += min(max(step[6 + k], -0.5 * wide - 0.3), wide + 0.3)
-    least = SPREAD + (LEAST_BLUR_PX / field_px) ** 2
-    most = SPREAD + (MOST_BLUR_PX / field_px) ** 2
+    least = SPREAD + (MIN_BLUR_PX / field_px) ** 2
+    most = SPREAD + (MAX_BLUR_PX / field_px) ** 2
     keep_within(blur, least, most)
     changed = np.abs(blur - before).max() / wide
     return far > SETTLED_FIELDS or changed > SETTLED_BLUR
@@ -189,11 +189,11 @@ def walk(
 def clear_of_beyond(blur, clear):
     """Into `clear` (WIDE, WIDE): where a blur (3,), in fields, brings in little from beyond the paper."""
     edge = 1.0 + 2.0 * PAPER_RATIO
-    most_u = edge - FAR_SDS * np.sqrt(max(blur[0], 0.0)) * 2.0 / FIELDS
-    most_v = edge - FAR_SDS * np.sqrt(max(blur[1], 0.0)) * 2.0 / FIELDS
+    max_u = edge - FAR_SDS * np.sqrt(max(blur[0], 0.0)) * 2.0 / FIELDS
+    max_v = edge - FAR_SDS * np.sqrt(max(blur[1], 0.0)) * 2.0 / FIELDS
     for r in range(WIDE):
         for c in range(WIDE):
-            clear[r, c] = abs(u_of(c)) < most_u and abs(u_of(r)) < most_v
+            clear[r, c] = abs(u_of(c)) < max_u and abs(u_of(r)) < max_v
 
 
 @compiled
@@ -216,7 +216,7 @@ def likeness(seen, rest, chosen, light, noise):
                 g[p] += light[i, p] * seen[r, c]
                 for q in range(n):
                     a[p, q] += light[i, p] * light[i, q]
-    if count < LEAST_COUNT:
+    if count < MIN_COUNT:
         return 0.0
     for p in range(n):
         a[p, p] = a[p, p] * (1.0 + 1e-9) + 1e-9

@@ -20,11 +20,11 @@ from tracker.marker.explanation.fit import Fit
 from tracker.marker.explanation.kernels import OUTLIER_CONTRAST
 from tracker.marker.explanation.light import contrasts, highlight_in, shadow_in, smooth_light
 
-MOST_CAUSES = 3
+MAX_CAUSES = 3
 FIRST_ROUNDS, ROUNDS = 4, 3
 # A cause must take away this share of what is unlike, and some fields' worth of it.
-MOST_LEFT_RATIO, LEAST_FIELDS = 0.93, 5.0
-LEAST_GAIN_RATIO = 0.25
+MAX_LEFT_RATIO, MIN_FIELDS = 0.93, 5.0
+MIN_GAIN_RATIO = 0.25
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,10 +52,10 @@ def light_up(fit: Fit, weight: Array | None) -> bool:
     best = _lit(fit, smooth_light(2), contrasts(), weight, rounds=FIRST_ROUNDS)
     if best is None:
         return False
-    for _ in range(MOST_CAUSES):
+    for _ in range(MAX_CAUSES):
         tried = [one for one in (_in_shadow(fit, best), _under_a_highlight(fit, best)) if one is not None]
         better = min(tried, key=lambda one: one.unlike, default=best)
-        enough = better.unlike < min(MOST_LEFT_RATIO * best.unlike, best.unlike - LEAST_FIELDS)
+        enough = better.unlike < min(MAX_LEFT_RATIO * best.unlike, best.unlike - MIN_FIELDS)
         best = better if enough else best
         if _lit(fit, best.light, best.gains, best.weight, rounds=1) is None:
             return False
@@ -89,6 +89,6 @@ def _lit(fit: Fit, light: Array, gains: Array, weight: Array | None, *, rounds: 
     fit.light, fit.gains = light, gains
     if not fit.walk(rounds, None if weight is None else weight.copy(), free=0):
         return None
-    contrast = np.maximum(fit.gain, LEAST_GAIN_RATIO * float(np.median(fit.gain)))
+    contrast = np.maximum(fit.gain, MIN_GAIN_RATIO * float(np.median(fit.gain)))
     off = np.minimum((fit.rest / (OUTLIER_CONTRAST * contrast)) ** 2, 1.0)
     return Lit(light=light, gains=gains, weight=fit.weight, unlike=float(off[fit.visible].sum()))

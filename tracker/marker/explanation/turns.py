@@ -18,9 +18,9 @@ from tracker.marker.sampling.kernels import through
 
 # By how many fields this turn of the model must explain more than the others do. A highlight that was fitted
 # to a wrong one explains up to 5 more of it than of the right one, where the shape is nearly its own turn.
-LEAST_APART = 8.0
+MIN_APART = 8.0
 # A marker may well be nearly its own mirror image.
-MOST_ALIKE = 0.9
+MAX_ALIKE = 0.9
 LIGHT_ROUNDS, ROUNDS = 3, 6
 
 
@@ -48,7 +48,7 @@ def _is_nearer_where_it_is(fit: Fit) -> bool:
     own, *others = (_left_as(fit, turns, weight) for turns in range(4))
     mirrored = [_left_as(fit, turns, weight, mirror_of=shown[0]) for turns in range(4)]
     fit.visible, fit.shown, fit.weight, fit.held = visible, shown, weight, held
-    return own > min(others) - LEAST_APART or own > min(mirrored)
+    return own > min(others) - MIN_APART or own > min(mirrored)
 
 
 def _left_as(
@@ -65,7 +65,7 @@ def _left_as(
     if mirror_of is not None:
         fit.shown[0] = fit.shown[0][:, ::-1].copy()
         inside = inside_square()
-        if np.corrcoef(fit.shown[0][inside], mirror_of[inside])[0, 1] > MOST_ALIKE:
+        if np.corrcoef(fit.shown[0][inside], mirror_of[inside])[0, 1] > MAX_ALIKE:
             return np.inf
     return _left(fit) if fit.walk(LIGHT_ROUNDS, weight.copy(), free=0) else np.inf
 

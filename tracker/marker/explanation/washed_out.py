@@ -10,16 +10,16 @@ from tracker.edges import GreyImage
 from tracker.geometry import Array
 from tracker.marker.explanation.cover import covered
 from tracker.marker.explanation.fit import Fit, inside_square
-from tracker.marker.explanation.flips import MOST_FLIPPED_RATIO, most_flipped
+from tracker.marker.explanation.flips import MAX_FLIPPED_RATIO, max_flipped
 from tracker.marker.explanation.kernels import SATURATED_GREY, likeness
 from tracker.marker.explanation.light import contrasts, highlights
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.shape import shape_of
 
 # Of the square at the sensor's limit: there is a highlight.
-LEAST_GLARING_RATIO = 0.02
+MIN_GLARING_RATIO = 0.02
 # Of other squares with as many of the marker's edges a hundredth passes, of washed-out markers nine tenths.
-LEAST_ALIKE, LEAST_PART_BY_PART, LEAST_SEEN_RATIO = 0.5, 0.5, 0.25
+MIN_ALIKE, MIN_PART_BY_PART, MIN_SEEN_RATIO = 0.5, 0.5, 0.25
 LIGHT_ROUNDS = 4
 
 
@@ -31,8 +31,8 @@ def is_washed_out(image: GreyImage, square: GreyImage, corners_px: Array, *, sid
     fit = Fit(image, pictures_of(square), corners_px, side_px)
     alike = fit.look_part_by_part()
     inside = inside_square()
-    glaring = float(np.mean(fit.seen[inside] >= SATURATED_GREY)) > LEAST_GLARING_RATIO
-    if not glaring or alike < LEAST_PART_BY_PART:
+    glaring = float(np.mean(fit.seen[inside] >= SATURATED_GREY)) > MIN_GLARING_RATIO
+    if not glaring or alike < MIN_PART_BY_PART:
         return False
     fit.light, fit.gains = highlights(), contrasts()
     if not fit.walk(LIGHT_ROUNDS):
@@ -40,7 +40,7 @@ def is_washed_out(image: GreyImage, square: GreyImage, corners_px: Array, *, sid
     hidden, _ = covered(fit.left, blur_fields=fit.blur_fields)
     telling, shape = fit.telling(~hidden), shape_of(fit.picture)
     return bool(
-        float(telling[shape].mean()) >= LEAST_SEEN_RATIO
-        and likeness(fit.seen, fit.rest, telling & inside, fit.light, 0.0) >= LEAST_ALIKE
-        and most_flipped(fit, telling, shape, 0.0) <= MOST_FLIPPED_RATIO
+        float(telling[shape].mean()) >= MIN_SEEN_RATIO
+        and likeness(fit.seen, fit.rest, telling & inside, fit.light, 0.0) >= MIN_ALIKE
+        and max_flipped(fit, telling, shape, 0.0) <= MAX_FLIPPED_RATIO
     )

@@ -8,8 +8,8 @@ from tracker.marker.looks.templates import (
     AROUND_CELLS,
     CELLS,
     COVERS,
-    LEAST_SD_GREY,
-    LEAST_SD_RATIO,
+    MIN_SD_GREY,
+    MIN_SD_RATIO,
     RING,
     Float32,
     Template,
@@ -52,7 +52,7 @@ def looked_closer(
         CELLS,
         RING,
         AROUND_CELLS,
-        LEAST_SD_GREY,
-        LEAST_SD_RATIO,
+        MIN_SD_GREY,
+        MIN_SD_RATIO,
     )
     return np.asarray(found, np.float32), np.asarray(likeness, np.float32)

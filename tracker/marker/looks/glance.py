@@ -7,8 +7,8 @@ from tracker.marker.looks.kernels import peek, products
 from tracker.marker.looks.templates import (
     AROUND_CELLS,
     CELLS,
-    LEAST_SD_GREY,
-    LEAST_SD_RATIO,
+    MIN_SD_GREY,
+    MIN_SD_RATIO,
     PEEK_CELLS,
     RING,
     ROWS,
@@ -26,7 +26,7 @@ DARK, LIGHT = np.float32(64.0), np.float32(192.0)
 def glance(image: GreyImage, quads: Quads, templates: Templates) -> Float32:
     """Likeness (q, m, 4) of what is inside each outline to each model at each turn, -1..1."""
     seen = np.asarray(sample_quads(image, quads, CELLS, RING), dtype=np.float32)
-    even_light(seen, ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
+    even_light(seen, ROWS, AROUND_CELLS, MIN_SD_GREY, MIN_SD_RATIO)
     out = np.empty((len(quads), len(templates), 4), np.float32)
     for m, template in enumerate(templates.each):
         blurs, turns, cells = template.turned.shape

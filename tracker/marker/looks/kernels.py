@@ -9,11 +9,11 @@ BLOCK = 64
 # The unknowns of a step: the picture's gain and offset, and two for each corner.
 UNKNOWN = 10
 # In one step a corner is moved by no more of a side.
-MOST_STEP_SIDES = 0.12
+MAX_STEP_SIDES = 0.12
 # A step leads nowhere where so little of the picture is seen.
-LEAST_GAIN = 0.1
+MIN_GAIN = 0.1
 # An outline is moved where that takes away so much of what is unlike.
-MOST_UNLIKE_RATIO = 0.95
+MAX_UNLIKE_RATIO = 0.95
 # It is asked anew which picture and which cover it is after so many steps.
 ASKED_EVERY = 3
 
@@ -199,8 +199,8 @@ def _move_back(quad, off):
     h, moved = np.empty(8), np.empty((4, 2))
     square_to_quad(quad, h)
     for k in range(4):
-        a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MOST_STEP_SIDES), MOST_STEP_SIDES)
-        b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MOST_STEP_SIDES), MOST_STEP_SIDES)
+        a = (1.0 if k in (1, 2) else 0.0) - min(max(off[2 * k], -MAX_STEP_SIDES), MAX_STEP_SIDES)
+        b = (1.0 if k > 1 else 0.0) - min(max(off[2 * k + 1], -MAX_STEP_SIDES), MAX_STEP_SIDES)
         moved[k, 0], moved[k, 1] = through(h, a, b)
     quad[:] = moved
 
@@ -244,7 +244,7 @@ def look_closer(
                 alike, p, c = _likeliest(seen[0], columns, mean, spread, left, sizes, shared, sums, squares)
                 # What fits as it is, is where it is: the pictures are coarser than the image.
                 if step == 0:
-                    worst = MOST_UNLIKE_RATIO * (1.0 - alike * alike)
+                    worst = MAX_UNLIKE_RATIO * (1.0 - alike * alike)
                 if alike > likeness[q]:
                     likeness[q] = alike
                     if 1.0 - alike * alike < worst:
@@ -261,7 +261,7 @@ def look_closer(
                     right[j] += value * basis[picture, i, j]
             _straighten(quad[0], stiffness * alike, right)
             _solve(matrix, right)
-            if right[0] < LEAST_GAIN:
+            if right[0] < MIN_GAIN:
                 break
             _move_back(quad[0], right[2:] / right[0])
     return found, likeness

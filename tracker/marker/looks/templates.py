@@ -21,7 +21,7 @@ ROWS = CELLS + 2 * RING
 # A cell is judged beside those around it: as many as see the border and the paper at once.
 AROUND_CELLS = 3
 # What differs less than this is even: noise, and folds in the paper.
-LEAST_SD_GREY, LEAST_SD_RATIO = 1.0, 0.1
+MIN_SD_GREY, MIN_SD_RATIO = 1.0, 0.1
 # In sides: sd of the blur of a lens, in focus and out of it, and how far a hand moves it meanwhile.
 BLURS_SIDES, MOTION_SIDES = (0.008, 0.045, 0.1), 0.3
 # Of the lens's, those that a glance compares with.
@@ -140,7 +140,7 @@ def _seen(wide: Array, off: Array) -> Float32:
     points = cv2.remap(wide.astype(np.float32), x.astype(np.float32), y.astype(np.float32), cv2.INTER_LINEAR)
     cells = np.asarray(points).reshape(ROWS, FINE, ROWS, FINE).mean(axis=(1, 3))
     seen = np.ascontiguousarray(cells.reshape(1, -1), np.float32)
-    even_light(seen, ROWS, AROUND_CELLS, LEAST_SD_GREY, LEAST_SD_RATIO)
+    even_light(seen, ROWS, AROUND_CELLS, MIN_SD_GREY, MIN_SD_RATIO)
     return np.asarray(seen[0])
 
 

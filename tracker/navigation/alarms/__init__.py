@@ -7,14 +7,14 @@ alarms. Priorities, sounds and states follow what manuals quote of IEC 60601-1-8
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Kind, Priority, Trait
 from tracker.navigation.alarms.engine import AlarmEngine
 from tracker.navigation.alarms.evidence import Measure, Showing
-from tracker.navigation.alarms.limits import MOST_PAUSE_S, AlarmLimits
+from tracker.navigation.alarms.limits import MAX_PAUSE_S, AlarmLimits
 from tracker.navigation.alarms.observed import NOT_KNOWN, NotKnown, Observed, Reading, Site
 from tracker.navigation.alarms.observing import Memory, observed_of, remembered
 from tracker.navigation.alarms.occurrence import AlarmState, Peak
 from tracker.navigation.alarms.picture import QUIET, Alarm, AlarmEvent, AlarmPicture, Change, Sound
 
 __all__ = [
-    "MOST_PAUSE_S",
+    "MAX_PAUSE_S",
     "NOT_KNOWN",
     "QUIET",
     "TRAITS",

@@ -11,7 +11,7 @@ from math import inf, isfinite
 from tracker.errors import InvalidInput
 from tracker.navigation.alarms.conditions import TRAITS, Condition, Priority
 from tracker.navigation.alarms.evidence import UNKNOWN, Evidence, Showing, evidence_of
-from tracker.navigation.alarms.limits import MOST_PAUSE_S, AlarmLimits
+from tracker.navigation.alarms.limits import MAX_PAUSE_S, AlarmLimits
 from tracker.navigation.alarms.observed import Observed
 from tracker.navigation.alarms.occurrence import AlarmState, Moment, Occurrence, acknowledged, advanced
 from tracker.navigation.alarms.picture import (
@@ -93,12 +93,12 @@ class AlarmEngine:
         Raises:
             InvalidInput: ALARM_PAUSE_TOO_LONG.
         """
-        if not (isfinite(seconds) and 0.0 < seconds <= MOST_PAUSE_S):
+        if not (isfinite(seconds) and 0.0 < seconds <= MAX_PAUSE_S):
             raise InvalidInput(
                 "ALARM_PAUSE_TOO_LONG",
-                f"a pause of {seconds:g} s was asked, allowed is more than 0 and up to {MOST_PAUSE_S:g} s",
+                f"a pause of {seconds:g} s was asked, allowed is more than 0 and up to {MAX_PAUSE_S:g} s",
                 "Pause for a shorter time; the sound comes back by itself and can be paused again.",
-                {"asked_s": seconds if isfinite(seconds) else str(seconds), "most_s": MOST_PAUSE_S},
+                {"asked_s": seconds if isfinite(seconds) else str(seconds), "max_s": MAX_PAUSE_S},
             )
         at_s = self._forward(at_s)
         self._paused_until_s = at_s + seconds

@@ -162,15 +162,15 @@ def _camera_stalled(observed: Observed, limits: AlarmLimits, standing: bool) -> 
 
 
 def _pose_uncertain(observed: Observed, limits: AlarmLimits, standing: bool) -> Evidence:
-    sd_mm, most_mm = observed.tip_sd_mm, observed.most_tip_sd_mm
+    sd_mm, max_mm = observed.tip_sd_mm, observed.max_tip_sd_mm
     if not observed.pose_certain:
         return Evidence(showing=Showing.YES)
-    if isinstance(sd_mm, NotKnown) or isinstance(most_mm, NotKnown):
+    if isinstance(sd_mm, NotKnown) or isinstance(max_mm, NotKnown):
         return UNKNOWN
-    measure = Measure(value=sd_mm, limit=most_mm, unit="mm")
+    measure = Measure(value=sd_mm, limit=max_mm, unit="mm")
     # A hysteresis larger than the limit could never be cleared.
-    clears_at_mm = max(most_mm - limits.hysteresis_mm, 0.8 * most_mm)
-    shows = not sd_mm <= (clears_at_mm if standing else most_mm)
+    clears_at_mm = max(max_mm - limits.hysteresis_mm, 0.8 * max_mm)
+    shows = not sd_mm <= (clears_at_mm if standing else max_mm)
     return Evidence(showing=_showing(shows), measure=measure, severity=measure.value)
 
 
@@ -205,9 +205,9 @@ def _disk_nearly_full(observed: Observed, limits: AlarmLimits, standing: bool) -
     free_mb = observed.free_disk_mb
     if isinstance(free_mb, NotKnown):
         return UNKNOWN
-    least_mb = limits.least_free_disk_mb
-    measure = Measure(value=free_mb, limit=least_mb, unit="MB")
-    shows = free_mb < least_mb * (1.1 if standing else 1.0)
+    min_mb = limits.min_free_disk_mb
+    measure = Measure(value=free_mb, limit=min_mb, unit="MB")
+    shows = free_mb < min_mb * (1.1 if standing else 1.0)
     return Evidence(showing=_showing(shows), measure=measure, severity=-free_mb)
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-MOST_PAUSE_S = 120.0
+MAX_PAUSE_S = 120.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -19,7 +19,7 @@ class AlarmLimits:
         reference_unseen_after_s: the patient's marker.
         camera_silent_after_s: no image.
         check_due_after_s: the last check on anatomy.
-        least_free_disk_mb: room where cases are kept; clear with a tenth more.
+        min_free_disk_mb: room where cases are kept; clear with a tenth more.
     """
 
     warning_distance_mm: float = 1.0
@@ -31,4 +31,4 @@ class AlarmLimits:
     reference_unseen_after_s: float = 1.0
     camera_silent_after_s: float = 0.5
     check_due_after_s: float = 1800.0
-    least_free_disk_mb: float = 2000.0
+    min_free_disk_mb: float = 2000.0

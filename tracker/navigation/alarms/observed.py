@@ -52,7 +52,7 @@ class Observed:
         past_depth_mm: how far the tip is past the planned end; negative before it.
         depth_site: where the tip is that is deepest; None where that is not known.
         tip_sd_mm: how unsure the tip is.
-        most_tip_sd_mm: how unsure it may be, in this pedicle.
+        max_tip_sd_mm: how unsure it may be, in this pedicle.
         drill_unseen_s: for how long the drill was not seen, up to the newest image; 0 while it is seen.
         drill_put_away: not seen for so long that it lies somewhere on purpose.
         reference_unseen_s: as for the drill; 0 when there is no patient reference.
@@ -86,7 +86,7 @@ class Observed:
     past_depth_mm: Reading = NOT_KNOWN
     depth_site: Site | None = None
     tip_sd_mm: Reading = NOT_KNOWN
-    most_tip_sd_mm: Reading = NOT_KNOWN
+    max_tip_sd_mm: Reading = NOT_KNOWN
     drill_unseen_s: float = 0.0
     drill_put_away: bool = False
     reference_unseen_s: float = 0.0

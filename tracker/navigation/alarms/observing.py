@@ -120,7 +120,7 @@ def _with_figures(observed: Observed, snapshot: NavigationSnapshot) -> Observed:
     finite = [error for error in errors if isfinite(error.value)]
     if finite:
         unsure = max(finite, key=lambda error: error.value - error.limit)
-        observed = replace(observed, tip_sd_mm=unsure.value, most_tip_sd_mm=unsure.limit)
+        observed = replace(observed, tip_sd_mm=unsure.value, max_tip_sd_mm=unsure.limit)
     return replace(
         observed,
         clearance_mm=_wall_mm(assessed[nearest]),

@@ -34,9 +34,9 @@ class Room:
     @classmethod
     def of_tolerance(cls, tolerance: Tolerance) -> "Room":
         """As the plan's tolerance has it."""
-        slope = float(np.tan(np.radians(tolerance.most_angle_deg)))
-        lever = tolerance.most_offset_mm / slope if slope > 0.0 else USUAL_LEVER_MM
-        return cls(room_mm=tolerance.most_offset_mm, lever_mm=lever)
+        slope = float(np.tan(np.radians(tolerance.max_angle_deg)))
+        lever = tolerance.max_offset_mm / slope if slope > 0.0 else USUAL_LEVER_MM
+        return cls(room_mm=tolerance.max_offset_mm, lever_mm=lever)
 
     @classmethod
     def of_channel(cls, channel: Channel, *, radius_mm: float) -> "Room":

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.special import ndtr, ndtri
 
 from tracker.geometry import Array, Tool, Vertebra
-from tracker.navigation.certainty.kernels import first_places, least_along_lines, share_below
+from tracker.navigation.certainty.kernels import first_places, min_along_lines, share_below
 from tracker.navigation.certainty.placed import Placed
 from tracker.navigation.clearance import Rings, WallField
 from tracker.navigation.clearance.field import UNIT_MM
@@ -90,7 +90,7 @@ def chance_of_breach(
         deepest = rings.points_mm[rings.clearance_mm.argmin(axis=0), np.arange(ways)][held[0]]
         arms = np.concatenate([rings.points_mm[chosen[held], np.nonzero(held)[1]], deepest]) - tip
         least = np.empty((LINES, len(TURNS)))
-        least_along_lines(
+        min_along_lines(
             wall.values,
             UNIT_MM,
             wall.grid.step_mm,

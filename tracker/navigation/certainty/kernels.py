@@ -58,7 +58,7 @@ def first_places(points, clearance, gradient, tip, direction, root, wall_sd, sur
 
 
 @compiled
-def least_along_lines(
+def min_along_lines(
     values, unit, step, origin, arms, tip, direction, root, line, wall_sd, samples, turns, out
 ):
     """The least clearance (s, t) of places on the drill (n, 3 from its tip), wherever the drill may be.

@@ -18,7 +18,7 @@ RADII_95 = np.array(
     [1.95996, 1.96253, 1.97041, 1.9842, 2.00514, 2.03586, 2.0813, 2.14598, 2.23029, 2.3318, 2.44775]
 )
 # A drill across the channel (over 84 degrees) meets no plane across it where it matters.
-LEAST_ALONG = 0.1
+MIN_ALONG = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,7 +89,7 @@ def crossing_covariance_mm2(tool: Placed[Vertebra, Tool], channel: Channel, *, d
     across = directions_of(channel)
     direction = tool.pose.rotation[:, 2]
     along = float(direction @ across.axis)
-    if abs(along) < LEAST_ALONG:
+    if abs(along) < MIN_ALONG:
         return np.diag([np.inf, np.inf])
     tip_depth = float((tool.pose.translation_mm - channel.entry_in_vertebra_mm) @ across.axis)
     ahead = (depth_mm - tip_depth) / along

@@ -31,8 +31,8 @@ UNIT_MM = 1.0 / 128.0
 LARGEST_TRIANGLE_MM = 4.0
 STAMPED_STEPS = 2.0
 # A channel of which less than this lies in bone was planned on another surface, or in another unit.
-LEAST_IN_BONE_RATIO = 0.8
-MOST_NODES = 40_000_000
+MIN_IN_BONE_RATIO = 0.8
+MAX_NODES = 40_000_000
 
 
 class MeasuredAgainst(StrEnum):
@@ -203,10 +203,10 @@ def _refuse_inside_out(surface: Surface) -> None:
 
 def _refuse_large(grid: Grid) -> None:
     nodes = int(np.prod(grid.shape))
-    if nodes > MOST_NODES:
+    if nodes > MAX_NODES:
         raise PlanError(
             "FIELD_TOO_LARGE",
-            f"the distances around the channel would take {nodes} nodes, allowed {MOST_NODES}",
+            f"the distances around the channel would take {nodes} nodes, allowed {MAX_NODES}",
             "Check entry and target of the channel: a channel through a pedicle is 25 to 75 mm long.",
             {"nodes": nodes},
         )
@@ -224,12 +224,12 @@ def _bone_around(
         bone = filled(solid, step_mm=grid.step_mm, closes_mm=closed_mm)
         if not bone.all():
             ratio = float(ndimage.binary_dilation(bone, CROSS)[line].mean())
-        if ratio >= LEAST_IN_BONE_RATIO:
+        if ratio >= MIN_IN_BONE_RATIO:
             return bone, closed_mm
     raise PlanError(
         "BONE_NOT_AT_CHANNEL",
         f"{100.0 * ratio:.0f} % of channel '{channel.name}' lies inside of the bone's surface, needed "
-        f"{100.0 * LEAST_IN_BONE_RATIO:.0f} % or more",
+        f"{100.0 * MIN_IN_BONE_RATIO:.0f} % or more",
         "Check the unit and the coordinates of the surface (mm, LPS, of the channel's own CT); where its "
         "cortex has holes, make it again with a lower threshold.",
         {"in_bone_ratio": ratio},

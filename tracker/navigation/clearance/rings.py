@@ -16,7 +16,7 @@ APART_MM = 1.0
 CORTEX_MM = 2.0
 # A drill that lies across the channel is looked at so far back from its tip.
 LONGEST_MM = 80.0
-LEAST_ALONG = 0.05
+MIN_ALONG = 0.05
 
 TURN = 2.0 * np.pi * np.arange(ROUND) / ROUND
 CIRCLE = np.stack([np.cos(TURN), np.sin(TURN)])
@@ -119,7 +119,7 @@ def _places(
     along = float(direction @ axis)
     depth = float((pose.translation_mm - channel.entry_in_vertebra_mm) @ axis)
     back = min(length_mm, LONGEST_MM)
-    if along > LEAST_ALONG:
+    if along > MIN_ALONG:
         # An oblique drill's rim reaches deeper than its axis.
         rim = radius_mm * float(np.sqrt(max(1.0 - along * along, 0.0)))
         back = min(back, (depth + rim) / along)

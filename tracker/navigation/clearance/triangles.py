@@ -6,7 +6,7 @@ from tracker.geometry import Array
 from tracker.navigation.clearance.inside import Flags, Grid
 from tracker.plan.surface import Surface
 
-MOST_ROUNDS = 12
+MAX_ROUNDS = 12
 
 
 def near_box(surface: Surface, grid: Grid) -> Array:
@@ -18,7 +18,7 @@ def near_box(surface: Surface, grid: Grid) -> Array:
 def split_to(corners: Array, longest_mm: float, grid: Grid) -> Array:
     """The same triangles, each side at most so long; what is split off outside of the grid is left out."""
     done = []
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         side = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)
         done.append(corners[side <= longest_mm])
         large = corners[side > longest_mm]

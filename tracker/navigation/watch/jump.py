@@ -21,8 +21,8 @@ class JumpSettings:
     """What a hand can do, and when a jump is believed.
 
     Attributes:
-        most_mm_s: faster is no hand that guides a drill.
-        most_deg_s: likewise.
+        max_mm_s: faster is no hand that guides a drill.
+        max_deg_s: likewise.
         slack_mm: what noise adds between two images.
         slack_deg: likewise.
         believed_after: so many images that agree with each other make a jump the truth.
@@ -30,8 +30,8 @@ class JumpSettings:
             stays in doubt as long as images come.
     """
 
-    most_mm_s: float = 600.0
-    most_deg_s: float = 240.0
+    max_mm_s: float = 600.0
+    max_deg_s: float = 240.0
     slack_mm: float = 1.5
     slack_deg: float = 2.5
     believed_after: int = 5
@@ -111,8 +111,8 @@ class JumpWatch:
         since_s = min(here.at_s - before.at_s, at_most_s)
         moved_mm, turned_deg = _apart(before.pose, here.pose)
         return (
-            moved_mm <= self._settings.slack_mm + self._settings.most_mm_s * since_s
-            and turned_deg <= self._settings.slack_deg + self._settings.most_deg_s * since_s
+            moved_mm <= self._settings.slack_mm + self._settings.max_mm_s * since_s
+            and turned_deg <= self._settings.slack_deg + self._settings.max_deg_s * since_s
         )
 
 

@@ -27,13 +27,13 @@ class ReferenceSettings:
     """How far a patient's breath may move a reference.
 
     Attributes:
-        most_mm: more is no breath.
-        most_deg: likewise.
+        max_mm: more is no breath.
+        max_deg: likewise.
         confirmed_by: so many images in a row must say so.
     """
 
-    most_mm: float = 4.0
-    most_deg: float = 3.0
+    max_mm: float = 4.0
+    max_deg: float = 3.0
     confirmed_by: int = 5
 
 
@@ -74,7 +74,7 @@ class ReferenceWatch:
         shift = camera_from_reference.translation_mm - self._start.translation_mm
         turn = vector_from_rotation(camera_from_reference.rotation @ self._start.rotation.T)
         moved_mm, turned_deg = float(np.linalg.norm(shift)), float(np.degrees(np.linalg.norm(turn)))
-        elsewhere = moved_mm > self._settings.most_mm or turned_deg > self._settings.most_deg
+        elsewhere = moved_mm > self._settings.max_mm or turned_deg > self._settings.max_deg
         self._images = self._images + 1 if elsewhere else 0
         state = ReferenceState.IN_PLACE
         if self._images >= self._settings.confirmed_by:

@@ -16,16 +16,16 @@ from tracker.geometry import Array
 Picture = npt.NDArray[np.uint8]
 
 LOOKED_AT_PX = 480
-MOST_PATCHES = 48
+MAX_PATCHES = 48
 HALF_PATCH_PX = 7
 WINDOW = (15, 15)
 # Patches that correlate less are hidden, or not what they were.
-LEAST_ALIKE = 0.7
+MIN_ALIKE = 0.7
 # Of a camera's motion: patches move as a shift, a turn and a scale have it, within this, and within this part
 # of how far they move: what is nearer to a camera that is shifted moves more.
 SPREAD_PX = 0.6
 PARALLAX_RATIO = 0.2
-LEAST_PATCHES = 6
+MIN_PATCHES = 6
 
 
 class SceneState(StrEnum):
@@ -42,13 +42,13 @@ class SceneSettings:
     """What counts as moved.
 
     Attributes:
-        most_px: in pixels of the whole image; 0.7 milliradian for a usual lens; noise is a third.
-        least_in_sight_ratio: with fewer of its patches in sight, the scene says nothing.
+        max_px: in pixels of the whole image; 0.7 milliradian for a usual lens; noise is a third.
+        min_in_sight_ratio: with fewer of its patches in sight, the scene says nothing.
         confirmed_by: so many checks in a row must say "moved".
     """
 
-    most_px: float = 1.0
-    least_in_sight_ratio: float = 0.3
+    max_px: float = 1.0
+    min_in_sight_ratio: float = 0.3
     confirmed_by: int = 2
 
 
@@ -93,14 +93,14 @@ class SceneWatch:
         self._moved = 0
 
     @property
-    def most_px(self) -> float:
+    def max_px(self) -> float:
         """From which motion on it counts as moved."""
-        return self._settings.most_px
+        return self._settings.max_px
 
     def check(self, image: Picture) -> SceneCheck:
         """Look for the patches in a later image (h, w) grey of the same size."""
         count = len(self._points)
-        if count < LEAST_PATCHES:
+        if count < MIN_PATCHES:
             return self._told(SceneState.NO_TEXTURE, 0.0, 0)
         if image.shape[:2] != self._size:
             return self._told(SceneState.UNSURE, 0.0, 0)
@@ -113,10 +113,10 @@ class SceneWatch:
             if far_in_sight.sum() > in_sight.sum():
                 found, in_sight = far, far_in_sight
         moved_px, alike = self._motion(found[in_sight], self._points[in_sight])
-        needed = max(LEAST_PATCHES, self._settings.least_in_sight_ratio * count)
+        needed = max(MIN_PATCHES, self._settings.min_in_sight_ratio * count)
         if in_sight.sum() < needed or alike < 0.5:
             return self._told(SceneState.UNSURE, moved_px, int(in_sight.sum()))
-        state = SceneState.MOVED if moved_px > self._settings.most_px else SceneState.STILL
+        state = SceneState.MOVED if moved_px > self._settings.max_px else SceneState.STILL
         return self._told(state, moved_px, int(in_sight.sum()))
 
     def _told(self, state: SceneState, moved_px: float, in_sight: int) -> SceneCheck:
@@ -141,12 +141,12 @@ class SceneWatch:
         places = np.asarray(found[:, 0], dtype=np.float32)
         seen = status[:, 0] > 0
         for n in np.flatnonzero(seen):
-            seen[n] = _alike(self._picture, picture, self._points[n], places[n]) >= LEAST_ALIKE
+            seen[n] = _alike(self._picture, picture, self._points[n], places[n]) >= MIN_ALIKE
         return places, seen
 
     def _motion(self, found: npt.NDArray[np.float32], kept: npt.NDArray[np.float32]) -> tuple[float, float]:
         """Median motion in pixels of the whole image, and the share of patches that move as one picture."""
-        if len(found) < LEAST_PATCHES:
+        if len(found) < MIN_PATCHES:
             return 0.0, 0.0
         far_px = float(np.median(np.linalg.norm(found - kept, axis=1)))
         within_px = SPREAD_PX + PARALLAX_RATIO * far_px
@@ -173,7 +173,7 @@ def _corners(picture: Picture, leave_out: list[Array]) -> npt.NDArray[np.float32
     mask[:edge], mask[-edge:], mask[:, :edge], mask[:, -edge:] = 0, 0, 0, 0
     for outline in leave_out:
         cv2.fillPoly(mask, [np.rint(outline).astype(np.int32)], 0)
-    found = cv2.goodFeaturesToTrack(picture, MOST_PATCHES, 0.02, 12.0, mask=mask, blockSize=5)
+    found = cv2.goodFeaturesToTrack(picture, MAX_PATCHES, 0.02, 12.0, mask=mask, blockSize=5)
     return np.empty((0, 2), np.float32) if found is None else found[:, 0].astype(np.float32)
 
 

@@ -10,7 +10,7 @@ from tracker.plan.bone.region import Region
 from tracker.plan.volume import Volume
 
 # As float32 this is 100 MB, and marching cubes takes as much again.
-MOST_VOXELS = 24_000_000
+MAX_VOXELS = 24_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,7 +36,7 @@ class Block:
         return np.asarray(own + self.first_ijk)
 
 
-def block_of(volume: Volume, region: Region | None, *, most_voxels: int = MOST_VOXELS) -> Block:
+def block_of(volume: Volume, region: Region | None, *, max_voxels: int = MAX_VOXELS) -> Block:
     """The voxels of a region, or of the whole CT; neighbours are averaged until they are few enough.
 
     Only these voxels are read, some slices at a time, so that a mapped CT stays on disk.
@@ -46,7 +46,7 @@ def block_of(volume: Volume, region: Region | None, *, most_voxels: int = MOST_V
     """
     size = np.array(volume.shape_ijk)
     first, last = (np.zeros(3, dtype=np.int64), size) if region is None else region.indexes_in(volume)
-    averaged = _averaged(last - first, volume.spacing_mm, most_voxels)
+    averaged = _averaged(last - first, volume.spacing_mm, max_voxels)
     # What is left over at the end of an axis is less than one averaged voxel.
     shape = (last - first) // averaged
     last = first + shape * averaged

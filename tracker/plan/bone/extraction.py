@@ -8,7 +8,7 @@ from skimage.measure import marching_cubes
 
 from tracker.errors import PlanError
 from tracker.geometry import Array
-from tracker.plan.bone.block import MOST_VOXELS, Block, block_of
+from tracker.plan.bone.block import MAX_VOXELS, Block, block_of
 from tracker.plan.bone.notes import notes_of
 from tracker.plan.bone.region import Region
 from tracker.plan.bone.threshold import ThresholdProposal, proposed_threshold
@@ -19,7 +19,7 @@ from tracker.plan.triangles.links import Faces, parts_of
 from tracker.plan.volume import Volume
 
 # Marching cubes makes two triangles for each vertex; 3 million of them take about 1 GB on the way.
-MOST_VERTICES = 3_000_000
+MAX_VERTICES = 3_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,8 +31,8 @@ class BoneSettings:
         region: the part of the CT that is looked at; None is all of it.
         largest_part_only: leave out what does not hang together with the largest piece.
         smoothing_rounds: of Taubin's smoothing; 0 for none.
-        most_faces: triangles of the result; None leaves all.
-        most_voxels: more than these are averaged.
+        max_faces: triangles of the result; None leaves all.
+        max_voxels: more than these are averaged.
 
     Raises:
         PlanError: BONE_SETTINGS_INVALID.
@@ -42,8 +42,8 @@ class BoneSettings:
     region: Region | None = None
     largest_part_only: bool = True
     smoothing_rounds: int = 10
-    most_faces: int | None = 60_000
-    most_voxels: int = MOST_VOXELS
+    max_faces: int | None = 60_000
+    max_voxels: int = MAX_VOXELS
 
     def __post_init__(self) -> None:
         problem = ""
@@ -51,10 +51,10 @@ class BoneSettings:
             problem = f"its threshold is {self.threshold_hu} HU"
         elif not 0 <= self.smoothing_rounds <= 200:
             problem = f"{self.smoothing_rounds} rounds of smoothing, allowed 0 to 200"
-        elif self.most_faces is not None and self.most_faces < 100:
-            problem = f"at most {self.most_faces} triangles, allowed 100 or more"
-        elif self.most_voxels < 1000:
-            problem = f"at most {self.most_voxels} voxels, allowed 1000 or more"
+        elif self.max_faces is not None and self.max_faces < 100:
+            problem = f"at most {self.max_faces} triangles, allowed 100 or more"
+        elif self.max_voxels < 1000:
+            problem = f"at most {self.max_voxels} voxels, allowed 1000 or more"
         if problem:
             raise PlanError(
                 "BONE_SETTINGS_INVALID",
@@ -106,7 +106,7 @@ def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSu
             BONE_NOT_FOUND; BONE_TOO_LARGE.
     """
     settings = settings or BoneSettings()
-    block = block_of(volume, settings.region, most_voxels=settings.most_voxels)
+    block = block_of(volume, settings.region, max_voxels=settings.max_voxels)
     proposal = proposed_threshold(_as_int16(block.hu))
     threshold = proposal.threshold_hu if settings.threshold_hu is None else settings.threshold_hu
     vertices_kji, faces = _triangles(block.hu, threshold)
@@ -120,8 +120,8 @@ def bone_surface(volume: Volume, settings: BoneSettings | None = None) -> BoneSu
     faces_before = int(faces.shape[0])
     if settings.smoothing_rounds:
         vertices = smoothed(vertices, faces, rounds=settings.smoothing_rounds)
-    if settings.most_faces is not None:
-        vertices, faces = decimated(vertices, faces, most_faces=settings.most_faces)
+    if settings.max_faces is not None:
+        vertices, faces = decimated(vertices, faces, max_faces=settings.max_faces)
     averaged = (int(block.averaged_ijk[0]), int(block.averaged_ijk[1]), int(block.averaged_ijk[2]))
     voxel_mm = volume.spacing_mm * block.averaged_ijk
     ends, remarks = notes_of(cut_at, averaged, voxel_mm, threshold, proposal, given=settings.threshold_hu)
@@ -161,10 +161,10 @@ def _triangles(hu: npt.NDArray[np.float32], threshold_hu: float) -> tuple[Array,
     level = float(np.ceil(threshold_hu)) - 0.5
     bone = hu >= level
     crossings = sum(int(np.count_nonzero(np.diff(bone, axis=axis))) for axis in range(3))
-    if crossings > MOST_VERTICES:
+    if crossings > MAX_VERTICES:
         raise PlanError(
             "BONE_TOO_LARGE",
-            f"at {threshold_hu:.0f} HU the surface has {crossings} vertices, allowed {MOST_VERTICES}",
+            f"at {threshold_hu:.0f} HU the surface has {crossings} vertices, allowed {MAX_VERTICES}",
             "Give a region around one vertebra, or a higher threshold that does not cut through noise.",
             {"vertices": crossings, "threshold_hu": threshold_hu},
         )

@@ -13,8 +13,8 @@ SOFT_TISSUE_HU = (-20, 120)
 # As wide as noise makes a peak jagged.
 SMOOTHED_OVER_HU = 8.0
 SOFT_TISSUE_NEEDED_RATIO = 0.05
-LEAST_ABOVE_SURROUNDINGS_HU, HIGHEST_PROPOSED_HU = 60.0, 400.0
-MOST_VOXELS = 4_000_000
+MIN_ABOVE_SURROUNDINGS_HU, HIGHEST_PROPOSED_HU = 60.0, 400.0
+MAX_VOXELS = 4_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,7 +43,7 @@ def proposed_threshold(hu: npt.NDArray[np.int16]) -> ThresholdProposal:
     Args:
         hu: (slices, rows, columns) int16.
     """
-    step = max(1, int(np.ceil((hu.size / MOST_VOXELS) ** (1.0 / 3.0))))
+    step = max(1, int(np.ceil((hu.size / MAX_VOXELS) ** (1.0 / 3.0))))
     values = np.clip(hu[::step, ::step, ::step], LOWEST_HU, HIGHEST_HU).astype(np.int64).ravel()
     counts = np.bincount(values - LOWEST_HU, minlength=HIGHEST_HU - LOWEST_HU + 1).astype(np.float64)
     levels = np.arange(LOWEST_HU, HIGHEST_HU + 1, dtype=np.float64)
@@ -53,7 +53,7 @@ def proposed_threshold(hu: npt.NDArray[np.int16]) -> ThresholdProposal:
         surroundings = float(levels[soft][smooth[soft].argmax()])
     else:
         surroundings = float(levels[smooth.argmax()])
-    least = surroundings + LEAST_ABOVE_SURROUNDINGS_HU
+    least = surroundings + MIN_ABOVE_SURROUNDINGS_HU
     brighter = levels >= surroundings
     threshold = least
     if np.count_nonzero(counts[brighter]) > 1:

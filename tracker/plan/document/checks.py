@@ -13,11 +13,11 @@ from tracker.plan.landmark import Landmark
 from tracker.plan.pedicle import PedicleMeasure
 from tracker.plan.reference_slice import ReferenceSlice
 
-MOST_VERTEBRAE, LONGEST_NAME = 30, 40
+MAX_VERTEBRAE, LONGEST_NAME = 30, 40
 # A channel is called after its vertebra and its side.
 LONGEST_CHANNEL_NAME = LONGEST_NAME + len(" right")
-MOST_WARNINGS, LONGEST_WARNING = 50, 500
-MOST_LANDMARKS, LONGEST_LANDMARK_NAME = 40, 60
+MAX_WARNINGS, LONGEST_WARNING = 50, 500
+MAX_LANDMARKS, LONGEST_LANDMARK_NAME = 40, 60
 OUTLINE_POINTS = (6, 5000)
 FARTHEST_MM = 10_000.0
 LONGEST_CHANNEL_MM, WIDEST_RADIUS_MM = 150.0, 20.0
@@ -39,8 +39,8 @@ def refuse_odd(plan: PlanDocument) -> None:
 
 
 def _oddities(plan: PlanDocument) -> Iterator[tuple[str, str]]:
-    if len(plan.vertebrae) > MOST_VERTEBRAE:
-        yield "plan", f"has {len(plan.vertebrae)} vertebrae, allowed {MOST_VERTEBRAE}"
+    if len(plan.vertebrae) > MAX_VERTEBRAE:
+        yield "plan", f"has {len(plan.vertebrae)} vertebrae, allowed {MAX_VERTEBRAE}"
         return
     for n, vertebra in enumerate(plan.vertebrae):
         where = f"vertebra {n + 1}"
@@ -61,8 +61,8 @@ def _in_vertebra(vertebra: VertebraPlan, where: str) -> Iterator[tuple[str, str]
         yield from _in_channel(planned.channel, f"{where}, {planned.side} channel,")
     for reference in vertebra.references:
         yield from _in_reference(reference, f"{where}, reference slice,")
-    if len(vertebra.landmarks) > MOST_LANDMARKS:
-        yield where, f"has {len(vertebra.landmarks)} landmarks, allowed {MOST_LANDMARKS}"
+    if len(vertebra.landmarks) > MAX_LANDMARKS:
+        yield where, f"has {len(vertebra.landmarks)} landmarks, allowed {MAX_LANDMARKS}"
     for n, landmark in enumerate(vertebra.landmarks):
         yield from _in_landmark(landmark, f"{where}, landmark {n + 1},")
 
@@ -84,8 +84,8 @@ def _in_measure(measure: PedicleMeasure, where: str) -> Iterator[tuple[str, str]
         room = 0.5 * (high - low)
         if not (low - room <= value <= high + room) or (name.endswith("_mm") and value <= 0.0):
             yield where, f"{name} is {value:g}, allowed {low:g} to {high:g}"
-    if len(measure.warnings) > MOST_WARNINGS or any(len(one) > LONGEST_WARNING for one in measure.warnings):
-        yield where, f"has more than {MOST_WARNINGS} warnings, or one of more than {LONGEST_WARNING} letters"
+    if len(measure.warnings) > MAX_WARNINGS or any(len(one) > LONGEST_WARNING for one in measure.warnings):
+        yield where, f"has more than {MAX_WARNINGS} warnings, or one of more than {LONGEST_WARNING} letters"
 
 
 def _in_channel(channel: Channel, where: str) -> Iterator[tuple[str, str]]:

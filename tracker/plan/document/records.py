@@ -12,7 +12,7 @@ from tracker.plan.screw import ScrewPlan
 
 # 2 brought the landmarks; what 1 holds is read as having none.
 FORMAT_VERSION, READABLE_VERSIONS = 2, (1, 2)
-MOST_CHANNELS = 2
+MAX_CHANNELS = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

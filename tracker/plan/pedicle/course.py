@@ -14,7 +14,7 @@ from tracker.plan.pedicle.solid import Solid
 
 # The path of a screw around the isthmus, over which bone must stand around it.
 BEHIND_MM, AHEAD_MM, STEP_MM = 10.0, 28.0, 1.5
-MOST_DEPTH_MM, LEAST_DEPTH_MM = 6.0, -3.0
+MAX_DEPTH_MM, MIN_DEPTH_MM = 6.0, -3.0
 # What one mm of mean clearance is worth.
 CLEARANCE_MM = 0.3
 CANAL_MM = (8.0, 34.0)
@@ -24,7 +24,7 @@ USUAL_DEG, USUAL_AT_MM, TURN_DEG_PER_MM = 6.0, 16.0, 2.2
 USUAL_RANGE_DEG = (0.0, 28.0)
 KNOWN_SD_DEG, UNKNOWN_SD_DEG = 6.0, 11.0
 # Nothing around a pedicle tells its direction better than this.
-LEAST_SD_DEG = 3.0
+MIN_SD_DEG = 3.0
 ASIDE_MM = np.arange(-5.0, 5.1, 1.0)
 TRANSVERSE_DEG = np.arange(-24.0, 45.0, 3.0)
 SAGITTAL_DEG = np.arange(-30.0, 31.0, 3.0)
@@ -80,8 +80,8 @@ def course_through(solid: Solid, isthmus_mm: Array, side: str) -> Course:
     return Course(
         transverse_deg=mean_t,
         sagittal_deg=mean_s,
-        transverse_sd_deg=max(float(np.sqrt(variance_t)), LEAST_SD_DEG),
-        sagittal_sd_deg=max(float(np.sqrt((weight * (s - mean_s) ** 2).sum())), LEAST_SD_DEG),
+        transverse_sd_deg=max(float(np.sqrt(variance_t)), MIN_SD_DEG),
+        sagittal_sd_deg=max(float(np.sqrt((weight * (s - mean_s) ** 2).sum())), MIN_SD_DEG),
         usual_ratio=min(variance_t / transverse_sd**2, 1.0),
     )
 
@@ -107,7 +107,7 @@ def _clearance_mm(solid: Solid, at: Array, transverse: Array, sagittal: Array, o
     way = _ways(transverse, sagittal, outwards)
     along = np.arange(-BEHIND_MM, AHEAD_MM + 0.1, STEP_MM)
     depth = solid.depth_at(at + along[:, None, None] * way)
-    return np.asarray(np.clip(depth, LEAST_DEPTH_MM, MOST_DEPTH_MM).mean(axis=0))
+    return np.asarray(np.clip(depth, MIN_DEPTH_MM, MAX_DEPTH_MM).mean(axis=0))
 
 
 def _middle_mm(solid: Solid, at: Array, outwards: float) -> float | None:

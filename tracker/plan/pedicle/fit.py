@@ -17,21 +17,21 @@ from tracker.plan.pedicle.neighbourhood import Neighbourhood
 from tracker.plan.pedicle.outlines import planes_across
 from tracker.plan.pedicle.search import Bar
 
-LEAST_HALF_MM, MOST_HALF_MM = 3.0, 6.0
+MIN_HALF_MM, MAX_HALF_MM = 3.0, 6.0
 # The rounds that only find the place need fewer voxels than the one that tells the numbers.
-MOST_VOXELS = (900, 1200, 3500)
+MAX_VOXELS = (900, 1200, 3500)
 # Bone that is not like the bar pulls it away in many steps: the first rounds are kept short. What is like it
 # may need so many more of the first to be explained, as where walls stand high above what is around them.
-MOST_STEPS, MORE_STEPS = (8, 10, 20), 80
+MAX_STEPS, MORE_STEPS = (8, 10, 20), 80
 # Where the narrowest place is still so far from the window's middle, the window is moved there once more.
-SETTLED, MORE_ROUNDS, LEAST_WAIST = 0.15, 2, 0.02
+SETTLED, MORE_ROUNDS, MIN_WAIST = 0.15, 2, 0.02
 # Only where bone is like the bar; where it is not, a window that wanders settles on what joins it.
-MOST_MISFIT_RATIO = 0.04
+MAX_MISFIT_RATIO = 0.04
 OUTSIDE_BAND_MM = 1.2
-LEAST_VOXELS = 60
+MIN_VOXELS = 60
 COARSE_SD_DEG = 4.0
 # Bone is not made of even layers: what a voxel may differ by before it counts less.
-LEAST_SCALE_HU, SCALE_RATIO = 12.0, 0.06
+MIN_SCALE_HU, SCALE_RATIO = 12.0, 0.06
 # Noise is alike in neighbouring voxels only; bone that is not as the model has it, over a few millimetres.
 ALIKE_VOXELS, ALIKE_MM3 = 2.0, 20.0
 _HELD_SLOPES: Array = np.array([0.0, 0.0, 0.02])
@@ -68,22 +68,22 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
 
     Held, it keeps the direction that it was given, and only the place and shape of its section are fitted.
     """
-    half = float(np.clip(0.8 * min(bar.behind_mm, bar.ahead_mm), LEAST_HALF_MM, MOST_HALF_MM))
+    half = float(np.clip(0.8 * min(bar.behind_mm, bar.ahead_mm), MIN_HALF_MM, MAX_HALF_MM))
     origin, axis = bar.centre_mm, bar.axis
     parameters = _first_parameters(near, bar)
     fitted: FittedBar | None = None
-    last = len(MOST_VOXELS) - 1
+    last = len(MAX_VOXELS) - 1
     for round_number in (*range(last + 1), *(last,) * MORE_ROUNDS):
         (left,), (up,) = planes_across(axis[None])
         frame = np.stack([axis, left, up])
-        samples = _samples(near, bar, parameters, origin, frame, half, MOST_VOXELS[round_number])
-        if len(samples.hu) < LEAST_VOXELS:
+        samples = _samples(near, bar, parameters, origin, frame, half, MAX_VOXELS[round_number])
+        if len(samples.hu) < MIN_VOXELS:
             break
         slopes = _HELD_SLOPES if held else _coarse_slopes(bar, axis, left, up, half)
-        solved = _solve(near, samples, parameters, slopes, MOST_STEPS[round_number])
-        if fitted is None and _misfit_ratio(near, solved[2]) > MOST_MISFIT_RATIO:
+        solved = _solve(near, samples, parameters, slopes, MAX_STEPS[round_number])
+        if fitted is None and _misfit_ratio(near, solved[2]) > MAX_MISFIT_RATIO:
             ended = _solve(near, samples, solved[0], slopes, MORE_STEPS)
-            solved = ended if _misfit_ratio(near, ended[2]) <= MOST_MISFIT_RATIO else solved
+            solved = ended if _misfit_ratio(near, ended[2]) <= MAX_MISFIT_RATIO else solved
         parameters, covariance, residual, done = solved
         fitted = FittedBar(
             origin_mm=origin,
@@ -97,7 +97,7 @@ def fit_bar(near: Neighbourhood, bar: Bar, *, held: bool = False) -> FittedBar:
             misfit_ratio=_misfit_ratio(near, residual),
             fitted=done,
         )
-        settled = abs(narrowest(fitted)) <= SETTLED or fitted.misfit_ratio > MOST_MISFIT_RATIO
+        settled = abs(narrowest(fitted)) <= SETTLED or fitted.misfit_ratio > MAX_MISFIT_RATIO
         if round_number == last and settled:
             break
         origin, turned, parameters = _moved(fitted)
@@ -117,7 +117,7 @@ def narrowest(fitted: FittedBar) -> float:
     the bar narrows, and never jumps.
     """
     slope, bend = fitted.parameters[tube.GROWTH][:2]
-    waist = np.hypot(max(float(bend), 0.0), LEAST_WAIST)
+    waist = np.hypot(max(float(bend), 0.0), MIN_WAIST)
     return float(np.clip(-slope / (2.0 * waist), -0.6, 0.6))
 
 
@@ -242,9 +242,9 @@ WALL = [tube.CORTEX, tube.THICKNESS]
 
 
 def _solve(
-    near: Neighbourhood, samples: tube.Samples, start: Array, slopes: Array, most_steps: int
+    near: Neighbourhood, samples: tube.Samples, start: Array, slopes: Array, max_steps: int
 ) -> tuple[Array, Array, float, bool]:
-    scale = max(LEAST_SCALE_HU, near.noise_hu, SCALE_RATIO * (near.cortex_hu - near.tissue_hu))
+    scale = max(MIN_SCALE_HU, near.noise_hu, SCALE_RATIO * (near.cortex_hu - near.tissue_hu))
     centre, width = _expected(near, start, slopes)
 
     def residuals(parameters: Array) -> Array:
@@ -262,7 +262,7 @@ def _solve(
         bounds=(low, high),
         loss="soft_l1",
         x_scale=np.minimum(width, 50.0),
-        max_nfev=most_steps,
+        max_nfev=max_steps,
     )
     left = tube.model_hu(result.x, samples) - samples.hu
     residual = float(1.4826 * np.median(np.abs(left)))

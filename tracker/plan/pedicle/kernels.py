@@ -26,10 +26,10 @@ def number_at(block, x, y, z):
 
 
 @compiled
-def steps_to_wall(block, centre, step, count, least_fall, behind, profile):
+def steps_to_wall(block, centre, step, count, min_fall, behind, profile):
     """How many steps from a centre (3,) bone's wall has fallen halfway to its outside; NaN if nowhere.
 
-    The wall is the highest number before the first fall by `least_fall`; its outside the lowest number at
+    The wall is the highest number before the first fall by `min_fall`; its outside the lowest number at
     that fall or up to `behind` steps farther. `centre` and `step` (3,) are indexes x, y, z of the block; of
     `count` steps, `profile` (count,) is overwritten with the numbers that were looked at.
     """
@@ -39,7 +39,7 @@ def steps_to_wall(block, centre, step, count, least_fall, behind, profile):
         profile[n] = value
         if last < 0 and value > peak:
             peak, peak_at = value, n
-        if last < 0 and peak - value >= least_fall:
+        if last < 0 and peak - value >= min_fall:
             last = n + behind
         if last >= 0:
             trough = min(trough, value)
@@ -56,9 +56,9 @@ def steps_to_wall(block, centre, step, count, least_fall, behind, profile):
 
 
 @compiled
-def walls_around(block, centres, steps, count, least_fall, behind, out):
+def walls_around(block, centres, steps, count, min_fall, behind, out):
     """Into `out` (m, rays): `steps_to_wall` from each centre (m, 3), along each of its steps (m, rays, 3)."""
     profile = np.empty(count)
     for m in range(steps.shape[0]):
         for ray in range(steps.shape[1]):
-            out[m, ray] = steps_to_wall(block, centres[m], steps[m, ray], count, least_fall, behind, profile)
+            out[m, ray] = steps_to_wall(block, centres[m], steps[m, ray], count, min_fall, behind, profile)

@@ -15,13 +15,13 @@ from tracker.plan.pedicle.plausible import (
     agrees,
     beyond_medial_wall_mm,
     is_beside_canal,
+    max_beyond_mm,
     medial_wall_mm,
-    most_beyond_mm,
     unsure_as,
     usual_beyond_mm,
 )
 from tracker.plan.pedicle.record import (
-    LEAST_AHEAD_MM,
+    MIN_AHEAD_MM,
     PedicleMeasure,
     PedicleSpread,
     Side,
@@ -32,7 +32,7 @@ from tracker.plan.pedicle.record import (
 )
 from tracker.plan.pedicle.remarks import (
     FEW_VOXELS,
-    LEAST_FACED,
+    MIN_FACED,
     canal_remarks,
     fit_remarks,
     front_remarks,
@@ -45,12 +45,12 @@ from tracker.plan.pedicle.solid import Solid, solid_around
 from tracker.plan.volume import Volume
 
 WALL_SD_VOXELS = 0.3
-LEAST_FACED_SD = 0.15
+MIN_FACED_SD = 0.15
 # A smaller turn of the axis changes no section.
 TURNED_DEG = 1.0
-MOST_OFF_COURSE_DEG, MOST_TURN_DEG = 32.0, 25.0
-LEAST_ASIDE_MM = 1.0
-MOST_MOVE_MM, MOST_GROWTH = 3.0, 1.25
+MAX_OFF_COURSE_DEG, MAX_TURN_DEG = 32.0, 25.0
+MIN_ASIDE_MM = 1.0
+MAX_MOVE_MM, MAX_GROWTH = 3.0, 1.25
 # A second start, where the first is at the isthmus already.
 AGAIN_MM = -2.0
 
@@ -90,10 +90,10 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
     warnings = _side_warnings(near, isthmus, fitted, named)
     wall_mm = medial_wall_mm(isthmus, named)
     beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, wall_mm, named)
-    refusals.refuse_without_canal(isthmus, beyond_mm, most_beyond_mm(near))
+    refusals.refuse_without_canal(isthmus, beyond_mm, max_beyond_mm(near))
     warnings += canal_remarks(beyond_mm, usual_beyond_mm(near))
-    least_mm = min(isthmus.width_mm, isthmus.height_mm)
-    if least_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
+    min_mm = min(isthmus.width_mm, isthmus.height_mm)
+    if min_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
         isthmus = _agreed(near, solid, seed, named, isthmus)
     return _record(near, solid, seed, named, bar, fitted, isthmus, warnings)
 
@@ -118,7 +118,7 @@ def _agreed(near: Neighbourhood, solid: Solid, seed: Array, side: Side, isthmus:
     Of few voxels a fit states its noise, and not that another section near by would have done as well.
     """
     again = 0.5 * (seed + isthmus.centre_mm)
-    if np.linalg.norm(again - seed) < LEAST_ASIDE_MM:
+    if np.linalg.norm(again - seed) < MIN_ASIDE_MM:
         again = seed + AGAIN_MM * isthmus.axis
     found = _found_from(near, solid, again, side)
     if found is None:
@@ -134,14 +134,14 @@ def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar |
     bars: list[tuple[bool, bool, float, Bar]] = []
     course = course_through(solid, seed, side)
     middle = middle_of_bone(solid, seed, course.axis(side))
-    elsewhere = float(solid.depth_at(seed[None])[0]) > 0.0 and np.linalg.norm(middle - seed) >= LEAST_ASIDE_MM
+    elsewhere = float(solid.depth_at(seed[None])[0]) > 0.0 and np.linalg.norm(middle - seed) >= MIN_ASIDE_MM
     for at in (seed, middle) if elsewhere else (seed,):
         bar = find_bar(near, at, side, course)
         if bar is None:
             continue
         off_deg = float(np.linalg.norm(course.off_deg(bar.axis[None], side)))
         beside = is_beside_canal(near, solid, bar, side)
-        if beside and bar.is_clear and off_deg <= MOST_OFF_COURSE_DEG and bar.holds(seed):
+        if beside and bar.is_clear and off_deg <= MAX_OFF_COURSE_DEG and bar.holds(seed):
             return bar
         score = min(bar.behind_mm, bar.ahead_mm) - 0.1 * off_deg
         bars.append((beside, bar.holds(seed), score, bar))
@@ -151,7 +151,7 @@ def _bar_at(near: Neighbourhood, solid: Solid, seed: Array, side: Side) -> Bar |
 def _fitted(near: Neighbourhood, bar: Bar) -> FittedBar:
     """The fit to the voxels; one that turned right away from its sections is made again, held."""
     fitted = fit_bar(near, bar)
-    if fitted.axis @ bar.axis >= np.cos(np.radians(MOST_TURN_DEG)):
+    if fitted.axis @ bar.axis >= np.cos(np.radians(MAX_TURN_DEG)):
         return fitted
     return replace(fit_bar(near, bar, held=True), misfit_ratio=1.0)
 
@@ -201,7 +201,7 @@ def _is_same(one: Isthmus, other: Isthmus) -> bool:
     """Whether two sections across different axes are of one pedicle, and not of what joins it."""
     moved_mm = float(np.linalg.norm(one.centre_mm - other.centre_mm))
     ratios = np.array([other.width_mm / one.width_mm, other.height_mm / one.height_mm])
-    return moved_mm <= MOST_MOVE_MM and bool((np.abs(np.log(ratios)) <= np.log(MOST_GROWTH)).all())
+    return moved_mm <= MAX_MOVE_MM and bool((np.abs(np.log(ratios)) <= np.log(MAX_GROWTH)).all())
 
 
 def _record(
@@ -249,7 +249,7 @@ def _record(
 def _opens_ahead_mm(bar: Bar, isthmus: Isthmus) -> float:
     """From the isthmus to where the bar opens, or as far as it was followed."""
     ahead = float((bar.centre_mm - isthmus.centre_mm) @ isthmus.axis) + bar.ahead_mm
-    return max(ahead, LEAST_AHEAD_MM)
+    return max(ahead, MIN_AHEAD_MM)
 
 
 def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, side: Side) -> list[str]:
@@ -270,8 +270,8 @@ def _length_sd_mm(front: WallAhead, back: WallAhead, isthmus: Isthmus, wall_sd_m
     """Each wall's own spread and the axis's, and what they make along the axis of a wall met aslant."""
     parts = []
     for wall in (front, back):
-        faced = max(abs(wall.faced_ratio), LEAST_FACED_SD)
-        aslant = np.sqrt(1.0 - min(faced, 1.0) ** 2) / max(faced, LEAST_FACED)
+        faced = max(abs(wall.faced_ratio), MIN_FACED_SD)
+        aslant = np.sqrt(1.0 - min(faced, 1.0) ** 2) / max(faced, MIN_FACED)
         parts.append(wall_sd_mm / faced)
         parts.append(wall.distance_mm * aslant * np.radians(float(np.hypot(*isthmus.slope_sd_deg))))
         parts.append(wall.sd_mm)

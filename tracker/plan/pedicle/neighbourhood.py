@@ -12,7 +12,7 @@ from tracker.plan.volume import Volume
 REACH_MM = 70.0
 NEAR_MM = 14.0
 # Metal shines far above any bone; what is above this is no longer told apart.
-MOST_HU = 1600.0
+MAX_HU = 1600.0
 SMOOTH_MM = 0.45
 
 
@@ -37,7 +37,7 @@ class Neighbourhood:
     cortex_hu: float
 
     @property
-    def least_fall_hu(self) -> float:
+    def min_fall_hu(self) -> float:
         """By how much a wall must fall to its outside to be taken for one."""
         return float(max(80.0, 2.5 * self.noise_hu, 0.2 * (self.cortex_hu - self.tissue_hu)))
 
@@ -87,7 +87,7 @@ def neighbourhood_of(volume: Volume, centre_lps_mm: Array) -> Neighbourhood:
     low = np.clip(np.floor(index - reach).astype(int), 0, np.array(volume.shape_ijk) - 2)
     high = np.clip(np.ceil(index + reach).astype(int) + 1, low + 2, np.array(volume.shape_ijk))
     raw = volume.hu[low[2] : high[2], low[1] : high[1], low[0] : high[0]]
-    block = np.clip(raw.astype(np.float32), -1024.0, MOST_HU)
+    block = np.clip(raw.astype(np.float32), -1024.0, MAX_HU)
     affine = np.array(volume.lps_from_ijk)
     affine[:3, 3] = volume.lps_from_index(low.astype(np.float64))
     spacing = volume.spacing_mm[::-1]

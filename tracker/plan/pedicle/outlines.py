@@ -116,7 +116,7 @@ def _wall_radius(near: Neighbourhood, centre: Array, across: Array, up: Array, r
         near.index_of(centre),
         near.index_step(STEP_MM * direction),
         int(np.ceil(FARTHEST_MM / STEP_MM)),
-        near.least_fall_hu,
+        near.min_fall_hu,
         _behind_steps(near),
         out,
     )

@@ -22,7 +22,7 @@ LIFTS_MM = (-2.5, 0.0, 2.5)
 # The solid closes gaps that are narrower than a voxel or two, so that its canal is the narrower by so much.
 USUAL_BEYOND_MM = 4.0
 # Two starts tell of one pedicle where they differ by less than so many standard deviations, or than this.
-MOST_SDS, ALIKE_MM, ALIKE_PLACE_MM, ALIKE_DEG = 3.0, 2.0, 5.0, 10.0
+MAX_SDS, ALIKE_MM, ALIKE_PLACE_MM, ALIKE_DEG = 3.0, 2.0, 5.0, 10.0
 
 
 def usual_beyond_mm(near: Neighbourhood) -> float:
@@ -30,7 +30,7 @@ def usual_beyond_mm(near: Neighbourhood) -> float:
     return USUAL_BEYOND_MM + coarsest_mm(near)
 
 
-def most_beyond_mm(near: Neighbourhood) -> float:
+def max_beyond_mm(near: Neighbourhood) -> float:
     """How far bone may seem to go on beyond the medial wall, before the section is taken for no pedicle's."""
     return USUAL_BEYOND_MM + 2.0 * coarsest_mm(near)
 
@@ -75,9 +75,9 @@ def agrees(one: Isthmus, other: Isthmus) -> bool:
     turned_deg = float(np.degrees(np.arccos(np.clip(one.axis @ other.axis, -1.0, 1.0))))
     turn_sd = float(np.linalg.norm([*one.slope_sd_deg, *other.slope_sd_deg]))
     return bool(
-        (sizes <= np.maximum(MOST_SDS * size_sds, ALIKE_MM)).all()
+        (sizes <= np.maximum(MAX_SDS * size_sds, ALIKE_MM)).all()
         and apart_mm <= ALIKE_PLACE_MM
-        and turned_deg <= max(MOST_SDS * turn_sd, ALIKE_DEG)
+        and turned_deg <= max(MAX_SDS * turn_sd, ALIKE_DEG)
     )
 
 

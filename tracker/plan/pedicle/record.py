@@ -11,7 +11,7 @@ from tracker.geometry import Array
 Side = Literal["left", "right"]
 SIDES: tuple[Side, ...] = ("left", "right")
 # Of a pedicle, what is surely no wider than the isthmus.
-LEAST_AHEAD_MM = 3.0
+MIN_AHEAD_MM = 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,7 +70,7 @@ class PedicleMeasure:
     seed_lps_mm: Array
     cortex_mm: float
     sd: PedicleSpread
-    opens_ahead_mm: float = LEAST_AHEAD_MM
+    opens_ahead_mm: float = MIN_AHEAD_MM
     warnings: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

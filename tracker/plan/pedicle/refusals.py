@@ -15,7 +15,7 @@ from tracker.plan.volume import Volume
 
 AIR_HU = -300.0
 BESIDE_MM = 1.0
-MOST_ASPECT = 3.5
+MAX_ASPECT = 3.5
 WIDTH_MM, HEIGHT_MM = (1.5, 26.0), (2.0, 32.0)
 CLICK = "Click into the middle of the pedicle, on a slice that shows it joined to body and arch."
 
@@ -131,7 +131,7 @@ def refuse_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
     shaped = (
         WIDTH_MM[0] <= isthmus.width_mm <= WIDTH_MM[1]
         and HEIGHT_MM[0] <= isthmus.height_mm <= HEIGHT_MM[1]
-        and aspect <= MOST_ASPECT
+        and aspect <= MAX_ASPECT
     )
     if shaped and (bar.opens_ahead or bar.opens_behind):
         return

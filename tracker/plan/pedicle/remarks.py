@@ -13,7 +13,7 @@ USUAL_LENGTH_MM = (25.0, 75.0)
 FEW_VOXELS = 5.0
 # From here on it is said that the angle follows what is usual: a degree for ten.
 USUAL_RATIO = 0.1
-LEAST_FACED, ENDPLATE_RATIO = 0.5, 0.7
+MIN_FACED, ENDPLATE_RATIO = 0.5, 0.7
 BODY_WITHIN_MM, BODY_GROWTH = 36.0, 1.4
 TOUCHED_MM, PROCESS_MM = 4.0, 4.0
 
@@ -70,7 +70,7 @@ def _widens(solid: Solid, isthmus: Isthmus) -> bool:
 
 def front_remarks(front: WallAhead) -> list[str]:
     """Where the axis does not leave through the front wall."""
-    if not front.found or front.faced_ratio >= LEAST_FACED:
+    if not front.found or front.faced_ratio >= MIN_FACED:
         return []
     up = float(front.outwards[2])
     where = "side" if abs(up) < ENDPLATE_RATIO else ("upper endplate" if up > 0.0 else "lower endplate")

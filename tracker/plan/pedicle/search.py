@@ -18,10 +18,10 @@ ALONG_MM = ((0.0,), (-3.5, 3.5), (-7.0, 7.0))
 # A direction that is so far from the expected one is as good, and how quickly it becomes worse beyond.
 USUAL_DEG, UNUSUAL_SD_DEG = 12.0, 20.0
 ASIDE_MM = (-3.0, -1.5, 0.0, 1.5, 3.0)
-LEAST_MM2 = 12.0
-LEAST_FOUND, LEAST_FOUND_ALONG = 0.8, 0.72
-SHORT_MM, LEAST_END_MM = 5.0, 2.0
-MOST_GAP_DEG = 75.0
+MIN_MM2 = 12.0
+MIN_FOUND, MIN_FOUND_ALONG = 0.8, 0.72
+SHORT_MM, MIN_END_MM = 5.0, 2.0
+MAX_GAP_DEG = 75.0
 WALK_MM, WALK_STEP_MM = 16.0, 1.0
 # A section that is so much larger than the narrowest one belongs to body or arch already.
 GROWN = 1.4
@@ -32,7 +32,7 @@ BESIDE_MM = (-2.0, 0.0, 2.0)
 CENTRE_SD_MM, FIRST_SD_DEG = 0.4, 6.0
 # A line that turns makes other sections; half of each turn is taken, so that it settles.
 TURN_SHARE = 0.6
-MOST_ROUNDS = 8
+MAX_ROUNDS = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,7 +83,7 @@ class Bar:
             self.opens_ahead
             and self.opens_behind
             and self.length_mm >= SHORT_MM
-            and min(self.behind_mm, self.ahead_mm) >= LEAST_END_MM
+            and min(self.behind_mm, self.ahead_mm) >= MIN_END_MM
         )
 
     def holds(self, point_mm: Array) -> bool:
@@ -133,7 +133,7 @@ def bar_along(near: Neighbourhood, bar: Bar, centre_mm: Array, axis: Array) -> B
 def _settled(near: Neighbourhood, first: Start) -> Bar | None:
     """The bar, with its line fitted until it stays."""
     bar, start = None, first
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         bar = _walk(near, start)
         if bar is None:
             return None
@@ -183,7 +183,7 @@ def _largest_around(
     starts = [seed_mm + along_mm * directions + x * across + y * up for x, y in offsets]
     axis = np.tile(directions, (len(offsets), 1))
     cut = outlines_of(near, np.concatenate(starts), axis, rays=20)
-    closed = (cut.found_ratio >= LEAST_FOUND) & _around(cut, seed_mm, axis) & (cut.area_mm2 >= LEAST_MM2)
+    closed = (cut.found_ratio >= MIN_FOUND) & _around(cut, seed_mm, axis) & (cut.area_mm2 >= MIN_MM2)
     area = np.where(closed, cut.area_mm2, -1.0).reshape(len(offsets), -1)
     best = np.argmax(area, axis=0)
     way = np.arange(len(directions))
@@ -232,7 +232,7 @@ def _walk(near: Neighbourhood, start: Start) -> Bar | None:
 
 
 def _is_closed(cut: Outlines) -> bool:
-    return bool(cut.found_ratio[0] >= LEAST_FOUND_ALONG and cut.gap_deg[0] <= MOST_GAP_DEG)
+    return bool(cut.found_ratio[0] >= MIN_FOUND_ALONG and cut.gap_deg[0] <= MAX_GAP_DEG)
 
 
 def _section(near: Neighbourhood, at: Array, axis: Array, like_mm2: float) -> Outlines:
@@ -243,7 +243,7 @@ def _section(near: Neighbourhood, at: Array, axis: Array, like_mm2: float) -> Ou
     (across,), (up,) = planes_across(axis[None])
     starts = np.array([at + x * across + y * up for x in BESIDE_MM for y in BESIDE_MM])
     cuts = outlines_of(near, starts, np.tile(axis, (len(starts), 1)), rays=40, recentred=2)
-    closed = (cuts.found_ratio >= LEAST_FOUND_ALONG) & (cuts.gap_deg <= MOST_GAP_DEG)
+    closed = (cuts.found_ratio >= MIN_FOUND_ALONG) & (cuts.gap_deg <= MAX_GAP_DEG)
     # One that has wandered off is another bone.
     near_by = np.linalg.norm(cuts.centroid_mm - at, axis=1) < 3.5
     unlike = np.where(closed & near_by, np.abs(np.log(cuts.area_mm2 / like_mm2)), np.inf)
@@ -252,7 +252,7 @@ def _section(near: Neighbourhood, at: Array, axis: Array, like_mm2: float) -> Ou
 
 
 def _line(sections: Outlines, along: Array, start: Start) -> Bar | None:
-    closed = (sections.found_ratio >= LEAST_FOUND_ALONG) & (sections.gap_deg <= MOST_GAP_DEG)
+    closed = (sections.found_ratio >= MIN_FOUND_ALONG) & (sections.gap_deg <= MAX_GAP_DEG)
     area = np.where(
         closed & (sections.area_mm2 > COLLAPSED * start.area_mm2 * 0.6), sections.area_mm2, np.inf
     )

@@ -16,10 +16,10 @@ ROLL_SD_DEG, EITHER_RATIO = 6.0, 0.2
 # What the model of a bar leaves out moves a wall by this share of a voxel, whatever the noise.
 MODEL_VOXELS, MODEL_DEG = 0.06, 0.08
 # Bone that is unlike a bar by this share of its contrast may lead elsewhere by so much, over a short window.
-UNLIKE_RATIO, UNLIKE_DEG, UNLIKE_HALF_MM, MOST_UNLIKE_DEG = 0.1, 10.0, 3.0, 20.0
+UNLIKE_RATIO, UNLIKE_DEG, UNLIKE_HALF_MM, MAX_UNLIKE_DEG = 0.1, 10.0, 3.0, 20.0
 
 # A bar without a waist is measured in its middle; that may be off by this share of half its window.
-MOST_PLACE_SHARE = 0.5
+MAX_PLACE_SHARE = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +80,7 @@ def isthmus_of(fitted: FittedBar, voxel_mm: float) -> Isthmus:
     bent = np.degrees(_bend_per_mm(fitted)) * _place_sd_mm(fitted)
     slopes = np.degrees(spread[4:6])
     unlike = UNLIKE_DEG * (fitted.misfit_ratio / UNLIKE_RATIO) ** 3 * UNLIKE_HALF_MM / fitted.half_mm
-    model_deg = float(np.hypot(MODEL_DEG, min(unlike, MOST_UNLIKE_DEG)))
+    model_deg = float(np.hypot(MODEL_DEG, min(unlike, MAX_UNLIKE_DEG)))
     other_way = _other_way_ratio(fitted, at)
     either = abs(numbers[0] - numbers[1]) * np.sqrt(other_way * (1.0 - other_way))
     # Too narrow costs a thinner screw, too wide costs the wall.
@@ -112,7 +112,7 @@ def _place_sd_mm(fitted: FittedBar) -> float:
     slope_sd, bend_sd = np.sqrt(np.diag(fitted.covariance)[tube.GROWTH][:2])
     waist = max(float(bend), float(bend_sd), 1e-6)
     place = np.hypot(slope_sd / (2.0 * waist), slope * bend_sd / (2.0 * waist**2))
-    return float(min(place, MOST_PLACE_SHARE) * fitted.half_mm)
+    return float(min(place, MAX_PLACE_SHARE) * fitted.half_mm)
 
 
 def _numbers(parameters: Array, at: float, half_mm: float) -> Array:

@@ -44,7 +44,7 @@ class Clearance:
     grade: GertzbeinRobbins
 
     @property
-    def least_mm(self) -> float:
+    def min_mm(self) -> float:
         """The smallest clearance to a wall of the pedicle."""
         return min(self.medial_mm, self.lateral_mm, self.superior_mm, self.inferior_mm)
 

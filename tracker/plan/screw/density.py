@@ -21,14 +21,14 @@ class BoneAlong:
         along_mm: (n,), from the entry.
         hu: (n,).
         mean_hu: over the whole screw.
-        least_hu: the lowest of `hu`.
+        min_hu: the lowest of `hu`.
         inside_ratio: share of the screw that lies within the CT.
     """
 
     along_mm: Array
     hu: Array
     mean_hu: float
-    least_hu: float
+    min_hu: float
     inside_ratio: float
 
 
@@ -53,6 +53,6 @@ def bone_along(volume: Volume, channel: Channel, *, diameter_mm: float, length_m
         along_mm=along,
         hu=hu,
         mean_hu=float(hu.mean()),
-        least_hu=float(hu.min()),
+        min_hu=float(hu.min()),
         inside_ratio=float(volume.holds(points).mean()),
     )

@@ -41,16 +41,16 @@ def propose_screw(
     """
     thinnest, shortest = catalogue.diameters_mm[0], catalogue.lengths_mm[0]
     room = clearance_of(channel, measure, diameter_mm=0.0, length_mm=0.0)
-    diameters = [d for d in catalogue.diameters_mm if room.least_mm - 0.5 * d >= wall_margin_mm]
+    diameters = [d for d in catalogue.diameters_mm if room.min_mm - 0.5 * d >= wall_margin_mm]
     lengths = [length for length in catalogue.lengths_mm if room.anterior_mm - length >= front_margin_mm]
     if not diameters or not lengths:
         raise PlanError(
             "NO_SCREW_FITS",
-            f"the path leaves {room.least_mm:.1f} mm to the nearest wall and {room.anterior_mm:.1f} mm to "
+            f"the path leaves {room.min_mm:.1f} mm to the nearest wall and {room.anterior_mm:.1f} mm to "
             f"the front; the smallest screw is {thinnest:.1f} x {shortest:.0f} mm and needs "
             f"{0.5 * thinnest + wall_margin_mm:.1f} and {shortest + front_margin_mm:.1f} mm",
             "Move the path to the middle of the pedicle, or add a thinner or shorter screw to the catalogue.",
-            {"nearest_wall_mm": room.least_mm, "front_mm": room.anterior_mm},
+            {"nearest_wall_mm": room.min_mm, "front_mm": room.anterior_mm},
         )
     return diameters[-1], lengths[-1]
 

@@ -22,15 +22,15 @@ class Tolerance:
     Attributes:
         offset_mm: (n,), entry offsets from 0 to the largest.
         deg_at_offset: (n,), the angle that may come on top of it in the worst direction; falls to 0.
-        most_offset_mm: the largest offset with a true angle.
-        most_angle_deg: the largest angle with a true entry.
+        max_offset_mm: the largest offset with a true angle.
+        max_angle_deg: the largest angle with a true entry.
         both_mm: and both_deg: half of that offset and the angle that is left, which may come together.
     """
 
     offset_mm: Array
     deg_at_offset: Array
-    most_offset_mm: float
-    most_angle_deg: float
+    max_offset_mm: float
+    max_angle_deg: float
     both_mm: float
     both_deg: float
 
@@ -56,8 +56,8 @@ def tolerance_of(channel: Channel, measure: PedicleMeasure, *, diameter_mm: floa
     return Tolerance(
         offset_mm=offset,
         deg_at_offset=angle,
-        most_offset_mm=most,
-        most_angle_deg=float(angle[0]),
+        max_offset_mm=most,
+        max_angle_deg=float(angle[0]),
         both_mm=0.5 * most,
         both_deg=both,
     )

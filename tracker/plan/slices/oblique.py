@@ -13,7 +13,7 @@ from tracker.plan.volume import Volume
 LEFT, FEET, HEAD = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -1.0]), np.array([0.0, 0.0, 1.0])
 BACK = np.array([0.0, 1.0, 0.0])
 # A direction nearer than this to the axis does not tell what is up.
-LEAST_ACROSS = 0.1
+MIN_ACROSS = 0.1
 
 
 def oblique_slice(
@@ -120,7 +120,7 @@ def _across(axis: Array, wanted: Array, otherwise: Array) -> Array:
     for direction in (wanted, otherwise):
         across = direction - (direction @ axis) * axis
         length = np.linalg.norm(across)
-        if length > LEAST_ACROSS:
+        if length > MIN_ACROSS:
             break
     return np.asarray(across / length)
 

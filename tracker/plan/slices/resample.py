@@ -10,8 +10,8 @@ from tracker.geometry import Array
 from tracker.plan.slices.slice import Slice
 from tracker.plan.volume import Volume
 
-MOST_SIDE_PX = 4096
-MOST_SLAB_MM = 100.0
+MAX_SIDE_PX = 4096
+MAX_SLAB_MM = 100.0
 
 
 def resampled(volume: Volume, lps_from_px: Array, size_mm: tuple[float, float]) -> Slice:
@@ -30,7 +30,7 @@ def resampled(volume: Volume, lps_from_px: Array, size_mm: tuple[float, float]) 
         raise _too_large(size_mm, float(sides.min()))
     # A part of a pixel that only rounding asks for is not added.
     columns, rows = (math.ceil(size / side - 1e-6) + 1 for size, side in zip(size_mm, sides, strict=True))
-    if min(columns, rows) < 1 or max(columns, rows) > MOST_SIDE_PX:
+    if min(columns, rows) < 1 or max(columns, rows) > MAX_SIDE_PX:
         raise _too_large(size_mm, float(sides.min()))
     u, v = np.meshgrid(np.arange(columns), np.arange(rows))
     points = np.stack([u, v, np.ones_like(u)], axis=-1) @ lps_from_px.T
@@ -49,12 +49,12 @@ def thick(read: Callable[[Array], Slice], slab_mm: float, step_mm: float, lps_fr
     Raises:
         PlanError: SLAB_INVALID.
     """
-    if not 0.0 <= slab_mm <= MOST_SLAB_MM:
+    if not 0.0 <= slab_mm <= MAX_SLAB_MM:
         raise PlanError(
             "SLAB_INVALID",
-            f"a slab of {slab_mm:g} mm cannot be shown, allowed 0 to {MOST_SLAB_MM:.0f} mm",
+            f"a slab of {slab_mm:g} mm cannot be shown, allowed 0 to {MAX_SLAB_MM:.0f} mm",
             "Choose a thinner slab.",
-            {"slab_mm": slab_mm, "most_mm": MOST_SLAB_MM},
+            {"slab_mm": slab_mm, "max_mm": MAX_SLAB_MM},
         )
     count = math.ceil(slab_mm / step_mm) + 1 if slab_mm > 0.0 else 1
     sides = np.linalg.norm(lps_from_px[:, :2], axis=0)
@@ -72,7 +72,7 @@ def _too_large(size_mm: tuple[float, float], side_mm: float) -> PlanError:
     return PlanError(
         "SLICE_TOO_LARGE",
         f"a slice of {size_mm[0]:.1f} x {size_mm[1]:.1f} mm with pixels of {side_mm:.4f} mm cannot be shown, "
-        f"allowed {MOST_SIDE_PX} pixels a side",
+        f"allowed {MAX_SIDE_PX} pixels a side",
         "Choose larger pixels, or a smaller field.",
-        {"width_mm": size_mm[0], "height_mm": size_mm[1], "pixel_mm": side_mm, "most_px": MOST_SIDE_PX},
+        {"width_mm": size_mm[0], "height_mm": size_mm[1], "pixel_mm": side_mm, "max_px": MAX_SIDE_PX},
     )

@@ -11,19 +11,19 @@ EAGERNESS = 7.0
 FEWEST_FACES = 100
 
 
-def decimated(vertices_mm: Array, faces: Faces, *, most_faces: int) -> tuple[Array, Faces]:
+def decimated(vertices_mm: Array, faces: Faces, *, max_faces: int) -> tuple[Array, Faces]:
     """The mesh with at most about so many triangles, by joining the vertices that change its shape least.
 
     Source: M. Garland, P. Heckbert, Surface simplification using quadric error metrics, SIGGRAPH 1997.
     """
-    if faces.shape[0] <= most_faces:
+    if faces.shape[0] <= max_faces:
         return vertices_mm, faces
     # The library's matrices lose digits far from the origin, and LPS is often far.
     middle = vertices_mm.mean(axis=0)
     points, corners = fast_simplification.simplify(
         np.ascontiguousarray(vertices_mm - middle),
         np.ascontiguousarray(faces),
-        target_count=max(most_faces, FEWEST_FACES),
+        target_count=max(max_faces, FEWEST_FACES),
         agg=EAGERNESS,
     )[:2]
     points = np.asarray(points, dtype=np.float64) + middle

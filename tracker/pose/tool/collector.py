@@ -78,26 +78,26 @@ class CollectorSettings:
     Attributes:
         wanted_poses, wanted_tilt_deg, wanted_spin_deg: until these are there, more is asked for; above what
             the gate asks, because a tip is surer the farther the tool was tilted.
-        most_turn_sd_deg, most_shift_sd_mm: how unsure a pose may be, in its worst direction.
-        most_speed_mm_s, most_turn_rate_deg_s: what a hand does at most.
+        max_turn_sd_deg, max_shift_sd_mm: how unsure a pose may be, in its worst direction.
+        max_speed_mm_s, max_turn_rate_deg_s: what a hand does at most.
         max_reach_s: for how much of the time since the image before a hand counts as that fast. Higher: with
             a slow camera no wrong pose is too far away any more.
         gap: how long before an image the one may be with which it is compared.
-        least_new_deg: how far a pose must be turned from each one that was taken.
-        most_poses: how many are kept.
+        min_new_deg: how far a pose must be turned from each one that was taken.
+        max_poses: how many are kept.
     """
 
     wanted_poses: int = 40
     wanted_tilt_deg: float = 30.0
     wanted_spin_deg: float = 90.0
-    most_turn_sd_deg: float = 1.0
-    most_shift_sd_mm: float = 3.0
-    most_speed_mm_s: float = 1500.0
-    most_turn_rate_deg_s: float = 360.0
+    max_turn_sd_deg: float = 1.0
+    max_shift_sd_mm: float = 3.0
+    max_speed_mm_s: float = 1500.0
+    max_turn_rate_deg_s: float = 360.0
     max_reach_s: float = 0.25
     gap: GapLimit = field(default_factory=GapLimit)
-    least_new_deg: float = 2.0
-    most_poses: int = 400
+    min_new_deg: float = 2.0
+    max_poses: int = 400
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -206,7 +206,7 @@ class PoseCollector:
         limits = self._settings
         shift_sd_mm = float(np.sqrt(np.linalg.eigvalsh(covariance[:3, :3])[-1]))
         turn_sd_deg = float(np.degrees(np.sqrt(np.linalg.eigvalsh(covariance[3:, 3:])[-1])))
-        if not (shift_sd_mm <= limits.most_shift_sd_mm and turn_sd_deg <= limits.most_turn_sd_deg):
+        if not (shift_sd_mm <= limits.max_shift_sd_mm and turn_sd_deg <= limits.max_turn_sd_deg):
             return Taking.TOO_UNCERTAIN
         period_s = image_period_s(self._times_s, min_intervals=MIN_RATE_INTERVALS)
         if last is None or not 0.0 < at_s - last.at_s <= limits.gap.allowed_s(period_s):
@@ -214,12 +214,12 @@ class PoseCollector:
         reach_s = min(at_s - last.at_s, limits.max_reach_s)
         shift_mm = float(np.linalg.norm(pose.translation_mm - last.pose.translation_mm))
         turn_deg = float(_turns_deg(pose.rotation, last.pose.rotation[None])[0])
-        if shift_mm > limits.most_speed_mm_s * reach_s or turn_deg > limits.most_turn_rate_deg_s * reach_s:
+        if shift_mm > limits.max_speed_mm_s * reach_s or turn_deg > limits.max_turn_rate_deg_s * reach_s:
             return Taking.JUMPED
-        if len(self._poses) >= limits.most_poses:
+        if len(self._poses) >= limits.max_poses:
             return Taking.FULL
         taken = np.array([one.rotation for one in self._poses]).reshape(-1, 3, 3)
-        if len(taken) and float(_turns_deg(pose.rotation, taken).min()) < limits.least_new_deg:
+        if len(taken) and float(_turns_deg(pose.rotation, taken).min()) < limits.min_new_deg:
             return Taking.NOTHING_NEW
         return Taking.TAKEN
 

@@ -15,8 +15,8 @@ FINALISTS, CONCENTRATIONS = 10, 10
 # A pose that noise alone throws out: one in a thousand.
 AGREED_SHARE = 0.999
 # Numbers in a file are rounded; what is nearer than this always agrees.
-LEAST_ALLOWED = 1e-3
-MOST_LEVERAGE = 0.95
+MIN_ALLOWED = 1e-3
+MAX_LEVERAGE = 0.95
 FREEDOM_BY_POSE = 0.6
 
 
@@ -86,7 +86,7 @@ def half_that_fits(residuals: Array) -> Mask:
     return np.asarray(squares <= np.median(squares))
 
 
-def most_allowed(residuals: Array, used: Mask) -> float:
+def max_allowed(residuals: Array, used: Mask) -> float:
     """The longest residual that noise explains, from the median of all and the shape of those in use.
 
     Noise may be a ball, a disc (turns behind a long arm) or a line (depth): the median and the tail of the
@@ -98,7 +98,7 @@ def most_allowed(residuals: Array, used: Mask) -> float:
     few = (1.0 + 5.0 / max(3 * len(residuals) - 6, 1)) ** 2
     median = float(np.median((residuals**2).sum(axis=1)))
     by_median = float(special.chdtri(freedom, 1.0 - AGREED_SHARE) / special.chdtri(freedom, 0.5))
-    return max(float(np.sqrt(few * median * by_median)), LEAST_ALLOWED)
+    return max(float(np.sqrt(few * median * by_median)), MIN_ALLOWED)
 
 
 def covariance_of(equations: Equations, x: Array, *, numbers: int) -> Array:
@@ -113,7 +113,7 @@ def covariance_of(equations: Equations, x: Array, *, numbers: int) -> Array:
     inverse = np.linalg.pinv(np.einsum("nij,nik->jk", design, design), hermitian=True)
     leverage = design @ inverse @ design.transpose(0, 2, 1)
     values, ways = np.linalg.eigh(leverage)
-    left = 1.0 / (1.0 - np.minimum(values, MOST_LEVERAGE))
+    left = 1.0 / (1.0 - np.minimum(values, MAX_LEVERAGE))
     unseen = np.einsum("nij,nj,nkj,nk->ni", ways, left, ways, residuals)
     scores = np.einsum("nij,ni->nj", design, unseen)
     sandwich = inverse @ (scores.T @ scores) @ inverse

@@ -8,21 +8,21 @@ class ToolGate:
     """What a pivot, a spin and a check of the tip must reach.
 
     Attributes:
-        most_rms_3d_mm: 3-D RMS of the tip about the pivot, of pivot and of check alike.
-        most_tip_sd_mm: standard deviation of the tip in the direction in which it is known least.
-        least_tilt_deg: how far the tool must be turned about each of two directions, from end to end.
-        least_poses: how many different poses.
-        least_used_ratio: share of the poses that agree.
-        least_spin_deg: how far the tool must be spun about its axis.
-        most_wobble_deg: RMS of what the axis moves meanwhile.
-        most_axis_sd_deg: standard deviation of the axis.
+        max_rms_3d_mm: 3-D RMS of the tip about the pivot, of pivot and of check alike.
+        max_tip_sd_mm: standard deviation of the tip in the direction in which it is known least.
+        min_tilt_deg: how far the tool must be turned about each of two directions, from end to end.
+        min_poses: how many different poses.
+        min_used_ratio: share of the poses that agree.
+        min_spin_deg: how far the tool must be spun about its axis.
+        max_wobble_deg: RMS of what the axis moves meanwhile.
+        max_axis_sd_deg: standard deviation of the axis.
     """
 
-    most_rms_3d_mm: float = 0.8
-    most_tip_sd_mm: float = 0.8
-    least_tilt_deg: float = 15.0
-    least_poses: int = 10
-    least_used_ratio: float = 0.6
-    least_spin_deg: float = 60.0
-    most_wobble_deg: float = 5.0
-    most_axis_sd_deg: float = 0.5
+    max_rms_3d_mm: float = 0.8
+    max_tip_sd_mm: float = 0.8
+    min_tilt_deg: float = 15.0
+    min_poses: int = 10
+    min_used_ratio: float = 0.6
+    min_spin_deg: float = 60.0
+    max_wobble_deg: float = 5.0
+    max_axis_sd_deg: float = 0.5

@@ -19,16 +19,16 @@ from tracker.pose.tool.equations import (
     Mask,
     covariance_of,
     half_that_fits,
-    most_allowed,
+    max_allowed,
     robust_start,
 )
 from tracker.pose.tool.gate import ToolGate
 from tracker.pose.tool.poses import Poses
-from tracker.pose.tool.turning import Turning, least_turn_deg, turning_of
+from tracker.pose.tool.turning import Turning, min_turn_deg, turning_of
 
 # A tip is no point and a divot has play: no pose is believed better than this, whatever it states of itself.
-LEAST_SD_MM = 0.1
-MOST_ROUNDS = 30
+MIN_SD_MM = 0.1
+MAX_ROUNDS = 30
 PIVOT_REMEDY = (
     "Hold the tip in the divot, tilt the tool slowly to all sides by 20 degrees and more, "
     "and calibrate again."
@@ -86,37 +86,37 @@ class PivotCalibration:
     def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
         """What keeps this tip from being used; nothing where it passes."""
         found = []
-        if not self.rms_3d_mm <= gate.most_rms_3d_mm:
+        if not self.rms_3d_mm <= gate.max_rms_3d_mm:
             found.append(
                 CalibrationError(
                     "PIVOT_RESIDUAL_TOO_LARGE",
                     f"the tip stays within {self.rms_3d_mm:.2f} mm of the pivot (3-D RMS), "
-                    f"allowed {gate.most_rms_3d_mm:.2f} mm",
+                    f"allowed {gate.max_rms_3d_mm:.2f} mm",
                     "Keep the tip from slipping, hold the marker in good light and near the camera, "
                     "and calibrate again.",
-                    {"rms_3d_mm": self.rms_3d_mm, "allowed_mm": gate.most_rms_3d_mm},
+                    {"rms_3d_mm": self.rms_3d_mm, "allowed_mm": gate.max_rms_3d_mm},
                 )
             )
-        if not self.tip_sd_mm <= gate.most_tip_sd_mm:
+        if not self.tip_sd_mm <= gate.max_tip_sd_mm:
             found.append(
                 CalibrationError(
                     "PIVOT_TIP_UNCERTAIN",
                     f"the tip is known to {self.tip_sd_mm:.2f} mm (standard deviation), "
-                    f"allowed {gate.most_tip_sd_mm:.2f} mm",
+                    f"allowed {gate.max_tip_sd_mm:.2f} mm",
                     "Take more poses, tilt farther to all sides, and calibrate again.",
-                    {"tip_sd_mm": self.tip_sd_mm, "allowed_mm": gate.most_tip_sd_mm},
+                    {"tip_sd_mm": self.tip_sd_mm, "allowed_mm": gate.max_tip_sd_mm},
                 )
             )
         compared = int(self.used.sum()) + len(
             [one for one in self.rejected if one.reason is RejectedReason.OFF_THE_PIVOT]
         )
         ratio = int(self.used.sum()) / compared
-        if ratio < gate.least_used_ratio:
+        if ratio < gate.min_used_ratio:
             found.append(
                 CalibrationError(
                     "PIVOT_POSES_DISAGREE",
                     f"only {int(self.used.sum())} of {compared} poses agree on one pivot, "
-                    f"needed {gate.least_used_ratio:.0%}",
+                    f"needed {gate.min_used_ratio:.0%}",
                     "The tip slipped or was moved to another place: calibrate again in one divot.",
                     {"used": int(self.used.sum()), "poses": compared},
                 )
@@ -133,7 +133,7 @@ def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibr
     """The tip from poses of a tool that was tilted while its tip stayed in one place.
 
     Each pose says rotation @ tip + translation = pivot. Poses that contradict the others have no say, up to
-    nearly half of them. Where poses state covariances they count by these (no better than `LEAST_SD_MM`, and
+    nearly half of them. Where poses state covariances they count by these (no better than `MIN_SD_MM`, and
     only compared with each other); where not, every millimetre counts alike, as in the published method
     (Yaniv 2015, "algebraic one-step"), since a guess at which of distance and angle is truer shifts a tip
     when the tracker errs in a system.
@@ -148,14 +148,14 @@ def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibr
     fresh = ~poses.repeats
     different = poses.of(fresh)
     refuse_too_few(different, len(poses), gate)
-    _refuse_too_little_tilt(least_turn_deg(different), gate)
+    _refuse_too_little_tilt(min_turn_deg(different), gate)
     x, agree, weighed = _fitted(different)
     tips = different.points_mm(x[:3])
     used = np.zeros(len(poses), dtype=np.bool_)
     used[fresh] = agree
     off_mm = np.linalg.norm(tips - x[3:], axis=1)
     turning = turning_of(different.of(agree), x[:3])
-    _refuse_too_little_tilt(turning.least_turn_deg, gate)
+    _refuse_too_little_tilt(turning.min_turn_deg, gate)
     covariance = covariance_of(weighed.of(agree), x, numbers=3)
     covariance.setflags(write=False)
     return PivotCalibration(
@@ -178,12 +178,12 @@ def provisional_tip_mm(poses: Poses) -> Array:
 
 def refuse_too_few(different: Poses, count: int, gate: ToolGate) -> None:
     """Raises TOOL_TOO_FEW_POSES where fewer different poses are left than a calibration needs."""
-    if len(different) < gate.least_poses:
+    if len(different) < gate.min_poses:
         raise CalibrationError(
             "TOOL_TOO_FEW_POSES",
-            f"there are {len(different)} different poses of {count}, needed {gate.least_poses}",
+            f"there are {len(different)} different poses of {count}, needed {gate.min_poses}",
             "Take more images while the tool moves; images in which it stands still say nothing new.",
-            {"different": len(different), "poses": count, "needed": gate.least_poses},
+            {"different": len(different), "poses": count, "needed": gate.min_poses},
         )
 
 
@@ -202,13 +202,13 @@ def rejected_poses(fresh: Mask, agree: Mask, off: Array, reason: RejectedReason)
 
 
 def _refuse_too_little_tilt(turn_deg: float, gate: ToolGate) -> None:
-    if not turn_deg >= gate.least_tilt_deg:
+    if not turn_deg >= gate.min_tilt_deg:
         raise CalibrationError(
             "PIVOT_TILT_TOO_SMALL",
             f"about one direction the tool was turned by only {turn_deg:.1f} degrees from end to end, "
-            f"needed {gate.least_tilt_deg:g} degrees about each of two directions",
+            f"needed {gate.min_tilt_deg:g} degrees about each of two directions",
             PIVOT_REMEDY,
-            {"turned_deg": turn_deg, "needed_deg": gate.least_tilt_deg},
+            {"turned_deg": turn_deg, "needed_deg": gate.min_tilt_deg},
         )
 
 
@@ -218,9 +218,9 @@ def _fitted(poses: Poses) -> tuple[Array, Mask, Equations]:
     x = robust_start(plain)
     weighed = plain.whitened(_whitening(poses, x[:3]))
     agree = half_that_fits(weighed.residuals(x))
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         residuals = weighed.residuals(x)
-        now = np.linalg.norm(residuals, axis=1) <= most_allowed(residuals, agree)
+        now = np.linalg.norm(residuals, axis=1) <= max_allowed(residuals, agree)
         x = _least_squares(poses.of(now), plain.of(now), x)
         weighed = plain.whitened(_whitening(poses, x[:3]))
         if (now == agree).all():
@@ -244,7 +244,7 @@ def _whitening(poses: Poses, tip_in_marker_mm: Array) -> Array:
     zero = np.zeros(len(poses))
     cross = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
     moved = np.concatenate([np.broadcast_to(np.eye(3), cross.shape), -cross], axis=2)
-    noise = moved @ poses.covariances @ moved.transpose(0, 2, 1) + LEAST_SD_MM**2 * np.eye(3)
+    noise = moved @ poses.covariances @ moved.transpose(0, 2, 1) + MIN_SD_MM**2 * np.eye(3)
     return np.asarray(np.linalg.inv(np.linalg.cholesky(noise)))
 
 

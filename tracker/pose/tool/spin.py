@@ -12,7 +12,7 @@ from tracker.pose.tool.equations import (
     Mask,
     covariance_of,
     half_that_fits,
-    most_allowed,
+    max_allowed,
 )
 from tracker.pose.tool.gate import ToolGate
 from tracker.pose.tool.pivot import RejectedPose, RejectedReason, refuse_too_few, rejected_poses
@@ -20,8 +20,8 @@ from tracker.pose.tool.poses import Poses
 from tracker.pose.tool.turning import spin_range_deg
 
 # The tip lies on the axis: an axis that is farther than this off the way to the tip is another motion's.
-MOST_OFF_TIP_DEG = 60.0
-MOST_ROUNDS = 30
+MAX_OFF_TIP_DEG = 60.0
+MAX_ROUNDS = 30
 REWEIGHTINGS = 30
 SPIN_REMEDY = (
     "Keep the tip in the divot and the handle still, turn the tool about its own axis by a half turn or as "
@@ -55,15 +55,15 @@ class SpinCalibration:
 
     def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
         """What keeps this axis from being used; nothing where it passes."""
-        if self.axis_sd_deg <= gate.most_axis_sd_deg:
+        if self.axis_sd_deg <= gate.max_axis_sd_deg:
             return ()
         return (
             CalibrationError(
                 "SPIN_AXIS_UNCERTAIN",
                 f"the axis is known to {self.axis_sd_deg:.2f} degrees (standard deviation), "
-                f"allowed {gate.most_axis_sd_deg:.2f}",
+                f"allowed {gate.max_axis_sd_deg:.2f}",
                 SPIN_REMEDY,
-                {"axis_sd_deg": self.axis_sd_deg, "allowed_deg": gate.most_axis_sd_deg},
+                {"axis_sd_deg": self.axis_sd_deg, "allowed_deg": gate.max_axis_sd_deg},
             ),
         )
 
@@ -121,9 +121,9 @@ def _fitted(poses: Poses) -> tuple[Array, Mask]:
         axis = _stillest(poses, 1.0 / np.maximum(off, 1e-4))
     residuals = poses.rotations @ axis - _middle(poses.rotations @ axis)
     agree = half_that_fits(residuals)
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         residuals = poses.rotations @ axis - (poses.rotations[agree] @ axis).mean(axis=0)
-        now = np.linalg.norm(residuals, axis=1) <= most_allowed(residuals, agree)
+        now = np.linalg.norm(residuals, axis=1) <= max_allowed(residuals, agree)
         axis = _stillest(poses.of(now), np.ones(int(now.sum())))
         if (now == agree).all():
             break
@@ -170,31 +170,31 @@ def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
         )
     off_deg = angle_between_deg(axis, tip_in_marker_mm)
     nearer_deg = min(off_deg, 180.0 - off_deg)
-    if nearer_deg > MOST_OFF_TIP_DEG:
+    if nearer_deg > MAX_OFF_TIP_DEG:
         raise CalibrationError(
             "SPIN_NOT_ABOUT_TOOL",
             f"the axis of this motion is {nearer_deg:.0f} degrees off the direction to the tip, "
-            f"allowed {MOST_OFF_TIP_DEG:g}: the tool was tilted, not spun",
+            f"allowed {MAX_OFF_TIP_DEG:g}: the tool was tilted, not spun",
             SPIN_REMEDY,
-            {"off_deg": nearer_deg, "allowed_deg": MOST_OFF_TIP_DEG},
+            {"off_deg": nearer_deg, "allowed_deg": MAX_OFF_TIP_DEG},
         )
     return axis if off_deg < 90.0 else -axis
 
 
 def _refuse_other_motions(spin_deg: float, wobble_deg: float, gate: ToolGate) -> None:
     context: dict[str, object] = {"spin_range_deg": spin_deg, "wobble_deg": wobble_deg}
-    if not wobble_deg <= gate.most_wobble_deg:
+    if not wobble_deg <= gate.max_wobble_deg:
         raise CalibrationError(
             "SPIN_WOBBLES",
             f"the axis moved by {wobble_deg:.1f} degrees (RMS) while the tool was spun by {spin_deg:.0f}, "
-            f"allowed {gate.most_wobble_deg:g}",
+            f"allowed {gate.max_wobble_deg:g}",
             SPIN_REMEDY,
             context,
         )
-    if not spin_deg >= gate.least_spin_deg:
+    if not spin_deg >= gate.min_spin_deg:
         raise CalibrationError(
             "SPIN_TOO_SMALL",
-            f"the tool was spun by {spin_deg:.0f} degrees, needed {gate.least_spin_deg:g}",
+            f"the tool was spun by {spin_deg:.0f} degrees, needed {gate.min_spin_deg:g}",
             SPIN_REMEDY,
             context,
         )

@@ -20,7 +20,7 @@ class TipCheck:
     Attributes:
         pivot_in_camera_mm: (3,), the mean place of the tip.
         rms_3d_mm: root of its mean squared distance from there; no pose is left out of it.
-        most_mm: the largest distance.
+        max_mm: the largest distance.
         rms_by_axis_mm: (3,), along x, y, z of the camera.
         poses: how many different ones.
         turning: how far the tool was tilted and spun.
@@ -28,22 +28,22 @@ class TipCheck:
 
     pivot_in_camera_mm: Array
     rms_3d_mm: float
-    most_mm: float
+    max_mm: float
     rms_by_axis_mm: Array
     poses: int
     turning: Turning
 
     def failures(self, gate: ToolGate) -> tuple[CalibrationError, ...]:
         """What keeps this tip from being trusted; nothing where it passes."""
-        if self.rms_3d_mm <= gate.most_rms_3d_mm:
+        if self.rms_3d_mm <= gate.max_rms_3d_mm:
             return ()
         return (
             CalibrationError(
                 "TIP_CHECK_FAILED",
-                f"the tip seems to wander by {self.rms_3d_mm:.2f} mm (3-D RMS) and by {self.most_mm:.2f} mm "
-                f"at most, allowed {gate.most_rms_3d_mm:.2f} mm (3-D RMS)",
+                f"the tip seems to wander by {self.rms_3d_mm:.2f} mm (3-D RMS) and by {self.max_mm:.2f} mm "
+                f"at most, allowed {gate.max_rms_3d_mm:.2f} mm (3-D RMS)",
                 "See that neither the tool nor its marker is bent or loose, and calibrate the tip again.",
-                {"rms_3d_mm": self.rms_3d_mm, "most_mm": self.most_mm, "allowed_mm": gate.most_rms_3d_mm},
+                {"rms_3d_mm": self.rms_3d_mm, "max_mm": self.max_mm, "allowed_mm": gate.max_rms_3d_mm},
             ),
         )
 
@@ -69,13 +69,13 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
     different = poses.of(~poses.repeats)
     refuse_too_few(different, len(poses), gate)
     turning = turning_of(different, tip)
-    if not turning.least_turn_deg >= gate.least_tilt_deg:
+    if not turning.min_turn_deg >= gate.min_tilt_deg:
         raise CalibrationError(
             "TIP_CHECK_TILT_TOO_SMALL",
-            f"about one direction the tool was turned by only {turning.least_turn_deg:.1f} degrees from end "
-            f"to end, needed {gate.least_tilt_deg:g}: a wrong tip would not have shown",
+            f"about one direction the tool was turned by only {turning.min_turn_deg:.1f} degrees from end "
+            f"to end, needed {gate.min_tilt_deg:g}: a wrong tip would not have shown",
             "Keep the tip in the divot, tilt the tool to all sides, and check again.",
-            {"turned_deg": turning.least_turn_deg, "needed_deg": gate.least_tilt_deg},
+            {"turned_deg": turning.min_turn_deg, "needed_deg": gate.min_tilt_deg},
         )
     tips = different.points_mm(tip)
     pivot = tips.mean(axis=0)
@@ -85,7 +85,7 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
     return TipCheck(
         pivot_in_camera_mm=pivot,
         rms_3d_mm=rms_3d_mm(tips, pivot),
-        most_mm=float(np.linalg.norm(tips - pivot, axis=1).max()),
+        max_mm=float(np.linalg.norm(tips - pivot, axis=1).max()),
         rms_by_axis_mm=by_axis,
         poses=len(different),
         turning=turning,

@@ -19,7 +19,7 @@ class Turning:
         tilt_range_deg: of the direction from marker to tip, the way in which it moved most.
         tilt_range_across_deg: the same, at right angles to that way.
         spin_range_deg: about the direction from marker to tip.
-        least_turn_deg: what decides whether the tip can be known: the range of an even sweep that would move
+        min_turn_deg: what decides whether the tip can be known: the range of an even sweep that would move
             the marker's least moved direction as much. Tilted in one plane alone, the direction across that
             plane does not move, and where the tip lies along it is anybody's guess.
     """
@@ -27,11 +27,11 @@ class Turning:
     tilt_range_deg: float
     tilt_range_across_deg: float
     spin_range_deg: float
-    least_turn_deg: float
+    min_turn_deg: float
 
 
-def least_turn_deg(poses: Poses) -> float:
-    """See `Turning.least_turn_deg`."""
+def min_turn_deg(poses: Poses) -> float:
+    """See `Turning.min_turn_deg`."""
     off = poses.rotations - poses.rotations.mean(axis=0)
     moved = np.einsum("nij,nik->jk", off, off) / len(poses)
     least = max(float(np.linalg.eigvalsh(moved)[0]), 0.0)
@@ -49,7 +49,7 @@ def turning_of(poses: Poses, tip_in_marker_mm: Array) -> Turning:
         tilt_range_deg=wide,
         tilt_range_across_deg=narrow,
         spin_range_deg=spin_range_deg(poses, along),
-        least_turn_deg=least_turn_deg(poses),
+        min_turn_deg=min_turn_deg(poses),
     )
 
 

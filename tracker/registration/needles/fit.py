@@ -165,9 +165,9 @@ def _freedom(best: Solution) -> int:
 
 def _refuse_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> None:
     chance = float(special.chdtrc(freedom, best.chi2))
-    if chance >= gate.least_chance_ratio:
+    if chance >= gate.min_chance_ratio:
         return
-    allowed = float(special.chdtri(freedom, gate.least_chance_ratio))
+    allowed = float(special.chdtri(freedom, gate.min_chance_ratio))
     raise RegistrationError(
         "NEEDLES_DISAGREE",
         f"needles, ruler and touched points disagree: chi squared is {best.chi2:.0f}, allowed {allowed:.0f}; "
@@ -193,11 +193,11 @@ def _worst(best: Solution) -> str:
 
 def _refuse_offset(residuals: Sequence[NeedleResidual], gate: NeedleLimits) -> None:
     worst = max(residuals, key=lambda one: one.offset_mm)
-    if worst.offset_mm > gate.most_offset_mm:
+    if worst.offset_mm > gate.max_offset_mm:
         raise RegistrationError(
             "NEEDLE_OFF_ITS_PLACE",
             f"needle '{worst.name[:40]}' is {worst.offset_mm:.1f} mm ({worst.offset_px:.1f} px) off its "
-            f"place, allowed {gate.most_offset_mm:g} mm",
+            f"place, allowed {gate.max_offset_mm:g} mm",
             "Check that each needle is on its landmark and marked where it goes into the bone.",
             {"needle": worst.name[:40], "offset_mm": worst.offset_mm, "offset_px": worst.offset_px},
         )
@@ -207,13 +207,13 @@ def _refuse_rivals(found: Sequence[Solution], gate: NeedleLimits) -> None:
     best = found[0]
     for other in found[1:]:
         lead = other.cost - best.cost
-        if lead < gate.least_lead and _is_apart(best, other):
+        if lead < gate.min_lead and _is_apart(best, other):
             turned = vector_from_rotation(other.pose.rotation @ best.pose.rotation.T)
             turned_deg = float(np.degrees(np.linalg.norm(turned)))
             raise RegistrationError(
                 "NEEDLES_AMBIGUOUS",
                 f"two poses, {turned_deg:.0f} deg apart, explain the needles: the second is worse by "
-                f"{lead:.1f} in chi squared, needed {gate.least_lead:g}",
+                f"{lead:.1f} in chi squared, needed {gate.min_lead:g}",
                 "Touch one of the needles' entries with the tool's tip, or measure the camera's tilt better.",
                 {"lead": lead, "turned_deg": turned_deg},
             )

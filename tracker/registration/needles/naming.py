@@ -16,7 +16,7 @@ from tracker.registration.needles.seen import HIDDEN_MM, HIDDEN_SD_MM
 from tracker.registration.needles.solutions import nearest_solution
 from tracker.registration.needles.view import MeasuredView, TouchedPoint, frame_of_sight, view_from_ruler
 
-MOST_CANDIDATES, MOST_NAMINGS, MOST_FITTED = 24, 40_000, 40
+MAX_CANDIDATES, MAX_NAMINGS, MAX_FITTED = 24, 40_000, 40
 DRAWN = 1200
 # How far needles stand out of the bone: they are of one make, each driven in as deep as it goes, and what
 # crosses one before the other may hide a part.
@@ -49,7 +49,7 @@ def likely_namings(
     shown, beside = _shown_costs(candidates, places, camera, measured, choices)
     beside = beside + looks_costs(candidates, choices)
     fine = []
-    for n in np.argsort(shown + beside, kind="stable")[:MOST_FITTED]:
+    for n in np.argsort(shown + beside, kind="stable")[:MAX_FITTED]:
         choice = tuple(int(i) for i in choices[n])
         seen = [candidates[i].seen for i in choice]
         at_px = np.mean([one.entry_px for one in seen], axis=0)
@@ -61,8 +61,8 @@ def likely_namings(
 
 def _choices(candidates: int, places: int) -> npt.NDArray[np.intp]:
     """All ways (m, n) of choosing, of as many of the likeliest candidates as there is time for."""
-    count = min(candidates, MOST_CANDIDATES)
-    while count > places and math.perm(count, places) > MOST_NAMINGS:
+    count = min(candidates, MAX_CANDIDATES)
+    while count > places and math.perm(count, places) > MAX_NAMINGS:
         count -= 1
     return np.array(list(itertools.permutations(range(count), places)), dtype=np.intp)
 

@@ -13,14 +13,14 @@ from tracker.registration.needles.solutions import Solution, nearest_solution
 from tracker.registration.needles.view import View
 
 # With more needles there are too many orders, and one swapped pair already disagrees with the rest.
-MOST_NEEDLES = 4
+MAX_NEEDLES = 4
 
 
 def other_orders(
     places: Sequence[NeedlePlace], seen: Sequence[NeedleSeen], camera: CameraModel, view: View
 ) -> list[tuple[tuple[int, ...], Solution]]:
     """The likeliest pose of every other order of the needles seen, the likeliest order first."""
-    if len(places) > MOST_NEEDLES:
+    if len(places) > MAX_NEEDLES:
         return []
     orders = list(itertools.permutations(range(len(places))))[1:]
     found = []
@@ -38,13 +38,13 @@ def refuse_swapped(
     Raises:
         RegistrationError: NEEDLES_SWAPPED.
     """
-    if lead >= -gate.most_lead_of_swapped:
+    if lead >= -gate.max_lead_of_swapped:
         return
     swapped = [f"'{places[n].name[:40]}'" for n, at in enumerate(order) if n != at]
     raise RegistrationError(
         "NEEDLES_SWAPPED",
         f"needles {' and '.join(swapped)} seem to be marked for one another: the other order fits better by "
-        f"{-lead:.1f} in chi squared, allowed {gate.most_lead_of_swapped:g}",
+        f"{-lead:.1f} in chi squared, allowed {gate.max_lead_of_swapped:g}",
         "Mark each needle again under its own name, or touch one where it goes in with the tool's tip.",
         {"lead": lead},
     )

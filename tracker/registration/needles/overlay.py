@@ -20,7 +20,7 @@ from tracker.registration.needles.places import NeedlePlace
 from tracker.registration.needles.seen import NeedleSeen
 from tracker.registration.needles.view import View
 
-LEAST_SCALE, MOST_SCALE = 0.05, 100.0
+MIN_SCALE, MAX_SCALE = 0.05, 100.0
 SHOWN_MM, ALONG_OPEN_PX = 40.0, 1000.0
 
 
@@ -48,13 +48,13 @@ class SliceOverlay:
         numbers = np.array([*shift, self.turn_deg, self.scale_px_per_mm, self.fade_ratio])
         if (
             not np.isfinite(numbers).all()
-            or not LEAST_SCALE <= self.scale_px_per_mm <= MOST_SCALE
+            or not MIN_SCALE <= self.scale_px_per_mm <= MAX_SCALE
             or not 0.0 <= self.fade_ratio <= 1.0
         ):
             raise InvalidInput(
                 "OVERLAY_INVALID",
                 f"the slice is laid at {self.scale_px_per_mm:g} px a mm, faded to {self.fade_ratio:g}; "
-                f"allowed {LEAST_SCALE:g} to {MOST_SCALE:g} px a mm and 0 to 1",
+                f"allowed {MIN_SCALE:g} to {MAX_SCALE:g} px a mm and 0 to 1",
                 "Lay the slice over the needles again.",
             )
         shift.setflags(write=False)

@@ -12,8 +12,8 @@ from tracker.plan import Landmark, ReferenceSlice
 
 # Backwards in the patient, which is up when the patient lies prone.
 BACKWARDS_LPS = (0.0, 1.0, 0.0)
-LEAST_NEEDLES = 3
-LEAST_APART_MM = 5.0
+MIN_NEEDLES = 3
+MIN_APART_MM = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,10 +136,10 @@ def refuse_poor_places(places: Sequence[NeedlePlace]) -> None:
         raise PlanError(
             "NEEDLE_TWICE", f"{len(names)} needles have {len(set(names))} names", "Name each once."
         )
-    if len(places) < LEAST_NEEDLES:
+    if len(places) < MIN_NEEDLES:
         raise RegistrationError(
             "NEEDLES_TOO_FEW",
-            f"{len(places)} needles are planned, needed {LEAST_NEEDLES}",
+            f"{len(places)} needles are planned, needed {MIN_NEEDLES}",
             "Set a landmark for each needle on the CT.",
             {"needles": len(places)},
         )
@@ -149,18 +149,18 @@ def refuse_poor_places(places: Sequence[NeedlePlace]) -> None:
         for i in range(len(places))
         for j in range(i)
     )
-    if apart < LEAST_APART_MM:
+    if apart < MIN_APART_MM:
         raise RegistrationError(
             "NEEDLES_TOO_CLOSE",
-            f"needles '{other[:40]}' and '{one[:40]}' are {apart:.1f} mm apart, needed {LEAST_APART_MM:g} mm",
+            f"needles '{other[:40]}' and '{one[:40]}' are {apart:.1f} mm apart, needed {MIN_APART_MM:g} mm",
             "Put the needles farther apart.",
             {"apart_mm": apart},
         )
     across_mm = height_mm(places)
-    if across_mm < LEAST_APART_MM and not _are_lines(places):
+    if across_mm < MIN_APART_MM and not _are_lines(places):
         raise RegistrationError(
             "NEEDLES_COLLINEAR",
-            f"the needles stand within {across_mm:.1f} mm of one straight line, needed {LEAST_APART_MM:g} mm",
+            f"the needles stand within {across_mm:.1f} mm of one straight line, needed {MIN_APART_MM:g} mm",
             "Put one needle well beside the line through the others.",
             {"across_mm": across_mm},
         )

@@ -17,15 +17,15 @@ from tracker.registration.needles.places import NeedlePlace, refuse_poor_places
 from tracker.registration.needles.seen import NeedleSeen
 from tracker.registration.needles.view import MeasuredView, TouchedPoint, view_from_ruler
 
-MOST_PROPOSALS, MOST_TRIED = 3, 12
+MAX_PROPOSALS, MAX_TRIED = 3, 12
 # A naming that is so much worse than the likeliest is not worth a person's look.
-MOST_WORSE = 16.0
+MAX_WORSE = 16.0
 # Costs take all ends for seen where they are found; in rehearsals they are this much too far apart.
 TOO_SURE = 3.0
 # Two lines that are this near at both ends are one needle.
 SAME_PX = 4.0
 # A person marks a needle within this many of the stated standard deviations, or has marked another one.
-MOST_MARKED_SD = 3.0
+MAX_MARKED_SD = 3.0
 
 
 def refine_marked(
@@ -39,7 +39,7 @@ def refine_marked(
     for mark in marked:
         found = [one.seen for one in find_needles(image, camera, near=mark)]
         by_distance = {_beside_px(one, mark): one for one in found}
-        if not found or min(by_distance) > MOST_MARKED_SD * mark.across_sd_px + 1.0:
+        if not found or min(by_distance) > MAX_MARKED_SD * mark.across_sd_px + 1.0:
             out.append(mark)
             continue
         line = by_distance[min(by_distance)]
@@ -123,8 +123,8 @@ def propose_needles(
     fits: list[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]] = []
     refusal: RegistrationError | None = None
     namings = likely_namings(found, places, camera, measured, touched=touched)
-    for cost, naming in namings[:MOST_TRIED]:
-        if fits and cost - fits[0][0] > MOST_WORSE:
+    for cost, naming in namings[:MAX_TRIED]:
+        if fits and cost - fits[0][0] > MAX_WORSE:
             break
         needles = tuple(found[i] for i in naming)
         if any(_is_same(needles, others) for _, _, others in fits):
@@ -162,7 +162,7 @@ def _proposals(
     chances = np.exp(-0.5 * (costs - costs.min()) / TOO_SURE)
     chances /= chances.sum()
     out = []
-    for n, (cost, fit, needles) in enumerate(fits[:MOST_PROPOSALS]):
+    for n, (cost, fit, needles) in enumerate(fits[:MAX_PROPOSALS]):
         lead = float(np.delete(costs, n).min(initial=np.inf) - cost)
         out.append(
             NeedleProposal(

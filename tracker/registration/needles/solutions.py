@@ -52,7 +52,7 @@ def nearest_solution(task: Task) -> Solution:
 def _settled(task: Task, start: Rigid[Camera, Vertebra], *, rounds: int = ROUNDS) -> Solution:
     pose = start
     for _ in range(rounds):
-        before, pose = pose, _least(Equations(task, pose), pose)
+        before, pose = pose, _min(Equations(task, pose), pose)
         if _is_same(before, pose, task.middle_mm, ratio=0.02):
             break
     equations = Equations(task, pose)
@@ -67,7 +67,7 @@ def _settled(task: Task, start: Rigid[Camera, Vertebra], *, rounds: int = ROUNDS
     )
 
 
-def _least(equations: Equations, pose: Rigid[Camera, Vertebra]) -> Rigid[Camera, Vertebra]:
+def _min(equations: Equations, pose: Rigid[Camera, Vertebra]) -> Rigid[Camera, Vertebra]:
     """Down to the pose with the least residuals, by Levenberg and Marquardt's steps."""
     residuals, damping = equations.residuals(pose), 1e-3
     for _ in range(STEPS):

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
 
-MOST_ROUNDS = 30
+MAX_ROUNDS = 30
 STILL = 1e-9  # mm and rad
 
 
@@ -23,7 +23,7 @@ def weighted_fit(fixed_mm: Array, moving_mm: Array, noise_mm2: Array) -> Rigid[V
     Gauss-Newton from the plain fit. The weights turn with the points.
     """
     fit = plain_fit(fixed_mm, moving_mm)
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         middle = fit.move_points(moving_mm).mean(axis=0)
         residuals = fit.move_points(moving_mm) - fixed_mm
         weights = weights_in_fixed(fit, noise_mm2)

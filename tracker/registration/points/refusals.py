@@ -8,9 +8,9 @@ from tracker.geometry import Array
 from tracker.registration.points.pairs import PairedPoints
 from tracker.registration.points.settings import PointSettings
 
-LEAST_POINTS = 3
+MIN_POINTS = 3
 # Landmarks on one vertebra do not differ by a factor of two, whatever is mistaken; units do.
-MOST_SCALE = 2.0
+MAX_SCALE = 2.0
 SPREAD_REMEDY = "Add a landmark that lies well beside that line, such as a transverse process, and fit again."
 UNITS = ((1000.0, "metres"), (10.0, "centimetres"), (25.4, "inches"))
 
@@ -21,16 +21,16 @@ def refuse_unfit(pairs: PairedPoints, settings: PointSettings) -> None:
     Raises:
         RegistrationError: POINTS_TOO_FEW, POINTS_UNIT_SUSPECT, POINTS_COINCIDENT or POINTS_COLLINEAR.
     """
-    if len(pairs) < LEAST_POINTS:
+    if len(pairs) < MIN_POINTS:
         raise RegistrationError(
             "POINTS_TOO_FEW",
-            f"there are {len(pairs)} pairs of points, needed {LEAST_POINTS}",
+            f"there are {len(pairs)} pairs of points, needed {MIN_POINTS}",
             "Touch at least three landmarks that are no line; four or more show a mistake.",
-            {"points": len(pairs), "needed": LEAST_POINTS},
+            {"points": len(pairs), "needed": MIN_POINTS},
         )
     _refuse_units(pairs)
     for points, which in ((pairs.fixed_mm, "on the CT"), (pairs.moving_mm, "as touched")):
-        _refuse_coincident(points, which, pairs.labels, settings.least_apart_mm)
+        _refuse_coincident(points, which, pairs.labels, settings.min_apart_mm)
     for points, which in ((pairs.fixed_mm, "on the CT"), (pairs.moving_mm, "as touched")):
         _refuse_line(points, which, settings)
 
@@ -48,7 +48,7 @@ def _spread_mm(points: Array) -> float:
 def _refuse_units(pairs: PairedPoints) -> None:
     fixed, moving = _spread_mm(pairs.fixed_mm), _spread_mm(pairs.moving_mm)
     least, most = min(fixed, moving), max(fixed, moving)
-    if least <= 0.0 or most <= MOST_SCALE * least:
+    if least <= 0.0 or most <= MAX_SCALE * least:
         return
     which = "on the CT" if fixed < moving else "as touched"
     likely = [name for factor, name in UNITS if 0.8 < most / least / factor < 1.25]
@@ -62,24 +62,24 @@ def _refuse_units(pairs: PairedPoints) -> None:
     )
 
 
-def _refuse_coincident(points: Array, which: str, labels: tuple[str, ...], least_mm: float) -> None:
+def _refuse_coincident(points: Array, which: str, labels: tuple[str, ...], min_mm: float) -> None:
     apart, others = cKDTree(points).query(points, k=2)
     first = int(np.argmin(apart[:, 1]))
     # Of points in one place, either may be called the nearest.
     second = int(others[first, 1] if others[first, 1] != first else others[first, 0])
     first, second = min(first, second), max(first, second)
     nearest = float(np.linalg.norm(points[first] - points[second]))
-    if nearest >= least_mm:
+    if nearest >= min_mm:
         return
     hint = ""
-    if _spread_mm(points) < least_mm:
+    if _spread_mm(points) < min_mm:
         hint = f"; all of them lie within {2.0 * _spread_mm(points):.3g} mm, as if in metres"
     raise RegistrationError(
         "POINTS_COINCIDENT",
         f"points {labels[first]} and {labels[second]} are {nearest:.2f} mm apart {which}, "
-        f"needed {least_mm:g} mm{hint}",
+        f"needed {min_mm:g} mm{hint}",
         "Leave one of them out, or touch it again where it belongs.",
-        {"points": [labels[first], labels[second]], "apart_mm": nearest, "needed_mm": least_mm},
+        {"points": [labels[first], labels[second]], "apart_mm": nearest, "needed_mm": min_mm},
     )
 
 
@@ -90,20 +90,20 @@ def _refuse_line(points: Array, which: str, settings: PointSettings) -> None:
     beside_mm = float(np.hypot(extents[1], extents[2]) * np.sqrt(len(points)))
     sd_deg = np.inf
     if beside_mm > 0.0:
-        sd_deg = float(np.degrees(settings.least_fle_mm / np.sqrt(3.0) / beside_mm))
-    if ratio >= settings.least_spread_ratio and sd_deg <= settings.most_turn_sd_deg:
+        sd_deg = float(np.degrees(settings.min_fle_mm / np.sqrt(3.0) / beside_mm))
+    if ratio >= settings.min_spread_ratio and sd_deg <= settings.max_turn_sd_deg:
         return
     raise RegistrationError(
         "POINTS_COLLINEAR",
         f"the points are nearly a line {which}: they reach {extents[0]:.1f} mm along it and only "
         f"{extents[1]:.2f} mm beside it (RMS), so that the rotation about that line is ambiguous "
-        f"(known to {min(sd_deg, 180.0):.0f} deg, allowed {settings.most_turn_sd_deg:g} deg; "
-        f"needed beside it {settings.least_spread_ratio * extents[0]:.2f} mm at least)",
+        f"(known to {min(sd_deg, 180.0):.0f} deg, allowed {settings.max_turn_sd_deg:g} deg; "
+        f"needed beside it {settings.min_spread_ratio * extents[0]:.2f} mm at least)",
         SPREAD_REMEDY,
         {
             "along_mm": float(extents[0]),
             "beside_mm": float(extents[1]),
             "turn_sd_deg": min(sd_deg, 180.0),
-            "allowed_deg": settings.most_turn_sd_deg,
+            "allowed_deg": settings.max_turn_sd_deg,
         },
     )

@@ -20,7 +20,7 @@ from tracker.plan.remark import Remark
 from tracker.registration.points.fit import plain_fit, weighted_fit
 from tracker.registration.points.orders import refuse_mistaken
 from tracker.registration.points.pairs import PairedPoints
-from tracker.registration.points.refusals import LEAST_POINTS, refuse_unfit, scale_ratio
+from tracker.registration.points.refusals import MIN_POINTS, refuse_unfit, scale_ratio
 from tracker.registration.points.settings import PointGate, PointSettings
 from tracker.registration.points.uncertainty import (
     covariance_from_noise,
@@ -32,10 +32,10 @@ from tracker.registration.points.uncertainty import (
 from tracker.registration.record import AnchoredTo, Method, Registration
 
 # A scale that differs by less is no news to anybody, whatever the noise.
-LEAST_SCALE_NEWS = 0.02
+MIN_SCALE_NEWS = 0.02
 SURE_SDS = 4.0
 # Each asks for a fit of its own; of hundreds, a single one decides nothing.
-MOST_LEFT_OUT = 200
+MAX_LEFT_OUT = 200
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,26 +114,26 @@ class PointRegistration:
     def failures(self, gate: PointGate, targets_mm: Sequence[npt.ArrayLike]) -> tuple[RegistrationError, ...]:
         """What keeps it from being used for these targets on the CT; nothing where it passes."""
         found = []
-        if not self.fre_rms_mm <= gate.most_fre_mm:
+        if not self.fre_rms_mm <= gate.max_fre_mm:
             worst = int(np.argmax(np.where(self.used, self.distances_mm, -1.0)))
             found.append(
                 RegistrationError(
                     "POINTS_FIT_TOO_LARGE",
-                    f"landmarks fit to {self.fre_rms_mm:.2f} mm RMS, allowed {gate.most_fre_mm:.2f} mm; "
+                    f"landmarks fit to {self.fre_rms_mm:.2f} mm RMS, allowed {gate.max_fre_mm:.2f} mm; "
                     f"point {self.pairs.labels[worst]} is off by {self.distances_mm[worst]:.2f} mm",
                     "Touch that landmark again, or leave it out, then register again.",
-                    {"fre_rms_mm": self.fre_rms_mm, "allowed_mm": gate.most_fre_mm},
+                    {"fre_rms_mm": self.fre_rms_mm, "allowed_mm": gate.max_fre_mm},
                 )
             )
         stated = max((self.tre_stated_mm(target) for target in targets_mm), default=0.0)
-        if not stated <= gate.most_tre_mm:
+        if not stated <= gate.max_tre_mm:
             found.append(
                 RegistrationError(
                     "POINTS_TARGET_UNCERTAIN",
                     f"at the target the registration is known to {stated:.2f} mm (3-D RMS), "
-                    f"allowed {gate.most_tre_mm:.2f} mm",
+                    f"allowed {gate.max_tre_mm:.2f} mm",
                     "Add landmarks, farther apart and around the target, then register again.",
-                    {"tre_stated_mm": stated, "allowed_mm": gate.most_tre_mm},
+                    {"tre_stated_mm": stated, "allowed_mm": gate.max_tre_mm},
                 )
             )
         return tuple(found)
@@ -188,7 +188,7 @@ def _fitted(used: PairedPoints, settings: PointSettings) -> tuple[Rigid[Vertebra
     if used.moving_covariances_mm2 is None:
         fit = plain_fit(used.fixed_mm, used.moving_mm)
         covariance = covariance_from_residuals(
-            fit, used.fixed_mm, used.moving_mm, least_fle_mm=settings.least_fle_mm
+            fit, used.fixed_mm, used.moving_mm, min_fle_mm=settings.min_fle_mm
         )
         return fit, covariance
     noise = _noise(used.moving_covariances_mm2, settings)
@@ -197,7 +197,7 @@ def _fitted(used: PairedPoints, settings: PointSettings) -> tuple[Rigid[Vertebra
 
 
 def _noise(stated_mm2: Array, settings: PointSettings) -> Array:
-    return np.asarray(stated_mm2 + settings.least_fle_mm**2 / 3.0 * np.eye(3))
+    return np.asarray(stated_mm2 + settings.min_fle_mm**2 / 3.0 * np.eye(3))
 
 
 def _tip_slope(used: PairedPoints, fit: Rigid[Vertebra, Anchor], settings: PointSettings) -> Array:
@@ -211,7 +211,7 @@ def _tip_slope(used: PairedPoints, fit: Rigid[Vertebra, Anchor], settings: Point
 
 def _left_out_mm(pairs: PairedPoints, chosen: Sequence[int], settings: PointSettings) -> dict[int, float]:
     found: dict[int, float] = {}
-    if not LEAST_POINTS < len(chosen) <= MOST_LEFT_OUT:
+    if not MIN_POINTS < len(chosen) <= MAX_LEFT_OUT:
         return found
     for index in chosen:
         others = pairs.of([one for one in chosen if one != index])
@@ -233,7 +233,7 @@ def _scale_remarks(used: PairedPoints, fle_mm: float) -> tuple[Remark, ...]:
     noise = np.sqrt(
         max(fle_mm**2 * (len(used) - 2) - ((ratio - 1.0) * spread) ** 2, 0.0) / (3 * len(used) - 6)
     )
-    if abs(ratio - 1.0) <= max(LEAST_SCALE_NEWS, SURE_SDS * noise / spread):
+    if abs(ratio - 1.0) <= max(MIN_SCALE_NEWS, SURE_SDS * noise / spread):
         return ()
     larger = "larger" if ratio < 1.0 else "smaller"
     return (

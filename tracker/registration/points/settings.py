@@ -8,20 +8,20 @@ class PointSettings:
     """When points are refused, and how well a landmark can be found at all.
 
     Attributes:
-        least_fle_mm: how well a landmark is found on bone and on the CT at best (3-D RMS); no residuals,
+        min_fle_mm: how well a landmark is found on bone and on the CT at best (3-D RMS); no residuals,
             however small, make the stated uncertainty narrower than that.
-        least_apart_mm: points that are nearer to each other are one.
-        least_spread_ratio: of the second extent of the points to the first; below, they are a line.
-        most_turn_sd_deg: how unsure the rotation about the points' own line may be if landmarks were found
-            as well as `least_fle_mm` says.
+        min_apart_mm: points that are nearer to each other are one.
+        min_spread_ratio: of the second extent of the points to the first; below, they are a line.
+        max_turn_sd_deg: how unsure the rotation about the points' own line may be if landmarks were found
+            as well as `min_fle_mm` says.
         wrong_fre_mm: no order is called wrong whose FRE is smaller.
         clearly_ratio: by how much another order, or the mirror image, must fit better to be called right.
     """
 
-    least_fle_mm: float = 0.5
-    least_apart_mm: float = 1.0
-    least_spread_ratio: float = 0.05
-    most_turn_sd_deg: float = 5.0
+    min_fle_mm: float = 0.5
+    min_apart_mm: float = 1.0
+    min_spread_ratio: float = 0.05
+    max_turn_sd_deg: float = 5.0
     wrong_fre_mm: float = 1.5
     clearly_ratio: float = 3.0
 
@@ -31,10 +31,10 @@ class PointGate:
     """What a registration by points must reach before it is used.
 
     Attributes:
-        most_fre_mm: root mean square distance of the landmarks. Says that no landmark was mistaken; it does
+        max_fre_mm: root mean square distance of the landmarks. Says that no landmark was mistaken; it does
             not say how true the registration is at the target.
-        most_tre_mm: the stated error (3-D RMS) at each target.
+        max_tre_mm: the stated error (3-D RMS) at each target.
     """
 
-    most_fre_mm: float = 1.5
-    most_tre_mm: float = 2.0
+    max_fre_mm: float = 1.5
+    max_tre_mm: float = 2.0

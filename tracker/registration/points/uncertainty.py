@@ -14,7 +14,7 @@ from tracker.registration.points.fit import jacobians, weights_in_fixed
 # residuals: landmarks are found less well than a tip is known, and that shows in the residuals alone.
 BELIEVED = 4.0
 # A fit that is better than the tips say may be luck.
-LEAST_FACTOR = 0.8
+MIN_FACTOR = 0.8
 # Residuals do not tell which way noise is longest; along a camera's depth it is, by four and more. Found by
 # simulation: inside 95 % lie 0.92 to 0.97 of the truths, with noise like a ball and like a needle.
 ANY_SHAPE = 1.2
@@ -48,7 +48,7 @@ def expected_tre_mm(fixed_mm: Array, fle_mm: float, target_mm: Array) -> float:
 
 
 def covariance_from_residuals(
-    fit: Rigid[Vertebra, Anchor], fixed_mm: Array, moving_mm: Array, *, least_fle_mm: float
+    fit: Rigid[Vertebra, Anchor], fixed_mm: Array, moving_mm: Array, *, min_fle_mm: float
 ) -> Array:
     """Covariance (6, 6) of the fit where nothing is known of the points but how they fit.
 
@@ -58,7 +58,7 @@ def covariance_from_residuals(
     freedom = freedom_of(len(fixed_mm))
     residuals = fit.move_points(moving_mm) - fixed_mm
     variance = float((residuals**2).sum()) / freedom * few_points(freedom) * ANY_SHAPE
-    variance = max(variance, least_fle_mm**2 / 3.0)
+    variance = max(variance, min_fle_mm**2 / 3.0)
     rows = jacobians(moving_mm @ fit.rotation.T)
     return np.asarray(variance * np.linalg.inv(np.einsum("nik,nil->kl", rows, rows)))
 
@@ -76,7 +76,7 @@ def covariance_from_noise(
     residuals = fit.move_points(moving_mm) - fixed_mm
     squares = float(np.einsum("ni,nij,nj->", residuals, weights, residuals))
     freedom = BELIEVED + freedom_of(len(fixed_mm))
-    factor = max((BELIEVED + squares) / freedom * few_points(freedom + BELIEVED), LEAST_FACTOR)
+    factor = max((BELIEVED + squares) / freedom * few_points(freedom + BELIEVED), MIN_FACTOR)
     rows = jacobians(moving_mm @ fit.rotation.T)
     return np.asarray(factor * np.linalg.inv(np.einsum("nik,nij,njl->kl", rows, weights, rows)))
 

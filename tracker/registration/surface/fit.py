@@ -9,7 +9,7 @@ from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vecto
 from tracker.registration.points.fit import jacobians
 from tracker.registration.surface.nearest import NearestOnSurface
 
-MOST_ROUNDS = 60
+MAX_ROUNDS = 60
 STILL_MM = 1e-4  # at the lever of the sweep
 # Tukey's biweight: 95 % as sharp as least squares where there are no outliers.
 TUKEY = 4.685
@@ -25,7 +25,7 @@ class Sweep:
         shares: (n,) how much of a point of its own each is; 1 where none is near.
         landmarks_fixed_mm, landmarks_moving_mm: (m, 3) on the CT and as touched; m may be 0.
         landmark_weights: (m, 3, 3) the inverse covariance of each, on the CT's axes.
-        least_sd_mm, tip_radius_mm: see `SurfaceSettings`.
+        min_sd_mm, tip_radius_mm: see `SurfaceSettings`.
     """
 
     points_mm: Array
@@ -33,7 +33,7 @@ class Sweep:
     landmarks_fixed_mm: Array
     landmarks_moving_mm: Array
     landmark_weights: Array
-    least_sd_mm: float
+    min_sd_mm: float
     tip_radius_mm: float
 
 
@@ -70,7 +70,7 @@ def laid_on(
     """The fit that this start leads to, once a round moves it by less than `still_mm`."""
     fit = start
     lever = float(np.sqrt(((sweep.points_mm - sweep.points_mm.mean(axis=0)) ** 2).sum(axis=1).mean()))
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         laid = look(nearest, sweep, fit)
         moved = fit.move_points(sweep.points_mm)
         middle = moved.mean(axis=0)
@@ -105,7 +105,7 @@ def look(nearest: NearestOnSurface, sweep: Sweep, fit: Rigid[Vertebra, Anchor]) 
     order = np.argsort(np.abs(off))
     middle = np.searchsorted(np.cumsum(sweep.shares[order]), 0.5 * sweep.shares.sum())
     median = float(np.abs(off)[order[min(int(middle), len(order) - 1)]])
-    sd = max(SD_FROM_MEDIAN * median, sweep.least_sd_mm)
+    sd = max(SD_FROM_MEDIAN * median, sweep.min_sd_mm)
     weights = np.clip(1.0 - (off / (TUKEY * sd)) ** 2, 0.0, None) ** 2
     return Laid(
         fixed_from_moving=fit, off_mm=off, normals=normals, nearest_mm=at.points_mm, weights=weights, sd_mm=sd

@@ -10,8 +10,8 @@ from tracker.geometry import Array
 from tracker.plan import Surface
 
 # Triangles are cut into pieces no longer than this, so that few candidates hold the nearest.
-MOST_EDGE_MM = 3.0
-MOST_PIECES = 400_000
+MAX_EDGE_MM = 3.0
+MAX_PIECES = 400_000
 CANDIDATES, MORE = 20, 8
 # Over which a swept point feels the surface: bumps of a mesh narrower than this hold nothing in place.
 SMOOTH_MM = 3.0
@@ -111,9 +111,9 @@ def _dot(a: Array, b: Array) -> Array:
 def _pieces(corners: Array) -> tuple[Array, npt.NDArray[np.int64]]:
     """Triangles cut until no edge is long, and which triangle each piece is of."""
     pieces, owners = corners, np.arange(len(corners))
-    while len(pieces) < MOST_PIECES:
+    while len(pieces) < MAX_PIECES:
         edges = np.linalg.norm(pieces - np.roll(pieces, -1, axis=1), axis=2)
-        long = edges.max(axis=1) > MOST_EDGE_MM
+        long = edges.max(axis=1) > MAX_EDGE_MM
         if not long.any():
             break
         a, b, c = pieces[long, 0], pieces[long, 1], pieces[long, 2]

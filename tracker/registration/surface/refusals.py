@@ -9,7 +9,7 @@ from tracker.registration.surface.settings import SurfaceSettings
 from tracker.registration.surface.sliding import Direction
 
 SWEEP_REMEDY = "Sweep the tip slowly over both laminae, the base of the spinous process and both facets."
-LEAST_SPREAD_MM = 5.0
+MIN_SPREAD_MM = 5.0
 
 
 def checked_sweep(points_mm: Array) -> Array:
@@ -32,57 +32,57 @@ def refuse_small(points_mm: Array, shares: Array, settings: SurfaceSettings) -> 
     """Raises SURFACE_SWEEP_SMALL where a sweep has too few places, or lies all in one."""
     places = float(shares.sum())
     spread = float(np.sqrt(((points_mm - points_mm.mean(axis=0)) ** 2).sum(axis=1).mean())) if places else 0.0
-    if places >= settings.least_points and spread >= LEAST_SPREAD_MM:
+    if places >= settings.min_points and spread >= MIN_SPREAD_MM:
         return
     raise RegistrationError(
         "SURFACE_SWEEP_SMALL",
         f"the sweep touches about {places:.0f} different places spread over {spread:.1f} mm (RMS), "
-        f"needed {settings.least_points} over {LEAST_SPREAD_MM:g} mm",
+        f"needed {settings.min_points} over {MIN_SPREAD_MM:g} mm",
         SWEEP_REMEDY,
-        {"places": places, "spread_mm": spread, "needed": settings.least_points},
+        {"places": places, "spread_mm": spread, "needed": settings.min_points},
     )
 
 
 def refuse_far(laid: Laid, settings: SurfaceSettings) -> None:
     """Raises SURFACE_START_FAR where the start does not lie near the bone."""
     median = float(np.median(np.abs(laid.off_mm)))
-    if median > settings.most_start_off_mm:
+    if median > settings.max_start_off_mm:
         raise RegistrationError(
             "SURFACE_START_FAR",
             f"at the start the sweep lies {median:.1f} mm from the bone (median), "
-            f"allowed {settings.most_start_off_mm:g} mm",
+            f"allowed {settings.max_start_off_mm:g} mm",
             "Register by landmarks first, and see that mesh and sweep are both in mm and of this vertebra.",
-            {"median_mm": median, "allowed_mm": settings.most_start_off_mm},
+            {"median_mm": median, "allowed_mm": settings.max_start_off_mm},
         )
 
 
 def refuse_disagreement(laid: Laid, sweep: Sweep, settings: SurfaceSettings) -> None:
     """Raises SURFACE_DISAGREES where too small a share of the sweep lies on the bone."""
     ratio = float(sweep.shares[laid.weights > 0.0].sum() / sweep.shares.sum())
-    if ratio < settings.least_used_ratio:
+    if ratio < settings.min_used_ratio:
         raise RegistrationError(
             "SURFACE_DISAGREES",
-            f"only {ratio:.0%} of the sweep lies on the bone, needed {settings.least_used_ratio:.0%}",
+            f"only {ratio:.0%} of the sweep lies on the bone, needed {settings.min_used_ratio:.0%}",
             "Keep the tip on bare bone while sweeping, and lift it off only when the sweep has ended.",
-            {"used_ratio": ratio, "needed_ratio": settings.least_used_ratio},
+            {"used_ratio": ratio, "needed_ratio": settings.min_used_ratio},
         )
 
 
 def refuse_sliding(weakest: Direction, settings: SurfaceSettings) -> None:
     """Raises SURFACE_SLIDES where a direction stays open."""
-    if weakest.sd_mm <= settings.most_slide_sd_mm:
+    if weakest.sd_mm <= settings.max_slide_sd_mm:
         return
     known = "not known at all" if weakest.sd_mm > 100.0 else f"known to {weakest.sd_mm:.1f} mm"
     raise RegistrationError(
         "SURFACE_SLIDES",
         f"the sweep slides on the bone {weakest.in_words}: there it is {known} at the target, "
-        f"allowed {settings.most_slide_sd_mm:g} mm",
+        f"allowed {settings.max_slide_sd_mm:g} mm",
         "Sweep surfaces that face other ways too: the flanks of the spinous process, the rims of the facets, "
         "the transverse processes.",
         {
             "direction": weakest.in_words,
             "sd_mm": min(weakest.sd_mm, 1000.0),
-            "allowed_mm": settings.most_slide_sd_mm,
+            "allowed_mm": settings.max_slide_sd_mm,
         },
     )
 

@@ -88,9 +88,9 @@ class SurfaceRegistration:
         """What keeps it from being used for these targets on the CT; nothing where it passes."""
         stated = max((self.tre_stated_mm(target) for target in targets_mm), default=0.0)
         asked = (
-            ("SURFACE_FIT_TOO_LARGE", "the sweep lies on the bone to", self.rms_mm, gate.most_rms_mm),
-            ("SURFACE_TARGET_UNCERTAIN", "at the target it is known to", stated, gate.most_tre_mm),
-            ("SURFACE_MOVED_FAR", "the fit moved from its start by", self.moved_mm, gate.most_moved_mm),
+            ("SURFACE_FIT_TOO_LARGE", "the sweep lies on the bone to", self.rms_mm, gate.max_rms_mm),
+            ("SURFACE_TARGET_UNCERTAIN", "at the target it is known to", stated, gate.max_tre_mm),
+            ("SURFACE_MOVED_FAR", "the fit moved from its start by", self.moved_mm, gate.max_moved_mm),
         )
         return tuple(
             RegistrationError(
@@ -158,7 +158,7 @@ def _sweep(
         fixed, moving = landmarks.fixed_mm, landmarks.moving_mm
         noise = np.broadcast_to(settings.landmark_sd_mm**2 * np.eye(3), (len(fixed), 3, 3))
         if landmarks.moving_covariances_mm2 is not None:
-            noise = landmarks.moving_covariances_mm2 + settings.least_sd_mm**2 * np.eye(3)
+            noise = landmarks.moving_covariances_mm2 + settings.min_sd_mm**2 * np.eye(3)
         weights = weights_in_fixed(start, noise)
     return Sweep(
         points_mm=points,
@@ -166,7 +166,7 @@ def _sweep(
         landmarks_fixed_mm=fixed,
         landmarks_moving_mm=moving,
         landmark_weights=weights,
-        least_sd_mm=settings.least_sd_mm,
+        min_sd_mm=settings.min_sd_mm,
         tip_radius_mm=settings.tip_radius_mm,
     )
 
@@ -197,7 +197,7 @@ def _told(
     middle_of_sweep = sweep.points_mm.mean(axis=0)
     turned = vector_from_rotation(fit.rotation @ start.rotation.T)
     remarks = []
-    if alone.sd_mm > settings.most_slide_sd_mm:
+    if alone.sd_mm > settings.max_slide_sd_mm:
         remarks.append(
             Remark(
                 code="SURFACE_HELD_BY_LANDMARKS",
@@ -232,7 +232,7 @@ def _covariance(nearest: NearestOnSurface, sweep: Sweep, best: Laid) -> Array:
     middle = fit.move_points(sweep.points_mm).mean(axis=0)
     say = sweep.shares * best.weights
     freedom = max(float(say.sum()) + 3.0 * len(sweep.landmarks_fixed_mm) - 6.0, 1.0)
-    variance = max(float((say * best.off_mm**2).sum()) / freedom, sweep.least_sd_mm**2)
+    variance = max(float((say * best.off_mm**2).sum()) / freedom, sweep.min_sd_mm**2)
     smooth = nearest.smooth_normals(best.nearest_mm)
     by_sweep = equations(sweep, best, middle, normals=smooth, landmarks=False)[0]
     by_landmarks = equations(sweep, best, middle, normals=smooth)[0] - by_sweep

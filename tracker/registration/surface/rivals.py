@@ -66,7 +66,7 @@ def refuse_another_place(
     for rival in rivals:
         shifts = rival.fixed_from_moving.move_points(moving) - targets_mm
         apart = np.linalg.norm(shifts, axis=1)
-        if apart.max() <= settings.most_apart_mm:
+        if apart.max() <= settings.max_apart_mm:
             continue
         if cost(sweep, rival, best.sd_mm) - least < max(NEWS, NEWS_SHARE * least):
             way = np.concatenate([shifts[int(np.argmax(apart))], np.zeros(3)])

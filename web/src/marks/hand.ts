@@ -17,10 +17,10 @@ export interface Own {
 const POINT_EVERY_MS = 45;
 const EXTEND_EVERY_MS = 60;
 /** Nearer points say nothing; in image pixels. */
-const LEAST_STEP_PX = 2.5;
+const MIN_STEP_PX = 2.5;
 /** As the server takes them: points to a message, points to a drawing. */
-const MOST_A_MESSAGE = 50;
-const MOST_A_DRAWING = 380;
+const MAX_A_MESSAGE = 50;
+const MAX_A_DRAWING = 380;
 const FORGOTTEN_AFTER_MS = 3000;
 
 /** Where the others see this hand point. */
@@ -94,10 +94,10 @@ export class Hand {
       return;
     }
     const last = drawing.points.at(-1);
-    if (last !== undefined && Math.hypot(at[0] - last[0], at[1] - last[1]) < LEAST_STEP_PX) return;
+    if (last !== undefined && Math.hypot(at[0] - last[0], at[1] - last[1]) < MIN_STEP_PX) return;
     drawing.points.push(at);
     this.flush(nowMs);
-    if (drawing.points.length < MOST_A_DRAWING) return;
+    if (drawing.points.length < MAX_A_DRAWING) return;
     // A line without end is several drawings.
     const { moment } = this;
     this.up(nowMs);
@@ -114,7 +114,7 @@ export class Hand {
       return;
     }
     const [from, to] = drawing.points;
-    const short = !from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) < 2 * LEAST_STEP_PX;
+    const short = !from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) < 2 * MIN_STEP_PX;
     // A slip of the finger is no arrow.
     if (short) this.own.splice(this.own.indexOf(drawing), 1);
     else this.say({ draw: { key: drawing.key, shape: drawing.shape, points_px: [from, to], ...moment } });
@@ -142,7 +142,7 @@ export class Hand {
     this.saidAtMs = nowMs;
     const { key, shape, points } = drawing;
     while (drawing.told < points.length) {
-      const points_px = points.slice(drawing.told, drawing.told + MOST_A_MESSAGE);
+      const points_px = points.slice(drawing.told, drawing.told + MAX_A_MESSAGE);
       const said: Said =
         drawing.told === 0 && this.moment !== null
           ? { draw: { key, shape, points_px, ...this.moment } }

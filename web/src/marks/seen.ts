@@ -3,7 +3,7 @@ import type { View } from "../live/live";
 import type { Moment } from "../room/messages";
 import type { Size } from "./place";
 
-const MOST_REMEMBERED = 60;
+const MAX_REMEMBERED = 60;
 
 export class Seen {
   size: Size = { width: 0, height: 0 };
@@ -17,7 +17,7 @@ export class Seen {
       this.size = { width: snapshot.width_px, height: snapshot.height_px };
       this.capturedAtS.set(snapshot.image_number, snapshot.captured_at_s);
       const [oldest] = this.capturedAtS.keys();
-      if (this.capturedAtS.size > MOST_REMEMBERED && oldest !== undefined) this.capturedAtS.delete(oldest);
+      if (this.capturedAtS.size > MAX_REMEMBERED && oldest !== undefined) this.capturedAtS.delete(oldest);
     }
     if (!video.live) {
       this.moment = null;

@@ -20,7 +20,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const gates = useGates().data;
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
-  const note = step === null ? "" : stepNote(step, gates?.registration.least_points ?? null, words);
+  const note = step === null ? "" : stepNote(step, gates?.registration.min_points ?? null, words);
   return (
     <header className="step-head" ref={head}>
       <div className="step-title">

@@ -10,7 +10,7 @@ export function stateWord({ step, state }: Pick<Step, "step" | "state">, words: 
 /** What a step that holds still does not allow; empty where it allows all. */
 export function stepNote(
   { step, state, numbers }: Pick<Step, "step" | "state" | "numbers">,
-  leastLandmarks: number | null,
+  minLandmarks: number | null,
   words: OperatorWords,
 ): string {
   const there = numbers["landmarks"];
@@ -18,7 +18,7 @@ export function stepNote(
     step === "plan" &&
     state === "done" &&
     typeof there === "number" &&
-    leastLandmarks !== null &&
-    there < leastLandmarks;
-  return isFew ? filled(words.fewLandmarks, { there, least: leastLandmarks }) : "";
+    minLandmarks !== null &&
+    there < minLandmarks;
+  return isFew ? filled(words.fewLandmarks, { there, least: minLandmarks }) : "";
 }

@@ -18,7 +18,7 @@ export interface RoomDoors {
 /** The server says something each second. */
 export const SILENT_AFTER_MS = 3000;
 /** Marks that wait for a thin line would come too late: above this much unsent they are left out. */
-const MOST_UNSENT_BYTES = 4096;
+const MAX_UNSENT_BYTES = 4096;
 const NEXT = JSON.stringify({ next: true } satisfies Said);
 
 export class RoomLine {
@@ -62,7 +62,7 @@ export class RoomLine {
   /** False where it did not go out: there is no line, or it is full. */
   say(said: Said): boolean {
     const { socket } = this.kept;
-    if (socket === null || !this.kept.hasHeard || socket.bufferedAmount > MOST_UNSENT_BYTES) return false;
+    if (socket === null || !this.kept.hasHeard || socket.bufferedAmount > MAX_UNSENT_BYTES) return false;
     socket.send(JSON.stringify(said));
     return true;
   }

@@ -87,12 +87,12 @@ function Channel({ channel }: { channel: ChannelShown }): ReactNode {
           ? words.noScrew
           : `Ø ${shownNumber(screw.diameterMm)} × ${shownNumber(screw.lengthMm, 0)} mm`}
       </dd>
-      {screw?.leastMm != null && (
+      {screw?.minMm != null && (
         <>
           <dt>{words.clearance}</dt>
-          <dd data-bad={screw.leastMm < 0}>
-            {screw.leastMm < 0 && <span aria-hidden="true">▲ </span>}
-            {shownNumber(screw.leastMm)} mm {screw.leastWall !== null && words.wall[screw.leastWall]}
+          <dd data-bad={screw.minMm < 0}>
+            {screw.minMm < 0 && <span aria-hidden="true">▲ </span>}
+            {shownNumber(screw.minMm)} mm {screw.minWall !== null && words.wall[screw.minWall]}
             {screw.grade !== "" && ` · ${words.grade} ${screw.grade}`}
           </dd>
         </>

@@ -12,8 +12,8 @@ export interface ChannelShown {
 export interface ScrewShown {
   diameterMm: number;
   lengthMm: number;
-  leastMm: number | null;
-  leastWall: Wall | null;
+  minMm: number | null;
+  minWall: Wall | null;
   grade: string;
   meanHu: number | null;
 }
@@ -69,8 +69,8 @@ function screwOf(screw: Json): ScrewShown | null {
   return {
     diameterMm,
     lengthMm,
-    leastMm: least?.mm ?? null,
-    leastWall: least?.wall ?? null,
+    minMm: least?.mm ?? null,
+    minWall: least?.wall ?? null,
     grade: text(clearance["grade"]),
     meanHu: number(record(screw["bone"])["mean_hu"]),
   };

@@ -12,10 +12,10 @@ export interface Row {
 }
 
 const LIMIT_OF: Partial<Record<NumberName, string>> = {
-  fre_rms_mm: "most_fre_mm",
-  left_out_mm: "most_left_out_mm",
-  tre_at_entry_mm: "most_tre_mm",
-  surface_rms_mm: "most_surface_rms_mm",
+  fre_rms_mm: "max_fre_mm",
+  left_out_mm: "max_left_out_mm",
+  tre_at_entry_mm: "max_tre_mm",
+  surface_rms_mm: "max_surface_rms_mm",
 };
 const NAMES: readonly NumberName[] = [
   "points",

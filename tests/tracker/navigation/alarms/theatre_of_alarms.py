@@ -18,7 +18,7 @@ def good(image_number: int = 0, at_s: float = 0.0, **changes: object) -> Observe
         breach_ratio=0.001,
         past_depth_mm=-10.0,
         tip_sd_mm=0.3,
-        most_tip_sd_mm=1.0,
+        max_tip_sd_mm=1.0,
         check_age_s=60.0,
         armed_screens=1,
         free_disk_mb=50_000.0,

@@ -198,8 +198,8 @@ def test_the_room_is_that_of_the_plan_s_tolerance() -> None:
     tolerance = Tolerance(
         offset_mm=np.array([0.0, 1.8]),
         deg_at_offset=np.array([5.1428, 0.0]),
-        most_offset_mm=1.8,
-        most_angle_deg=5.1428,
+        max_offset_mm=1.8,
+        max_angle_deg=5.1428,
         both_mm=0.9,
         both_deg=2.57,
     )

@@ -51,7 +51,7 @@ def test_in_noise_smoothing_brings_the_surface_nearer_to_the_truth() -> None:
     scan = scanned((BODY,), affine_of(spacing=(0.5, 0.5, 0.5), shape_ijk=size), shape_ijk=size, noise_hu=60.0)
     rms = {}
     for rounds in (0, 10, 40):
-        settings = BoneSettings(threshold_hu=HALF_HU, smoothing_rounds=rounds, most_faces=None)
+        settings = BoneSettings(threshold_hu=HALF_HU, smoothing_rounds=rounds, max_faces=None)
         made = bone_surface(scan, settings)
         rms[rounds] = float(np.sqrt(np.mean(BODY.distances_mm(made.surface.vertices_mm) ** 2)))
         # Laplace's smoothing alone would have taken a tenth of it by 40 rounds.
@@ -60,9 +60,7 @@ def test_in_noise_smoothing_brings_the_surface_nearer_to_the_truth() -> None:
 
 
 def test_fewer_triangles_keep_the_shape() -> None:
-    made = bone_surface(
-        scanned((BODY,), WAYS["oblique"]), BoneSettings(threshold_hu=HALF_HU, most_faces=1000)
-    )
+    made = bone_surface(scanned((BODY,), WAYS["oblique"]), BoneSettings(threshold_hu=HALF_HU, max_faces=1000))
     assert made.faces_before > 4000
     assert 800 <= made.surface.faces.shape[0] <= 1000
     assert np.abs(BODY.distances_mm(made.surface.vertices_mm)).max() < 0.2
@@ -115,7 +113,7 @@ def test_bone_that_the_scan_cuts_is_said_with_the_end() -> None:
 
 def test_too_many_voxels_are_averaged_and_stay_in_their_place() -> None:
     scan = scanned((BODY,), WAYS["all-of-it"])
-    made = bone_surface(scan, BoneSettings(threshold_hu=HALF_HU, most_voxels=31_000))
+    made = bone_surface(scan, BoneSettings(threshold_hu=HALF_HU, max_voxels=31_000))
     # The voxels that are nearest to each other go first: 0.5 mm by 0.5 mm before 1 mm.
     assert made.averaged_ijk == (2, 2, 1)
     assert made.voxel_mm[:2] == pytest.approx([1.0, 1.0])
@@ -136,7 +134,7 @@ def test_a_threshold_that_parts_nothing_is_refused_with_what_there_is(threshold_
 def test_a_threshold_that_is_the_very_value_of_the_voxels_makes_whole_triangles() -> None:
     made = bone_surface(
         scanned((BODY,), affine_of(), fine=1),
-        BoneSettings(threshold_hu=640.0, smoothing_rounds=0, most_faces=None),
+        BoneSettings(threshold_hu=640.0, smoothing_rounds=0, max_faces=None),
     )
     a, b, c = (made.surface.vertices_mm[made.surface.faces[:, i]] for i in range(3))
     assert np.linalg.norm(np.cross(b - a, c - a), axis=1).min() > 1e-9
@@ -158,7 +156,7 @@ def test_a_scan_of_soft_tissue_alone_has_no_bone() -> None:
 def test_a_surface_through_noise_is_refused_before_it_fills_the_memory(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("tracker.plan.bone.extraction.MOST_VERTICES", 10_000)
+    monkeypatch.setattr("tracker.plan.bone.extraction.MAX_VERTICES", 10_000)
     noise = np.random.default_rng(1).integers(-500, 500, (40, 40, 40)).astype(np.int16)
     with pytest.raises(PlanError, match="allowed 10000") as told:
         bone_surface(Volume(hu=noise, lps_from_ijk=np.eye(4)), BoneSettings(threshold_hu=0.0))
@@ -192,8 +190,8 @@ def test_settings_that_cannot_be_are_refused() -> None:
     for settings in (
         {"threshold_hu": np.nan},
         {"smoothing_rounds": -1},
-        {"most_faces": 3},
-        {"most_voxels": 1},
+        {"max_faces": 3},
+        {"max_voxels": 1},
     ):
         with pytest.raises(PlanError) as told:
             BoneSettings(**settings)

@@ -16,7 +16,7 @@ BODY = Ellipsoid(half_axes_mm=(17.0, 14.0, 12.0))
 def bone() -> Surface:
     """Closed, 34 x 28 x 24 mm."""
     scan = scanned((BODY,), affine_of(spacing=(0.6, 0.6, 1.0)), fine=2)
-    return bone_surface(scan, BoneSettings(threshold_hu=HALF_HU, most_faces=800)).surface
+    return bone_surface(scan, BoneSettings(threshold_hu=HALF_HU, max_faces=800)).surface
 
 
 def codes(taken: MeshSurface) -> list[str]:

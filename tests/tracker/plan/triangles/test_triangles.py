@@ -66,7 +66,7 @@ def test_smoothing_flattens_steps_and_leaves_a_border_where_it_is() -> None:
 
 def test_joining_triangles_keeps_a_sheet_flat_and_its_outline() -> None:
     vertices, faces = sheet(30)
-    points, kept = decimated(vertices, faces, most_faces=200)
+    points, kept = decimated(vertices, faces, max_faces=200)
     assert kept.shape[0] <= 200
     assert points[:, 2] == pytest.approx(1200.0, abs=1e-6)
     assert points.min(axis=0) == pytest.approx(vertices.min(axis=0), abs=1e-6)
@@ -74,7 +74,7 @@ def test_joining_triangles_keeps_a_sheet_flat_and_its_outline() -> None:
 
 
 def test_few_enough_triangles_are_left_alone() -> None:
-    assert decimated(TETRAHEDRON, OUTWARDS, most_faces=100)[1] is OUTWARDS
+    assert decimated(TETRAHEDRON, OUTWARDS, max_faces=100)[1] is OUTWARDS
 
 
 def test_equal_rows_are_found_as_numpy_does() -> None:

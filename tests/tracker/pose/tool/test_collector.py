@@ -138,7 +138,7 @@ def test_enough_motion_with_a_slipping_tip_is_not_enough() -> None:
 
 
 def test_a_still_tool_adds_nothing_and_the_store_has_an_end() -> None:
-    collector = PoseCollector(Purpose.PIVOT, settings=CollectorSettings(most_poses=5))
+    collector = PoseCollector(Purpose.PIVOT, settings=CollectorSettings(max_poses=5))
     swept(collector, [(0.0, 0.0, 0.0)] * 50)
     assert collector.progress().taken == 1
     swept(collector, circling(25.0), start_s=2.0)

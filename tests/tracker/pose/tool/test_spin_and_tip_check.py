@@ -89,7 +89,7 @@ def test_a_right_tip_stays_and_a_wrong_one_wanders_by_what_the_tilt_makes_of_it(
     moved = poses.rotations @ error
     expected = np.sqrt(((moved - moved.mean(axis=0)) ** 2).sum(axis=1).mean())
     assert wrong.rms_3d_mm == pytest.approx(expected)
-    assert wrong.most_mm > wrong.rms_3d_mm > wrong.rms_by_axis_mm.max()
+    assert wrong.max_mm > wrong.rms_3d_mm > wrong.rms_by_axis_mm.max()
     assert wrong.rms_3d_mm == pytest.approx(float(np.linalg.norm(wrong.rms_by_axis_mm)))
     assert [failure.code for failure in check_tip(poses, TIP_MM + 3.0 * error).failures(ToolGate())] == [
         "TIP_CHECK_FAILED"

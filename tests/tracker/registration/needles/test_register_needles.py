@@ -23,7 +23,7 @@ from tracker.registration.needles import (
 )
 
 SCENES = 40
-OPEN = NeedleLimits(least_chance_ratio=1e-12, most_offset_mm=1e3, least_lead=0.0, most_lead_of_swapped=1e3)
+OPEN = NeedleLimits(min_chance_ratio=1e-12, max_offset_mm=1e3, min_lead=0.0, max_lead_of_swapped=1e3)
 
 
 def registered(given: Seen, limits: NeedleLimits | None = None) -> NeedleFit:

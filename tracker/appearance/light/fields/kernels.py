@@ -23,7 +23,7 @@ NODE_STEP_RATIO, SLOPE_RATIO = 0.6, 0.5
 BEND_RATIO = 0.07
 # What a camera makes of no light at all, by the contrast.
 NO_LIGHT_RATIO = 0.05
-MOST_SHARES = 2 * AROUND
+MAX_SHARES = 2 * AROUND
 
 
 @compiled

@@ -9,7 +9,7 @@ from tracker.geometry.kernels import add_products, solve_positive
 # Even light, on dark and on bright, and what bends: squares and cubes over the marker, on each.
 EVEN_ROWS, ROWS = 6, 20
 # So many pixels tell.
-MOST_ASKED = 800
+MAX_ASKED = 800
 
 
 @compiled
@@ -33,7 +33,7 @@ def pattern_of_light(values, looked, response, scale, cut):
     picture no more: both are uneven, but not smooth.
     """
     picture, at, lit, own = looked[0][0], looked[1], looked[2], looked[3]
-    every = len(values) // MOST_ASKED + 1
+    every = len(values) // MAX_ASKED + 1
     count = (len(values) + every - 1) // every
     rows, left, weights, room = np.empty((ROWS, count)), np.empty(count), np.empty(count), np.empty(count)
     unit = 1.0 / (cut * scale) ** 2

@@ -1,7 +1,7 @@
 """What lies over a square from outside, and what inside it contradicts the model."""
 
 from tracker.marker.explanation.cover.cover import (
-    LEAST_AREA_RATIO,
+    MIN_AREA_RATIO,
     PART_CONTRAST,
     Left,
     Mask,
@@ -9,4 +9,4 @@ from tracker.marker.explanation.cover.cover import (
     weights_beside_a_cover,
 )
 
-__all__ = ["LEAST_AREA_RATIO", "PART_CONTRAST", "Left", "Mask", "covered", "weights_beside_a_cover"]
+__all__ = ["MIN_AREA_RATIO", "PART_CONTRAST", "Left", "Mask", "covered", "weights_beside_a_cover"]

@@ -12,18 +12,18 @@ from tracker.marker.explanation.fields.kernels import FIELDS, RING
 
 Mask = npt.NDArray[np.bool_]
 HIDDEN_CONTRAST, CLEAR_CONTRAST = 0.35, 0.2
-LEAST_PIECE = 3
+MIN_PIECE = 3
 # Under this part of the square, a piece is a speck (dirt, a highlight) and not another shape.
-LEAST_AREA_RATIO = LEAST_PIECE / FIELDS**2 - 1e-9
+MIN_AREA_RATIO = MIN_PIECE / FIELDS**2 - 1e-9
 # What is left of a cover beside it: its rim in other light.
-MOST_RIM = 10
+MAX_RIM = 10
 WIDE_BLUR_FIELDS = 0.6
-MOST_CLEAR_RATIO = 0.1
-SAME_COVER_CONTRAST, MOST_SLOPE = 0.35, 0.12
+MAX_CLEAR_RATIO = 0.1
+SAME_COVER_CONTRAST, MAX_SLOPE = 0.35, 0.12
 # Of what covers a part inside, the strip of paper that is looked at shows at least this much.
-LEAST_END_RATIO = 0.3
+MIN_END_RATIO = 0.3
 # Light is nowhere under this part of the brightest: a field that is dark is ink, not night.
-LEAST_GAIN_RATIO = 0.08
+MIN_GAIN_RATIO = 0.08
 # A part lies on one side of a line: so many directions, and places in half sides.
 PART_ANGLES, PART_PLACES = 12, np.array([0.0, 0.35, 0.7])
 PART_CONTRAST = 0.25
@@ -58,17 +58,17 @@ def covered(left: Left, *, blur_fields: float) -> tuple[Mask, int]:
 
     `blur_fields` is the sd of the image's blur: so far the edge of a cover reaches beyond it.
     """
-    night = LEAST_GAIN_RATIO * float(left.gain.max())
+    night = MIN_GAIN_RATIO * float(left.gain.max())
     contrast = np.maximum(left.gain, night)
     labels = np.empty(left.seen.shape, np.int64)
-    areas = wrong_pieces(left.rest, contrast, RING, HIDDEN_CONTRAST, LEAST_PIECE, labels)
+    areas = wrong_pieces(left.rest, contrast, RING, HIDDEN_CONTRAST, MIN_PIECE, labels)
     hidden = (left.gain <= night) | (labels == -1)
     inside = 0
     covers = hidden.copy() if len(areas) else hidden
     beside = grown(grown(covers)) if len(areas) else covers
     for number, area in enumerate(areas, start=1):
         piece = labels == number
-        is_rim = int(area) <= MOST_RIM and bool((piece & beside).any())
+        is_rim = int(area) <= MAX_RIM and bool((piece & beside).any())
         if is_rim or _goes_on(piece, covers, left, contrast):
             hidden |= piece
         else:
@@ -92,15 +92,15 @@ def _goes_on(piece: Mask, covers: Mask, left: Left, contrast: Array) -> bool:
         alike = abs(float(np.median(seen[end])) - grey) < SAME_COVER_CONTRAST * float(
             np.median(contrast[end])
         )
-        if not alike or end.sum() < LEAST_END_RATIO * piece.sum():
+        if not alike or end.sum() < MIN_END_RATIO * piece.sum():
             continue
         v, u = np.nonzero(piece | end)
         area = np.zeros(piece.shape, np.uint8)
         cv2.fillConvexPoly(area, cv2.convexHull(np.stack([u, v], axis=1).astype(np.int32)), 1)
         over = area > 0
         if (
-            float(clear[over].mean()) < MOST_CLEAR_RATIO
-            and _slope(seen, left.picture, over, contrast) < MOST_SLOPE
+            float(clear[over].mean()) < MAX_CLEAR_RATIO
+            and _slope(seen, left.picture, over, contrast) < MAX_SLOPE
         ):
             return True
     return False

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracker.camera.blur.kernels import MOST_OF_BELL, bell_on, mapped, smear_of
+from tracker.camera.blur.kernels import MAX_OF_BELL, bell_on, mapped, smear_of
 from tracker.compiled import compiled
 from tracker.marker.sampling.kernels import sample_square, through
 
@@ -16,8 +16,8 @@ SPREAD = 1.0 / 16.0
 LITTLE_MORE = 0.3
 # Taps stand so many sd of the picture's blur apart: farther, and they are seen one by one.
 TAP_GAP_SDS = 1.2
-MOST_OF_LINE = 25
-LEAST_FIELDS2 = 1e-6
+MAX_OF_LINE = 25
+MIN_FIELDS2 = 1e-6
 
 
 @compiled
@@ -115,15 +115,15 @@ def _taps(blur, ahead, blurs, weights):
     weights[:, :] = 0.0
     smear, sx, sy = _smear_in(blur, ahead)
     vu, vv, uv = blur[0] - smear * sx * sx, blur[1] - smear * sy * sy, blur[2] - smear * sx * sy
-    offsets, shares = np.empty(MOST_OF_BELL), np.empty(MOST_OF_BELL)
+    offsets, shares = np.empty(MAX_OF_BELL), np.empty(MAX_OF_BELL)
     level, bells, ex, ey, along, across = bell_on(
-        vu, vv, uv, blurs, LEAST_FIELDS2, LITTLE_MORE, TAP_GAP_SDS, offsets, shares
+        vu, vv, uv, blurs, MIN_FIELDS2, LITTLE_MORE, TAP_GAP_SDS, offsets, shares
     )
     # Motion smears evenly over its way: a box, whose variance is a twelfth.
     lines, gap = 1, 0.0
     if smear > 0.0:
         length = np.sqrt(12.0 * smear * (sx * sx + sy * sy))
-        lines = min(max(int(np.ceil(length / (TAP_GAP_SDS * blurs[level]))), 2), MOST_OF_LINE)
+        lines = min(max(int(np.ceil(length / (TAP_GAP_SDS * blurs[level]))), 2), MAX_OF_LINE)
         # So far apart that the variance is the box's.
         gap = np.sqrt(12.0 * smear / (lines * lines - 1.0))
     more_u, more_v = 0.0, 0.0

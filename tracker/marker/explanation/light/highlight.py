@@ -14,11 +14,11 @@ from tracker.marker.explanation.light.light import grid
 # set are tried first.
 MIDDLES = np.linspace(-1.2, 1.2, 7)
 ANGLES, ROUND, LONG = 4, (0.35, 0.55, 0.9), (0.9, 0.4)
-LEAST_RATIO = 0.05
+MIN_RATIO = 0.05
 STRIDE = 3  # a field of every nine is enough to find one by
 # The best is then moved and widened, step by step, to where it explains most: not far away, and no narrower
 # than this, where it could take the place of a part of the shape.
-ROUNDS, MOST_MOVED, FARTHEST, LEAST_SD, MOST_SD = 4, 0.3, 1.5, 0.42, 1.5
+ROUNDS, MAX_MOVED, FARTHEST, MIN_SD, MAX_SD = 4, 0.3, 1.5, 0.42, 1.5
 DAMPING = 0.02
 
 
@@ -48,7 +48,7 @@ def highlight_in(rest: Array, explained: Array, weight: Array) -> Array | None:
     # A highlight adds light.
     which = int(np.argmax(along))
     shape, most = _shapes()[which], float(along[which])
-    if not (most > 0.0 and most**2 > LEAST_RATIO * float(left @ left)):
+    if not (most > 0.0 and most**2 > MIN_RATIO * float(left @ left)):
         return None
     best = _with_slopes(shape)
     for _ in range(ROUNDS):
@@ -66,10 +66,10 @@ def _moved(shape: Array, own: Array, left: Array) -> Array:
     a, g = own.T @ own, own.T @ left
     solved = np.linalg.solve(a + DAMPING * np.diag(np.diag(a)) + 1e-9 * np.eye(len(a)), g)
     step = solved[1:] / max(float(solved[0]), 1e-6)
-    middle = shape[:2] + np.clip(step[:2], -MOST_MOVED, MOST_MOVED)
+    middle = shape[:2] + np.clip(step[:2], -MAX_MOVED, MAX_MOVED)
     uu, vv, uv = shape[2:] + step[2:]
     values, ways = np.linalg.eigh(np.array([[uu, uv], [uv, vv]]))
-    values = np.clip(values, MOST_SD**-2, LEAST_SD**-2)
+    values = np.clip(values, MAX_SD**-2, MIN_SD**-2)
     inverse = ways @ np.diag(values) @ ways.T
     return np.array([*np.clip(middle, -FARTHEST, FARTHEST), inverse[0, 0], inverse[1, 1], inverse[0, 1]])
 

@@ -10,7 +10,7 @@ from tracker.marker.explanation.fields.kernels import WIDE, u_of
 from tracker.marker.explanation.light.kernels import shadow_edge, shadow_of
 
 SHADOW_ANGLES, SHADOW_PLACES, SHADOW_SOFT = 12, 9, 0.1
-LEAST_GAINED_RATIO = 0.15
+MIN_GAINED_RATIO = 0.15
 # Nodes a side of the net of splines that highlights are made of.
 NODES = 6
 
@@ -51,4 +51,4 @@ def shadow_in(seen: Array, picture: npt.NDArray[np.float32], visible: npt.NDArra
     """The straight edge of a shadow (fields,), from 0 to 1, that explains most of what is left, if any."""
     edge = np.empty(3)
     part = shadow_edge(seen, picture, visible, SHADOW_ANGLES, SHADOW_PLACES, SHADOW_SOFT, edge)
-    return np.asarray(shadow_of(edge)) if part >= LEAST_GAINED_RATIO else None
+    return np.asarray(shadow_of(edge)) if part >= MIN_GAINED_RATIO else None

@@ -12,11 +12,11 @@ from tracker.plan.pedicle.outlines import planes_across
 # So far ahead of the isthmus the axis is inside the body, in small ones too.
 CENTRE_MM = 20.0
 REACH_DEG, TURN_DEG = 72.0, 4.0
-STEP_MM, LEAST_MM, MOST_MM = 0.5, 3.0, 46.0
+STEP_MM, MIN_MM, MAX_MM = 0.5, 3.0, 46.0
 EDGE_MM, LIFTS_MM = 1.5, (-1.5, 0.0, 1.5)
 # What an edge counts for, by the fall of a usual wall; more where what lies outside it is soft.
-FAINT_EDGE, LEAST_EDGE, MOST_EDGE, SOFT_BONUS = 0.3, 0.5, 1.5, 0.3
-MOST_STEPS, STEP_COST = 4, 0.15
+FAINT_EDGE, MIN_EDGE, MAX_EDGE, SOFT_BONUS = 0.3, 0.5, 1.5, 0.3
+MAX_STEPS, STEP_COST = 4, 0.15
 
 
 SLOPE_ANGLES = 3
@@ -50,14 +50,14 @@ def outline_front(near: Neighbourhood, isthmus_mm: Array, axis: Array) -> Outlin
         return None
     path = _path(edge)
     row = int(path[middle])
-    if edge[middle, row] < LEAST_EDGE:
+    if edge[middle, row] < MIN_EDGE:
         return None
-    radius = LEAST_MM + STEP_MM * path[middle - SLOPE_ANGLES : middle + SLOPE_ANGLES + 1]
+    radius = MIN_MM + STEP_MM * path[middle - SLOPE_ANGLES : middle + SLOPE_ANGLES + 1]
     turn = np.radians(TURN_DEG) * np.arange(-SLOPE_ANGLES, SLOPE_ANGLES + 1)
     slope = float((turn * radius).sum() / (turn**2).sum())
     outwards = radius[SLOPE_ANGLES] * axis - slope * across
     return OutlineFront(
-        distance_mm=CENTRE_MM + LEAST_MM + row * STEP_MM, outwards=outwards / np.linalg.norm(outwards)
+        distance_mm=CENTRE_MM + MIN_MM + row * STEP_MM, outwards=outwards / np.linalg.norm(outwards)
     )
 
 
@@ -69,14 +69,14 @@ def _edges(
     ways = np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * across
     voxel = float(np.linalg.norm(near.voxel_width_mm(axis)))
     wide = round(max(EDGE_MM, 0.8 * voxel) / STEP_MM)
-    distance = LEAST_MM + STEP_MM * np.arange(-wide, int((MOST_MM - LEAST_MM) / STEP_MM) + wide)
+    distance = MIN_MM + STEP_MM * np.arange(-wide, int((MAX_MM - MIN_MM) / STEP_MM) + wide)
     points = centre + distance[:, None] * ways[:, None, :]
     hu = np.mean([near.smooth_hu(points + lift * up) for lift in LIFTS_MM], axis=0)
     total = np.cumsum(np.concatenate([np.zeros((len(hu), 1)), hu], axis=1), axis=1)
     mean = (total[:, wide:] - total[:, :-wide]) / wide
     inside, outside = mean[:, : -wide - 1], mean[:, wide + 1 :]
     usable = near.holds(points)[:, wide : wide + inside.shape[1]]
-    edge = np.clip((inside - outside) / near.least_fall_hu, 0.0, MOST_EDGE)
+    edge = np.clip((inside - outside) / near.min_fall_hu, 0.0, MAX_EDGE)
     edge = np.where(edge > FAINT_EDGE, edge + np.where(outside < near.soft_below_hu, SOFT_BONUS, 0.0), edge)
     return np.where(usable & (inside > near.soft_below_hu), edge, 0.0), usable
 
@@ -84,10 +84,10 @@ def _edges(
 def _path(edge: Array) -> Array:
     """The row (angles,) of the path that gathers most edge and moves least from one angle to the next."""
     best, came = edge[0], []
-    shifts = np.arange(-MOST_STEPS, MOST_STEPS + 1)
+    shifts = np.arange(-MAX_STEPS, MAX_STEPS + 1)
     for column in edge[1:]:
-        padded = np.pad(best, MOST_STEPS, constant_values=-np.inf)
-        choices = np.stack([padded[MOST_STEPS + s : MOST_STEPS + s + len(best)] for s in shifts])
+        padded = np.pad(best, MAX_STEPS, constant_values=-np.inf)
+        choices = np.stack([padded[MAX_STEPS + s : MAX_STEPS + s + len(best)] for s in shifts])
         choices -= STEP_COST * np.abs(shifts)[:, None]
         way = np.argmax(choices, axis=0)
         came.append(shifts[way])

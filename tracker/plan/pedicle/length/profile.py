@@ -29,7 +29,7 @@ def behind_steps(near: Neighbourhood, direction: Array) -> int:
     return int(max(BEHIND_MM, float(near.voxel_width_mm(direction).max())) / STEP_MM)
 
 
-def falls(near: Neighbourhood, profile: Array, *, least_hu: float, behind: int) -> list[tuple[float, float]]:
+def falls(near: Neighbourhood, profile: Array, *, min_hu: float, behind: int) -> list[tuple[float, float]]:
     """Where the profile falls by so much: distance in mm of half the fall, and the number behind it."""
     found: list[tuple[float, float]] = []
     top = 0
@@ -37,7 +37,7 @@ def falls(near: Neighbourhood, profile: Array, *, least_hu: float, behind: int) 
     while at < len(profile):
         if profile[at] > profile[top]:
             top = at
-        elif profile[top] - profile[at] >= least_hu:
+        elif profile[top] - profile[at] >= min_hu:
             end = _foot(profile, at + int(np.argmin(profile[at : at + behind + 1])), near.soft_below_hu)
             half = 0.5 * (profile[top] + profile[end])
             after = top + int(np.argmax(profile[top : end + 1] < half))

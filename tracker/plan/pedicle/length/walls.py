@@ -106,7 +106,7 @@ def _wall(
     if not found:
         # Nothing is told surely: the nearer place is the safer one for a screw.
         profile = profile_along(near, isthmus_mm, direction)
-        some = [one for one, _ in falls(near, profile, least_hu=near.least_fall_hu, behind=1)]
+        some = [one for one, _ in falls(near, profile, min_hu=near.min_fall_hu, behind=1)]
         distance = min([one for one in some if one >= NO_FRONT_FROM_MM], default=distance)
     outwards = solid.outwards_at(isthmus_mm + distance * direction) if found else direction
     return WallAhead(
@@ -143,7 +143,7 @@ def _fall_near(near: Neighbourhood, isthmus_mm: Array, direction: Array, exit_mm
     profile = profile_along(near, isthmus_mm, direction)
     behind = behind_steps(near, direction)
     for share in (1.0, 0.5):
-        found = falls(near, profile, least_hu=share * near.least_fall_hu, behind=behind)
+        found = falls(near, profile, min_hu=share * near.min_fall_hu, behind=behind)
         close = [one for one, _ in found if abs(one - exit_mm) <= NEAR_EXIT_MM]
         if close:
             return min(close, key=lambda one: abs(one - exit_mm))
@@ -161,7 +161,7 @@ def _outer_wall(
     profile = profile_along(near, isthmus_mm, direction)
     behind = behind_steps(near, direction)
     for share in (1.0, 0.5):
-        for distance_mm, trough in falls(near, profile, least_hu=share * near.least_fall_hu, behind=behind):
+        for distance_mm, trough in falls(near, profile, min_hu=share * near.min_fall_hu, behind=behind):
             if distance_mm < from_mm or trough > near.soft_below_hu:
                 continue
             points = [

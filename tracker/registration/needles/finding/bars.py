@@ -11,11 +11,11 @@ from tracker.geometry import Array
 
 Image8 = npt.NDArray[np.uint8]
 SHORTEST_EDGE_PX = 7.0
-MOST_SKEW_DEG = 7.0
-LEAST_SHARED_PX = 6.0
+MAX_SKEW_DEG = 7.0
+MIN_SHARED_PX = 6.0
 SAME_PX, SAME_DEG = 2.5, 6.0
 SHORTEST_HALF_PX = 10.0
-BESIDE_PX, MOST_CROSSED_DEG = 25.0, 50.0
+BESIDE_PX, MAX_CROSSED_DEG = 25.0, 50.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +46,7 @@ def bars(grey: Image8, narrowest_px: float, widest_px: float) -> list[Bar]:
     for n in range(len(edges)):
         start, way, beside = edges[n, :2], along[n], np.array([-along[n, 1], along[n, 0]])
         # An edge's direction tells its bright side, so the other edge of a bar runs the other way.
-        facing = along @ way < -np.cos(np.radians(MOST_SKEW_DEG))
+        facing = along @ way < -np.cos(np.radians(MAX_SKEW_DEG))
         first, second = (edges[:, :2] - start) @ way, (edges[:, 2:] - start) @ way
         low = np.maximum(np.minimum(first, second), 0.0)
         high = np.minimum(np.maximum(first, second), length[n])
@@ -55,7 +55,7 @@ def bars(grey: Image8, narrowest_px: float, widest_px: float) -> list[Bar]:
         shared = start + (0.5 * (low + high))[:, None] * way
         at = np.einsum("ij,ij->i", shared - middle, -along)
         width = (middle - at[:, None] * along - shared) @ beside
-        good = facing & (high - low >= LEAST_SHARED_PX)
+        good = facing & (high - low >= MIN_SHARED_PX)
         good &= (np.abs(width) >= narrowest_px) & (np.abs(width) <= widest_px)
         for m in np.flatnonzero(good):
             if m > n:
@@ -109,7 +109,7 @@ def _is_beside(bar: Bar, middle_px: Array, along: Array) -> bool:
     off = middle_px - bar.middle_px
     reach = 0.5 * bar.length_px + BESIDE_PX
     return bool(np.hypot(off[0], off[1]) < reach) and abs(float(along @ bar.along)) > np.cos(
-        np.radians(MOST_CROSSED_DEG)
+        np.radians(MAX_CROSSED_DEG)
     )
 
 

@@ -22,15 +22,15 @@ LONGEST_PX = 400.0
 # A cut without a bar speaks this much stronger against a needle than one with it speaks for it.
 GAP_WEIGHT = 1.5
 UP_PX = (0.0, -1.0)
-LEAST_LENGTH_IN_WIDTHS = 12.0
+MIN_LENGTH_IN_WIDTHS = 12.0
 # Bare metal has hardly a colour of its own, and a wire has one shade all along but for its shine.
-MOST_COLOUR_RATIO, MOST_SHADE_CHANGE = 0.25, 45.0
-MOST_PIECES = 120
-LEAST_WHOLE_RATIO = 0.7
-MOST_BEND_PX = 0.6
+MAX_COLOUR_RATIO, MAX_SHADE_CHANGE = 0.25, 45.0
+MAX_PIECES = 120
+MIN_WHOLE_RATIO = 0.7
+MAX_BEND_PX = 0.6
 # Noise alone would make the line far surer; uneven light on a wire moves both sides alike. Another needle
 # before it, or fat as bright as it is, may end a needle early.
-LEAST_ACROSS_SD_PX, ALONG_SD_PX = 0.5, 8.0
+MIN_ACROSS_SD_PX, ALONG_SD_PX = 0.5, 8.0
 NEAR_PX, NEAR_DEG = 12.0, 12.0
 SAME_PX, SAME_END_PX = 3.5, 20.0
 
@@ -94,12 +94,12 @@ def find_needles(
     grey = np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY), dtype=np.uint8)
     pieces = bars(grey, span.narrowest_px, span.widest_px)
     likely = [bar for bar in pieces if _is_metal(picture, bar) and (near is None or _is_near(bar, near))]
-    found = _grown(picture, camera, likely[:MOST_PIECES], heads)
+    found = _grown(picture, camera, likely[:MAX_PIECES], heads)
     headed = [one for one in found if one.has_head]
     if near is None and headed:
         width_px = float(np.median([one.seen.width_px for one in headed]))
         halves = half_bars(grey, width_px, [_bar_of(one) for one in headed])
-        found += _grown(picture, camera, halves[:MOST_PIECES], heads, found)
+        found += _grown(picture, camera, halves[:MAX_PIECES], heads, found)
     # Of two that lie on one another the longer: what crosses a needle makes it short, and leads it astray.
     longest = sorted(found, key=lambda one: -one.score_ratio * one.seen.length_px)
     return tuple(sorted(_each_once(longest), key=lambda one: -one.score_ratio))
@@ -161,25 +161,23 @@ def _judged(
     run = _run(sections)
     good = np.flatnonzero(sections.is_bar[run]) + run.start
     length = float(run.stop - run.start)
-    if length < LEAST_LENGTH_IN_WIDTHS * width or len(good) < LEAST_WHOLE_RATIO * length:
+    if length < MIN_LENGTH_IN_WIDTHS * width or len(good) < MIN_WHOLE_RATIO * length:
         return None
     beside = np.array([-along[1], along[0]])
     points = middle + sections.at_px[good, None] * along + sections.off_px[good, None] * beside
     ends, bend = _straight(camera, points)
-    if bend > MOST_BEND_PX:
+    if bend > MAX_BEND_PX:
         return None
     if (ends[1] - ends[0]) @ heads_to < 0.0:
         ends = ends[::-1]
     has_head = head_length_px(picture, ends[1], ends[1] - ends[0], width) > 0.0
     whole = len(good) / length
     spread = float(np.std(sections.width_px[good]) / width)
-    score = (
-        whole * (1.0 - bend / (2.0 * MOST_BEND_PX)) * (1.0 - min(spread, 0.5)) * (1.0 if has_head else 0.5)
-    )
+    score = whole * (1.0 - bend / (2.0 * MAX_BEND_PX)) * (1.0 - min(spread, 0.5)) * (1.0 if has_head else 0.5)
     seen = NeedleSeen(
         entry_px=ends[0],
         head_px=ends[1],
-        across_sd_px=max(LEAST_ACROSS_SD_PX, 3.0 * bend / np.sqrt(len(good))),
+        across_sd_px=max(MIN_ACROSS_SD_PX, 3.0 * bend / np.sqrt(len(good))),
         along_sd_px=ALONG_SD_PX,
         width_px=width,
     )
@@ -205,7 +203,7 @@ def _is_metal(picture: Image8, bar: Bar) -> bool:
     height, width = picture.shape[:2]
     colour = picture[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)].astype(np.float64)
     middle = np.median(colour, axis=0)
-    return bool(np.ptp(middle) <= MOST_COLOUR_RATIO * max(float(middle.max()), 40.0))
+    return bool(np.ptp(middle) <= MAX_COLOUR_RATIO * max(float(middle.max()), 40.0))
 
 
 def _of_one_shade(sections: Sections) -> Sections:
@@ -215,7 +213,7 @@ def _of_one_shade(sections: Sections) -> Sections:
     own = np.median(sections.inside[sections.is_bar], axis=0)
     off = np.linalg.norm(sections.inside - own, axis=1) / np.sqrt(3.0)
     colour = np.ptp(sections.inside, axis=1) / np.maximum(sections.inside.max(axis=1), 40.0)
-    alike = (off < MOST_SHADE_CHANGE) & (colour < 1.5 * MOST_COLOUR_RATIO)
+    alike = (off < MAX_SHADE_CHANGE) & (colour < 1.5 * MAX_COLOUR_RATIO)
     return dataclasses.replace(sections, is_bar=sections.is_bar & alike)
 
 

@@ -8,7 +8,7 @@ from tracker.registration.needles.finding.sections import cut
 
 Image8 = npt.NDArray[np.uint8]
 WIDTHS = (2.0, 2.5, 3.0, 3.6, 4.3)
-LEAST_SECTIONS = 3
+MIN_SECTIONS = 3
 
 
 def head_length_px(picture: Image8, end_px: Array, outwards: Array, width_px: float) -> float:
@@ -28,6 +28,6 @@ def head_length_px(picture: Image8, end_px: Array, outwards: Array, width_px: fl
         beyond = cut(picture, end_px, along, wide, 1.4 * wide + width_px, 2.0 * wide + width_px)
         centred = sections.is_bar & (np.abs(sections.off_px) < 0.25 * wide)
         # A head ends; a handle, or the rim of something large, goes on.
-        if np.count_nonzero(centred) >= max(LEAST_SECTIONS, 0.3 * wide) and beyond.is_bar.mean() < 0.5:
+        if np.count_nonzero(centred) >= max(MIN_SECTIONS, 0.3 * wide) and beyond.is_bar.mean() < 0.5:
             best = max(best, float(np.count_nonzero(centred)))
     return best

@@ -11,8 +11,8 @@ from tracker.geometry import Array
 Image8 = npt.NDArray[np.uint8]
 FINE_PX = 0.25
 # Levels of 255, over the whole colour: fainter sides are noise.
-LEAST_STEP = 18.0
-MOST_WIDTH_CHANGE_RATIO = 0.3
+MIN_STEP = 18.0
+MAX_WIDTH_CHANGE_RATIO = 0.3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +69,7 @@ def cut(
         sides.append(_crossing(rows, across, inside, outside, sign, width_px))
     left, right = sides
     width = right - left
-    good = np.isfinite(width) & (np.abs(width - width_px) < MOST_WIDTH_CHANGE_RATIO * width_px)
+    good = np.isfinite(width) & (np.abs(width - width_px) < MAX_WIDTH_CHANGE_RATIO * width_px)
     inner = (where.min(axis=1) > 1.0).all(axis=1) & (
         where.max(axis=1) < np.array([image.shape[1] - 2.0, image.shape[0] - 2.0])
     ).all(axis=1)
@@ -88,7 +88,7 @@ def _crossing(
     run = share[:, side]
     below = run < 0.5
     first = np.argmax(below, axis=1)
-    found = below.any(axis=1) & (first > 0) & (size > LEAST_STEP)
+    found = below.any(axis=1) & (first > 0) & (size > MIN_STEP)
     before = np.maximum(first - 1, 0)
     index = np.arange(len(run))
     high, low = run[index, before], run[index, first]

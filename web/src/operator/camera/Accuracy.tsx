@@ -38,7 +38,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
         onChecked();
       });
   };
-  const limit = { kind: "most", value: gate.most_error_mm } as const;
+  const limit = { kind: "most", value: gate.max_error_mm } as const;
   return (
     <Card
       title={words.accuracyTitle}

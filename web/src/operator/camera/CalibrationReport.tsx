@@ -38,7 +38,7 @@ export function CalibrationReport({ caseId, kept, gate, fresh }: CalibrationRepo
           name={words.rms}
           value={report.rmsPx}
           unit="px"
-          limit={{ kind: "most", value: gate.most_rms_px }}
+          limit={{ kind: "most", value: gate.max_rms_px }}
           testId="calibration-rms"
         />
         <Measure name={words.noise} value={report.noisePx} unit="px" />

@@ -64,7 +64,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
       <RefusalNote refusal={data.trouble === null ? null : new Refusal(data.trouble)} />
       <div className="coverage-row">
         <Coverage collected={data} />
-        <TiltCross tiltDeg={data.tilt_deg} wantedDeg={collecting.least_tilt_deg} />
+        <TiltCross tiltDeg={data.tilt_deg} wantedDeg={collecting.min_tilt_deg} />
       </div>
       <dl className="measures">
         <Measure
@@ -72,7 +72,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           value={data.views.length}
           unit=""
           decimals={0}
-          limit={{ kind: "least", value: collecting.least_views }}
+          limit={{ kind: "least", value: collecting.min_views }}
           bar
           testId="views"
         />
@@ -81,7 +81,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           value={100 * data.coverage_ratio}
           unit="%"
           decimals={0}
-          limit={{ kind: "least", value: 100 * collecting.least_coverage_ratio }}
+          limit={{ kind: "least", value: 100 * collecting.min_coverage_ratio }}
           bar
         />
       </dl>

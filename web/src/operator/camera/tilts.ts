@@ -11,12 +11,12 @@ export interface Arm {
 
 /** From least and most lean (upper edge away is above 0), least and most turn (left edge away is above 0). */
 export function armsOf(tiltDeg: readonly number[], wantedDeg: number): Arm[] {
-  const [leastLean = 0, mostLean = 0, leastTurn = 0, mostTurn = 0] = tiltDeg;
+  const [minLean = 0, maxLean = 0, minTurn = 0, maxTurn = 0] = tiltDeg;
   const reached: [Way, number][] = [
-    ["up", mostLean],
-    ["down", -leastLean],
-    ["left", mostTurn],
-    ["right", -leastTurn],
+    ["up", maxLean],
+    ["down", -minLean],
+    ["left", maxTurn],
+    ["right", -minTurn],
   ];
   return reached.map(([way, deg]) => {
     const reachedDeg = Math.max(0, deg);

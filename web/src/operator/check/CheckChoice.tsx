@@ -17,12 +17,12 @@ import { useTools } from "../registration/useTools";
 interface CheckChoiceProps {
   vertebra: string;
   used: readonly string[];
-  mostMm: number;
+  maxMm: number;
   onBegun: () => void;
 }
 
 /** Which landmark is checked on: one that the registration was not made from. */
-export function CheckChoice({ vertebra, used, mostMm, onBegun }: CheckChoiceProps): ReactNode {
+export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps): ReactNode {
   const words = useWords().check;
   const plan = useAsked((signal) => answered(server.GET("/api/plan", { signal })));
   const first = useTools()?.[0]?.name ?? "";
@@ -42,7 +42,7 @@ export function CheckChoice({ vertebra, used, mostMm, onBegun }: CheckChoiceProp
       </div>
       <section className="card work-side">
         <h3>{words.choose}</h3>
-        <p>{filled(words.why, { most: mostMm })}</p>
+        <p>{filled(words.why, { most: maxMm })}</p>
         {free.length === 0 && <p className="warning">▲ {words.noneFree}</p>}
         <ul className="landmarks">
           {landmarks.map((one) => {

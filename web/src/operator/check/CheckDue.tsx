@@ -18,7 +18,7 @@ export function CheckDue({ rule, fresh }: CheckDueProps): ReactNode {
   const words = useWords().check;
   const step = useProcedure().data?.steps.find((one) => one.step === "check");
   const left = minutesLeft(step?.numbers["age_min"], rule.again_after_min);
-  const every = filled(words.every, { minutes: rule.again_after_min, most: shownNumber(rule.most_mm, 1) });
+  const every = filled(words.every, { minutes: rule.again_after_min, most: shownNumber(rule.max_mm, 1) });
   const said = useIntoView<HTMLParagraphElement>(fresh);
   if (step?.state === "due")
     return (

@@ -20,13 +20,13 @@ export function CheckOutcome({ outcome }: { outcome: components["schemas"]["Kept
       <p className="outcome-figure">
         {shownNumber(outcome.distance_mm, 1)} <span className="unit">mm</span>
         <small>
-          {words.allowed} {shownNumber(outcome.most_mm, 1)} mm
+          {words.allowed} {shownNumber(outcome.max_mm, 1)} mm
         </small>
       </p>
       <Progress
         size="xl"
         color={outcome.passed ? "teal" : "yellow"}
-        value={Math.min(100, (100 * outcome.distance_mm) / outcome.most_mm)}
+        value={Math.min(100, (100 * outcome.distance_mm) / outcome.max_mm)}
         aria-label={words.distance}
       />
       <p>

@@ -57,7 +57,7 @@ function Checking({ registrationId }: { registrationId: string }): ReactNode {
         <CheckChoice
           vertebra={vertebra}
           used={usedLandmarks(registration.data.made_from)}
-          mostMm={check.most_mm}
+          maxMm={check.max_mm}
           onBegun={running.again}
         />
       )}

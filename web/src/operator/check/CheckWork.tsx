@@ -49,7 +49,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
       <section className="card work-side">
         <h3>{capture.landmark}</h3>
         <ToolSeen tool={data.tool} />
-        <CaptureProgress capture={capture} mostSpreadMm={data.most_spread_mm} />
+        <CaptureProgress capture={capture} maxSpreadMm={data.max_spread_mm} />
         {outcome === null ? <p className="quiet">{words.byEye}</p> : <CheckOutcome outcome={outcome} />}
         <Refused refusal={doing.refusal} />
         <Button

@@ -45,8 +45,8 @@ export function Gates(): ReactNode {
 }
 
 /** On what it was checked and how far off it was; nothing where no check says so. */
-function checkSaid(words: string, { landmark, distance_mm, most_mm }: Step["numbers"]): string {
-  if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof most_mm !== "number")
+function checkSaid(words: string, { landmark, distance_mm, max_mm }: Step["numbers"]): string {
+  if (typeof landmark !== "string" || typeof distance_mm !== "number" || typeof max_mm !== "number")
     return "";
-  return filled(words, { landmark, mm: shownNumber(distance_mm, 1), most: shownNumber(most_mm, 1) });
+  return filled(words, { landmark, mm: shownNumber(distance_mm, 1), most: shownNumber(max_mm, 1) });
 }

@@ -10,11 +10,11 @@ import { Refused } from "./Refused";
 
 interface CaptureProgressProps {
   capture: components["schemas"]["TouchMessage"];
-  mostSpreadMm: number;
+  maxSpreadMm: number;
 }
 
 /** How far the tip at rest has been seen, how still it was, or why it was refused. */
-export function CaptureProgress({ capture, mostSpreadMm }: CaptureProgressProps): ReactNode {
+export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps): ReactNode {
   const words = useWords().registration.capture;
   if (capture.state === "refused" && capture.trouble !== null)
     return (
@@ -33,7 +33,7 @@ export function CaptureProgress({ capture, mostSpreadMm }: CaptureProgressProps)
         {filled(words.taken, {
           images: capture.images,
           spread: shownNumber(worst, 2),
-          most: shownNumber(mostSpreadMm, 2),
+          most: shownNumber(maxSpreadMm, 2),
         })}
       </p>
     );

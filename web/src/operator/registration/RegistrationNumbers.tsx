@@ -25,7 +25,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
       hint={words.atEntryHint}
       value={of("tre_at_entry_mm")}
       unit="mm"
-      most={of("most_tre_mm")}
+      most={of("max_tre_mm")}
     />
   );
   if (method === "needles")
@@ -58,14 +58,14 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
           hint={words.freHint}
           value={of("fre_rms_mm")}
           unit="mm"
-          most={of("most_fre_mm")}
+          most={of("max_fre_mm")}
         />
         <Measure
           name={words.leftOut}
           hint={words.leftOutHint}
           value={of("left_out_mm")}
           unit="mm"
-          most={of("most_left_out_mm")}
+          most={of("max_left_out_mm")}
         />
       </dl>
     );
@@ -78,7 +78,7 @@ export function RegistrationNumbers({ method, numbers }: RegistrationNumbersProp
           hint={words.rmsHint}
           value={of("rms_mm")}
           unit="mm"
-          most={of("most_rms_mm")}
+          most={of("max_rms_mm")}
         />
         <Measure name={words.movedMm} value={of("moved_mm")} unit="mm" />
         <Measure name={words.movedDeg} value={of("moved_deg")} unit="°" />

@@ -8,13 +8,13 @@ import { useWords } from "../../words/WordsContext";
 import { shownTime } from "../parts/shown";
 import { alarmsIn } from "./alarmSummary";
 
-const MOST_LINES = 10_000;
+const MAX_LINES = 10_000;
 
 /** The alarm log in short: which, how often, from when to when, acknowledged by whom. */
 export function Alarms(): ReactNode {
   const words = useWords();
   const asked = useAsked((signal) =>
-    answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MOST_LINES } } })),
+    answered(server.GET("/api/alarms/log", { signal, params: { query: { last: MAX_LINES } } })),
   );
   const { data } = asked;
   const alarms = data === null ? [] : alarmsIn(data.lines);
@@ -23,7 +23,7 @@ export function Alarms(): ReactNode {
       <h4>{words.report.alarms}</h4>
       {data === null && <Unanswered asked={asked} />}
       {data !== null && alarms.length === 0 && <p className="soft">{words.report.noAlarms}</p>}
-      {data?.lines.length === MOST_LINES && <p className="bad">▲ {words.report.logCut}</p>}
+      {data?.lines.length === MAX_LINES && <p className="bad">▲ {words.report.logCut}</p>}
       {alarms.length > 0 && (
         <Table.ScrollContainer minWidth={480}>
           <Table>

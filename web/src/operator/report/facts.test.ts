@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { factsOf } from "./facts";
 
 test("a check says on what, how far off, and what was allowed", () => {
-  const content = { landmark: "left process", distance_mm: 0.8, most_mm: 2, passed: true, run: "7f" };
+  const content = { landmark: "left process", distance_mm: 0.8, max_mm: 2, passed: true, run: "7f" };
   expect(factsOf("check", content)).toEqual([
     { name: "landmark", value: "left process", unit: "", most: null },
     { name: "distance", value: 0.8, unit: "mm", most: 2 },
@@ -10,7 +10,7 @@ test("a check says on what, how far off, and what was allowed", () => {
 });
 
 test("a registration says how, and its numbers with their limits, and nothing of the settings", () => {
-  const numbers = { fre_rms_mm: 0.4, most_fre_mm: 1, tre_at_entry_mm: 0.9, most_tre_mm: 2, points: 4 };
+  const numbers = { fre_rms_mm: 0.4, max_fre_mm: 1, tre_at_entry_mm: 0.9, max_tre_mm: 2, points: 4 };
   expect(factsOf("registration", { method: "points", numbers })).toEqual([
     { name: "method", value: "points", unit: "", most: null },
     { name: "atEntry", value: 0.9, unit: "mm", most: 2 },
@@ -26,7 +26,7 @@ test("a camera says its fit in pixels", () => {
 
 test.each([
   ["tool", {}],
-  ["check", { distance_mm: "near", most_mm: 2 }],
+  ["check", { distance_mm: "near", max_mm: 2 }],
   ["registration", { numbers: null }],
   ["ct", { shape: [1, 2, 3] }],
 ] as const)("what a %s does not say is not guessed", (kind, content) => {

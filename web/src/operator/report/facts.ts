@@ -28,7 +28,7 @@ export function factsOf(kind: string, content: Content): Fact[] {
 function checkFacts(content: Content): Fact[] {
   return some(
     said("landmark", content["landmark"]),
-    mm("distance", content["distance_mm"], content["most_mm"]),
+    mm("distance", content["distance_mm"], content["max_mm"]),
     mm("known", content["maximum_error_mm"], content["limit_mm"]),
     mm("tipMoved", content["rms_3d_mm"]),
   );
@@ -38,11 +38,11 @@ function registrationFacts(content: Content): Fact[] {
   const numbers = part(content["numbers"]);
   return some(
     said("method", content["method"]),
-    mm("atEntry", numbers["tre_at_entry_mm"], numbers["most_tre_mm"]),
-    mm("points", numbers["fre_rms_mm"], numbers["most_fre_mm"]),
-    mm("leftOut", numbers["left_out_mm"], numbers["most_left_out_mm"]),
+    mm("atEntry", numbers["tre_at_entry_mm"], numbers["max_tre_mm"]),
+    mm("points", numbers["fre_rms_mm"], numbers["max_fre_mm"]),
+    mm("leftOut", numbers["left_out_mm"], numbers["max_left_out_mm"]),
     mm("needle", numbers["worst_offset_mm"]),
-    mm("surface", numbers["rms_mm"], numbers["most_rms_mm"]),
+    mm("surface", numbers["rms_mm"], numbers["max_rms_mm"]),
     mm("nudged", numbers["nudged_mm"]),
   );
 }

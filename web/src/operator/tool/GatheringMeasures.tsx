@@ -10,8 +10,8 @@ const KINDS = ["not_seen", "too_uncertain", "jumped", "nothing_new"] as const;
 export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate: ToolGate }): ReactNode {
   const words = useWords().tool;
   const { outcome, purpose } = gathered;
-  const tilt = { kind: "least", value: gate.least_tilt_deg } as const;
-  const rms = { kind: "most", value: gate.most_rms_3d_mm } as const;
+  const tilt = { kind: "least", value: gate.min_tilt_deg } as const;
+  const rms = { kind: "most", value: gate.max_rms_3d_mm } as const;
   const passedOver = KINDS.filter((kind) => (gathered.passed_over[kind] ?? 0) > 0);
   return (
     <>
@@ -21,7 +21,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
           value={gathered.taken}
           unit=""
           decimals={0}
-          limit={{ kind: "least", value: gate.least_poses }}
+          limit={{ kind: "least", value: gate.min_poses }}
           bar
           testId="poses"
         />
@@ -31,7 +31,7 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
             value={gathered.spin_range_deg}
             unit="°"
             decimals={0}
-            limit={{ kind: "least", value: gate.least_spin_deg }}
+            limit={{ kind: "least", value: gate.min_spin_deg }}
             bar
           />
         ) : (
@@ -60,13 +60,13 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
               name={words.axisSd}
               value={outcome?.axis_sd_deg ?? null}
               unit="°"
-              limit={{ kind: "most", value: gate.most_axis_sd_deg }}
+              limit={{ kind: "most", value: gate.max_axis_sd_deg }}
             />
             <Measure
               name={words.wobble}
               value={outcome?.wobble_deg ?? null}
               unit="°"
-              limit={{ kind: "most", value: gate.most_wobble_deg }}
+              limit={{ kind: "most", value: gate.max_wobble_deg }}
             />
           </>
         ) : (
@@ -83,11 +83,11 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
             name={words.tipSd}
             value={outcome?.tip_sd_mm ?? null}
             unit="mm"
-            limit={{ kind: "most", value: gate.most_tip_sd_mm }}
+            limit={{ kind: "most", value: gate.max_tip_sd_mm }}
           />
         )}
         {purpose === "tip_check" && (
-          <Measure name={words.checkMost} value={outcome?.most_mm ?? null} unit="mm" />
+          <Measure name={words.checkMost} value={outcome?.max_mm ?? null} unit="mm" />
         )}
       </dl>
       {gathered.outcome_trouble !== null && gathered.taken > 0 && (

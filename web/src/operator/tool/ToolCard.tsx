@@ -48,26 +48,26 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
               name={words.tipRms}
               value={kept.tipRmsMm}
               unit="mm"
-              limit={{ kind: "most", value: gate.most_rms_3d_mm }}
+              limit={{ kind: "most", value: gate.max_rms_3d_mm }}
             />
             <Measure
               name={words.tilt}
               value={kept.tiltDeg}
               unit="°"
               decimals={0}
-              limit={{ kind: "least", value: gate.least_tilt_deg }}
+              limit={{ kind: "least", value: gate.min_tilt_deg }}
             />
             <Measure
               name={words.axisSd}
               value={kept.axisSdDeg}
               unit="°"
-              limit={{ kind: "most", value: gate.most_axis_sd_deg }}
+              limit={{ kind: "most", value: gate.max_axis_sd_deg }}
             />
             <Measure
               name={words.wobble}
               value={kept.wobbleDeg}
               unit="°"
-              limit={{ kind: "most", value: gate.most_wobble_deg }}
+              limit={{ kind: "most", value: gate.max_wobble_deg }}
             />
           </>
         )}
@@ -79,14 +79,14 @@ export function ToolCard({ tool, gate, documents, busy, fresh, onBegin }: ToolCa
         />
         <Measure name={words.length} value={kept?.lengthMm ?? tool.length_mm} unit="mm" decimals={0} />
         {tool.check?.heading.current === true && (
-          <Measure name={words.checkMost} value={number(tool.check.content["most_mm"])} unit="mm" />
+          <Measure name={words.checkMost} value={number(tool.check.content["max_mm"])} unit="mm" />
         )}
         {tool.check?.heading.current === true && (
           <Measure
             name={words.checkRms}
             value={number(tool.check.content["rms_3d_mm"])}
             unit="mm"
-            limit={{ kind: "most", value: gate.most_rms_3d_mm }}
+            limit={{ kind: "most", value: gate.max_rms_3d_mm }}
           />
         )}
       </dl>

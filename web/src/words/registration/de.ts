@@ -146,7 +146,7 @@ export const registrationDe: RegistrationWords = {
     take: "Spitze ist am Knochen: weiter",
     fit: "Auf den Knochen legen",
     fitting: "Die Punkte werden auf den Knochen gelegt. Das dauert einige Sekunden.",
-    leastHeld: "Am wenigsten gehalten",
+    minHeld: "Am wenigsten gehalten",
     ways: {
       "to the left or right": "nach links oder rechts",
       "to the front or back": "nach vorn oder hinten",

@@ -145,7 +145,7 @@ export const registrationEn = {
     take: "The tip is on the bone: go on",
     fit: "Lay it on the bone",
     fitting: "The sweep is being laid on the bone. This takes some seconds.",
-    leastHeld: "Held least",
+    minHeld: "Held least",
     ways: {
       "to the left or right": "to the left or right",
       "to the front or back": "to the front or back",

@@ -14,10 +14,10 @@ import { Stepper } from "../Stepper";
 import {
   anglesOf,
   isSame,
-  LEAST_DIAMETER_MM,
+  MIN_DIAMETER_MM,
   lengthened,
   lengthMm,
-  MOST_DIAMETER_MM,
+  MAX_DIAMETER_MM,
   shifted,
   turnedBy,
   type Draft,
@@ -108,7 +108,7 @@ export function ChannelByHand({ of, draft, planned }: ChannelByHandProps): React
         value={`${shownNumber(draft.diameterMm, 1)} mm`}
         onStep={(direction) => {
           const wanted = draft.diameterMm + direction * STEP_MM;
-          put({ ...draft, diameterMm: Math.min(MOST_DIAMETER_MM, Math.max(LEAST_DIAMETER_MM, wanted)) });
+          put({ ...draft, diameterMm: Math.min(MAX_DIAMETER_MM, Math.max(MIN_DIAMETER_MM, wanted)) });
         }}
       />
       <div className="buttons">

@@ -8,8 +8,8 @@ export interface Draft {
   diameterMm: number;
 }
 
-export const MOST_DIAMETER_MM = 20;
-export const LEAST_DIAMETER_MM = 1;
+export const MAX_DIAMETER_MM = 20;
+export const MIN_DIAMETER_MM = 1;
 
 export function draftOf(channel: Channel): Draft {
   return {

@@ -3,7 +3,7 @@ import { useRef, useState } from "react";
 import { Refusal } from "../../../rest/client";
 import type { Job } from "../../../rest/useJob";
 import { sent } from "./send";
-import { MOST_BYTES, MOST_FILES, zipped } from "./zip";
+import { MAX_BYTES, MAX_FILES, zipped } from "./zip";
 
 export type Phase = "packing" | "sending" | "fetching";
 
@@ -67,7 +67,7 @@ export function useUpload(address: () => string, onTaken: (begun: Begun) => void
       return;
     }
     const bytes = files.reduce((sum, file) => sum + file.size, 0);
-    if (files.length > MOST_FILES || bytes > MOST_BYTES) {
+    if (files.length > MAX_FILES || bytes > MAX_BYTES) {
       setState({ ...IDLE, isTooMuch: true });
       return;
     }

@@ -5,8 +5,8 @@ const CENTRAL = 0x02014b50;
 const END = 0x06054b50;
 const UTF8 = 0x0800;
 /** What a zip without the 64-bit extension holds. */
-export const MOST_FILES = 65_000;
-export const MOST_BYTES = 2 ** 32 - 2 ** 26;
+export const MAX_FILES = 65_000;
+export const MAX_BYTES = 2 ** 32 - 2 ** 26;
 
 const TABLE = Uint32Array.from({ length: 256 }, (_, n) => {
   let c = n;

@@ -32,7 +32,7 @@ export function LandmarksPart(): ReactNode {
       ),
     );
   };
-  const least = catalogue?.least_landmarks ?? null;
+  const least = catalogue?.min_landmarks ?? null;
   const isEnough = least !== null && landmarks.length >= least;
   return (
     <>

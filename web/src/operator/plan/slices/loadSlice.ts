@@ -9,10 +9,10 @@ export interface Slice {
 }
 
 // About 1 MB each.
-const MOST_KEPT = 80;
+const MAX_KEPT = 80;
 
 /** One shelf for all views: the same slice is never fetched twice while it is there. */
-export const shelf = new SliceShelf<Slice>(MOST_KEPT);
+export const shelf = new SliceShelf<Slice>(MAX_KEPT);
 
 /** The case has another CT now than the one that is looked at. */
 export class OtherCt extends Error {}

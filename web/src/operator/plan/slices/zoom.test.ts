@@ -43,6 +43,6 @@ test.each([
   [1, 100, 100],
   [40, 100, 2],
   [0.9, 100, 100],
-])("at %d px/mm a ruler of at most %d px is %d mm long", (pxPerMm, mostPx, mm) => {
-  expect(rulerMm(pxPerMm, mostPx)).toBe(mm);
+])("at %d px/mm a ruler of at most %d px is %d mm long", (pxPerMm, maxPx, mm) => {
+  expect(rulerMm(pxPerMm, maxPx)).toBe(mm);
 });

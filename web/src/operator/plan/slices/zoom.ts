@@ -91,8 +91,8 @@ export function showing(zoom: Zoom, stage: Stage, [x, y]: Vec2, marginRatio = 0.
 }
 
 /** The length of a ruler that is easily read: 1, 2 or 5 times a power of ten, at most so many pixels long. */
-export function rulerMm(pxPerMm: number, mostPx: number): number {
-  const most = mostPx / pxPerMm;
+export function rulerMm(pxPerMm: number, maxPx: number): number {
+  const most = maxPx / pxPerMm;
   const ten = 10 ** Math.floor(Math.log10(most));
   return ([5, 2].find((digit) => digit * ten <= most) ?? 1) * ten;
 }

@@ -40,8 +40,8 @@ export interface Screw {
   diameter_mm: number;
   length_mm: number;
   clearance: Record<`${(typeof WALLS)[number]}_mm`, number> & { breach_mm: number; grade: string };
-  tolerance: { most_offset_mm: number; most_angle_deg: number; both_mm: number; both_deg: number };
-  bone: { mean_hu: number; least_hu: number; inside_ratio: number };
+  tolerance: { max_offset_mm: number; max_angle_deg: number; both_mm: number; both_deg: number };
+  bone: { mean_hu: number; min_hu: number; inside_ratio: number };
 }
 
 export interface PlannedChannel {

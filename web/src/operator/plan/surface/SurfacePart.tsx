@@ -47,7 +47,7 @@ export function SurfacePart(): ReactNode {
       job.follow(
         await answered(
           server.POST("/api/surface/from-ct", {
-            body: { made_by: madeBy, largest_part_only: true, smoothing_rounds: 10, most_faces: 60_000 },
+            body: { made_by: madeBy, largest_part_only: true, smoothing_rounds: 10, max_faces: 60_000 },
           }),
         ),
       );

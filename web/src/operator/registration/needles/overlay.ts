@@ -13,8 +13,8 @@ export interface Overlay {
   fade_ratio: number;
 }
 
-export const LEAST_SCALE = 0.05;
-export const MOST_SCALE = 100;
+export const MIN_SCALE = 0.05;
+export const MAX_SCALE = 100;
 
 export function moved(overlay: Overlay, by: Px): Overlay {
   const [x, y] = placeOf(overlay);
@@ -35,7 +35,7 @@ export function turned(overlay: Overlay, byDeg: number, about: Px): Overlay {
 
 /** Held within what the server takes, with the place that belongs to the scale that it then has. */
 export function scaled(overlay: Overlay, byRatio: number, about: Px): Overlay {
-  const scale = clamp(overlay.scale_px_per_mm * byRatio, LEAST_SCALE, MOST_SCALE);
+  const scale = clamp(overlay.scale_px_per_mm * byRatio, MIN_SCALE, MAX_SCALE);
   const ratio = scale / overlay.scale_px_per_mm;
   const [x, y] = placeOf(overlay);
   return {

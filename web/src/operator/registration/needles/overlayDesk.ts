@@ -15,7 +15,7 @@ export interface DeskState {
   canUndo: boolean;
 }
 
-const MOST_UNDO = 50;
+const MAX_UNDO = 50;
 
 export class OverlayDesk {
   private hand: Overlay | null = null;
@@ -57,7 +57,7 @@ export class OverlayDesk {
   /** Remembers where the slice is, before a hand moves it. */
   begin(): void {
     if (this.hand === null) return;
-    this.before = [...this.before.slice(-MOST_UNDO), this.hand];
+    this.before = [...this.before.slice(-MAX_UNDO), this.hand];
   }
 
   change(next: (hand: Overlay) => Overlay): void {

@@ -8,8 +8,8 @@ import { useWords } from "../../../words/WordsContext";
 export function NudgeSums({ nudges }: { nudges: components["schemas"]["NudgesMessage"] }): ReactNode {
   const words = useWords().registration.nudges;
   const sums = [
-    { name: words.sumMm, value: nudges.shift_mm, most: nudges.most_mm, unit: "mm" },
-    { name: words.sumDeg, value: nudges.turn_deg, most: nudges.most_deg, unit: "°" },
+    { name: words.sumMm, value: nudges.shift_mm, most: nudges.max_mm, unit: "mm" },
+    { name: words.sumDeg, value: nudges.turn_deg, most: nudges.max_deg, unit: "°" },
   ];
   return (
     <dl className="limits" data-testid="nudge-sums">

@@ -37,12 +37,12 @@ export function CapturePanel({
         {filled(words.points.count, {
           touched,
           all: points.landmarks.length,
-          least: limits.least_points,
+          least: limits.min_points,
         })}
       </p>
       <h3 data-testid="wanted">{wanted ?? words.points.enough}</h3>
       <ToolSeen tool={points.tool} />
-      {capture !== null && <CaptureProgress capture={capture} mostSpreadMm={limits.most_spread_mm} />}
+      {capture !== null && <CaptureProgress capture={capture} maxSpreadMm={limits.max_spread_mm} />}
       <div className="row">
         <Button
           size="xl"

@@ -15,7 +15,7 @@ export function SweepFit({ fit }: { fit: components["schemas"]["SweepFitMessage"
     <section className="card" data-testid="sweep-fit-told" aria-live="polite">
       <RegistrationNumbers method="surface" numbers={fit.numbers} />
       <p>
-        {words.leastHeld}: <strong>{way}</strong>
+        {words.minHeld}: <strong>{way}</strong>
       </p>
       {fit.remarks.map((remark) => (
         <p className="warning" key={remark.code}>
