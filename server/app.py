@@ -17,7 +17,7 @@ from server.api.ct import ct_router
 from server.api.dashboard import PRODUCT, dashboard_message, dashboard_router, product_version
 from server.api.documentation import DocumentedApi, documentation_router
 from server.api.doing import know_who_asks
-from server.api.errors import install_errors, refusals
+from server.api.errors import install_errors, rejections
 from server.api.gates import gates_router
 from server.api.guide import guide_folder, is_guide, mount_guide
 from server.api.health import health_router
@@ -32,9 +32,9 @@ from server.api.people import people_router
 from server.api.plan import plan_router
 from server.api.procedure import procedure_router
 from server.api.readout import readout_router
-from server.api.refused_uploads import RefusedUploads
 from server.api.registration import registration_router
 from server.api.rehearsal import rehearsal_router
+from server.api.rejected_uploads import RejectedUploads
 from server.api.session import session_router
 from server.api.streams import SOCKETS_IN_WORDS, streams_router
 from server.api.supervision import ROOM_IN_WORDS, room_router, signatures_router
@@ -132,7 +132,7 @@ def create_app(parts: AppParts) -> FastAPI:
         redoc_url=None,
         lifespan=lifespan,
         dependencies=[Depends(know_who_asks)],
-        responses=refusals(401, 403, 413, 421, 429, 500),
+        responses=rejections(401, 403, 413, 421, 429, 500),
     )
     _add_guards(app, parts)
     app.state.pictures = pictures
@@ -202,7 +202,7 @@ def _add_guards(app: FastAPI, parts: AppParts) -> None:
         )
     app.add_middleware(HostGuard, hosts=KnownHosts.of(server.host))
     app.add_middleware(SecurityHeaders)
-    app.add_middleware(RefusedUploads)
+    app.add_middleware(RejectedUploads)
 
 
 def _add_people(app: FastAPI, parts: AppParts) -> None:

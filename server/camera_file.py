@@ -113,7 +113,7 @@ def readout_in(camera: Mapping[str, object]) -> float | None:
     )
 
 
-def refuse_other_camera(file: CameraFile, *, path: Path, name: str, source: object) -> None:
+def reject_other_camera(file: CameraFile, *, path: Path, name: str, source: object) -> None:
     """Refuse a camera file that says it is of another camera; one that does not say is let be.
 
     Raises:

@@ -11,7 +11,7 @@ import yaml
 from pydantic import ValidationError
 
 from server.allowed import allowed_keys, allowed_text, key_text
-from server.camera_file import read_camera_file, refuse_other_camera
+from server.camera_file import read_camera_file, reject_other_camera
 from server.capture.address import SourceKind, source_from_text
 from server.config import Config
 from server.errors import ConfigError
@@ -290,7 +290,7 @@ def _mistakes_in_files(config: Config, where: _Where) -> list[Mistake]:
         try:
             file = read_camera_file(config.camera.calibration)
             camera = config.camera
-            refuse_other_camera(file, path=config.camera.calibration, name=camera.name, source=camera.source)
+            reject_other_camera(file, path=config.camera.calibration, name=camera.name, source=camera.source)
         except NavigationError as error:
             mistakes.append(_mistake_in_file(("camera", "calibration"), error, where))
     for name, marker in config.markers.items():

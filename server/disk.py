@@ -17,7 +17,7 @@ class DiskFull(NavigationError):
     """There is too little room left on the disk."""
 
 
-def refuse_without_room(folder: Path, needed_bytes: int) -> None:
+def reject_without_room(folder: Path, needed_bytes: int) -> None:
     """To be asked before much is written, so that the disk is not filled for everybody first.
 
     Raises:

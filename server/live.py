@@ -33,7 +33,7 @@ class SourceState(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trouble:
+class Problem:
     """Something that is wrong now, in the one shape that errors have everywhere."""
 
     code: str
@@ -42,7 +42,7 @@ class Trouble:
     context: dict[str, object] = field(default_factory=dict)
 
     @classmethod
-    def from_error(cls, error: NavigationError) -> "Trouble":
+    def from_error(cls, error: NavigationError) -> "Problem":
         """An error, from the moment on when it is a state rather than an event."""
         return cls(code=error.code, message=error.message, remedy=error.remedy, context=dict(error.context))
 
@@ -123,7 +123,7 @@ class SourceStatus:
 
     name: str
     state: SourceState
-    trouble: Trouble | None = None
+    problem: Problem | None = None
     images: int = 0
     skipped_images: int = 0
     rate_hz: float = 0.0
@@ -152,7 +152,7 @@ class ProcessStatus:
 
     state: ProcessState
     restarts: int = 0
-    trouble: Trouble | None = None
+    problem: Problem | None = None
     dropped_images: int = 0
 
 
@@ -193,7 +193,7 @@ class Instant:
         Between two images of a slow camera an instant without a snapshot goes out as a sign of life.
         """
         running = self.source.state is SourceState.RUNNING and self.process.state is ProcessState.RUNNING
-        return self.snapshot is None and (not running or self.process.trouble is not None)
+        return self.snapshot is None and (not running or self.process.problem is not None)
 
     @property
     def has_picture(self) -> bool:

@@ -16,7 +16,7 @@ DESIGNED = "print one that 'coaxial marker design' proposes"
 def warn_of_markers(models: Iterable[MarkerModel]) -> None:
     """Say in the log which of these markers could be taken for itself, turned or mirrored."""
     for model in models:
-        turned, mirrored = model.own_likeness
+        turned, mirrored = model.own_correlation
         if turned > MAX_LIKE_ITSELF:
             how, where = "when it is turned", "where it is small or blurred, its pose may be told turned"
             remedy = f"Measure it with 'coaxial marker check', or {DESIGNED}."
@@ -27,8 +27,8 @@ def warn_of_markers(models: Iterable[MarkerModel]) -> None:
             log.warning(_like(model, how, mirrored, where), code="MARKER_NEARLY_MIRRORED", remedy=remedy)
 
 
-def _like(model: MarkerModel, how: str, likeness: float, where: str) -> str:
+def _like(model: MarkerModel, how: str, correlation: float, where: str) -> str:
     return (
-        f"marker '{model.name}' looks much the same {how} (correlation {likeness:.2f}, "
+        f"marker '{model.name}' looks much the same {how} (correlation {correlation:.2f}, "
         f"better under {MAX_LIKE_ITSELF:g}): {where}"
     )

@@ -120,7 +120,7 @@ def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -
     axis_sd_deg = 0.0
     if tool.calibration is not None:
         file = load_tool_file(tool.calibration)
-        _refuse_another_marker(file, tool, marker)
+        _reject_another_marker(file, tool, marker)
         tip, axis = file.pivot.tip_in_marker_mm, _one_axis(name, tool, file)
         covariance_mm2 = file.pivot.covariance_mm2
         axis_sd_deg = 0.0 if file.spin is None else file.spin.axis_sd_deg
@@ -143,7 +143,7 @@ def tool_from_config(name: str, tool: ToolConfig, marker: MarkerConfig | None) -
     )
 
 
-def _refuse_another_marker(file: ToolFile, tool: ToolConfig, marker: MarkerConfig | None) -> None:
+def _reject_another_marker(file: ToolFile, tool: ToolConfig, marker: MarkerConfig | None) -> None:
     side_mm = file.side_mm if marker is None else marker.side_mm
     if file.marker == tool.marker and abs(side_mm - file.side_mm) <= SIDE_TOLERANCE_RATIO * file.side_mm:
         return

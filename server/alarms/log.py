@@ -92,7 +92,7 @@ class StoredAlarmLog:
         self._changed = threading.Condition()
         self._appended = 0
         self._written = 0
-        self._trouble: NavigationError | None = None
+        self._problem: NavigationError | None = None
         self._stopped = False
         self._free_mb: float | None = None
         self._thread = threading.Thread(target=self._run, name="alarm log", daemon=True)
@@ -101,7 +101,7 @@ class StoredAlarmLog:
     @property
     def is_well(self) -> bool:
         """Whether the last writing went well."""
-        return self._trouble is None
+        return self._problem is None
 
     @property
     def free_mb(self) -> float | None:
@@ -129,13 +129,13 @@ class StoredAlarmLog:
         with self._changed:
             wanted = self._appended
             self._changed.wait_for(
-                lambda: self._written >= wanted or self._trouble is not None, timeout=FLUSH_TIMEOUT_S
+                lambda: self._written >= wanted or self._problem is not None, timeout=FLUSH_TIMEOUT_S
             )
             if self._written >= wanted:
                 return
-            trouble = self._trouble
-        if trouble is not None:
-            raise trouble
+            problem = self._problem
+        if problem is not None:
+            raise problem
         raise StoreError(
             "ALARM_NOT_LOGGED",
             f"it could not be written into the alarm log within {FLUSH_TIMEOUT_S:g} s",
@@ -171,27 +171,27 @@ class StoredAlarmLog:
                 self._free_mb = shutil.disk_usage(self._folder).free / 1e6
             if batch:
                 self._write(batch)
-            if self._stopped and (not batch or self._trouble is not None):
+            if self._stopped and (not batch or self._problem is not None):
                 return
 
     def _has_work(self) -> bool:
-        return self._stopped or (bool(self._waiting) and self._trouble is None)
+        return self._stopped or (bool(self._waiting) and self._problem is None)
 
     def _write(self, batch: list[Entry]) -> None:
         try:
             self._keep(batch)
-            trouble = None
+            problem = None
         except NavigationError as error:
-            trouble = error
+            problem = error
         except Exception as error:
             # This thread must not end: alarms would then be lost without a word.
-            trouble = StoreError("ALARM_NOT_LOGGED", f"the alarm log failed: {error}", "Look at the log.")
+            problem = StoreError("ALARM_NOT_LOGGED", f"the alarm log failed: {error}", "Look at the log.")
             log.exception("the alarm log cannot be written")
-        if trouble is not None and self._trouble is None:
-            log.error(trouble.message, code=trouble.code, remedy=trouble.remedy)
+        if problem is not None and self._problem is None:
+            log.error(problem.message, code=problem.code, remedy=problem.remedy)
         with self._changed:
-            self._trouble = trouble
-            if trouble is None:
+            self._problem = problem
+            if problem is None:
                 for _ in batch:
                     self._waiting.popleft()
                 self._written += len(batch)
@@ -208,8 +208,8 @@ class StoredAlarmLog:
         made_by = names.pop() if len(names) == 1 else NOBODY
         try:
             self._store.put(case.id, DocumentKind.ALARM, NAME, {"lines": lines}, made_by=made_by)
-        except InvalidInput as refused:
-            if refused.code != "NAME_INVALID" or made_by == NOBODY:
+        except InvalidInput as rejected:
+            if rejected.code != "NAME_INVALID" or made_by == NOBODY:
                 raise
             # Who it was is told in the line: for a name that the store does not take, no alarm is lost.
             self._store.put(case.id, DocumentKind.ALARM, NAME, {"lines": lines}, made_by=NOBODY)

@@ -8,7 +8,7 @@ from pydantic import Field, StringConstraints
 from server.alarms import AlarmDesk
 from server.alarms.sound import BURSTS, burst_wav
 from server.api.doing import DoneBy
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.security import acting, person_of
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.message import Message
@@ -106,7 +106,7 @@ def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
         """All alarms that are in sight, the highest first. The same comes with every live message."""
         return _message(desk.picture)
 
-    @router.get("/log", responses=refusals(422, 503))
+    @router.get("/log", responses=rejections(422, 503))
     def log(last: Annotated[int, Query(ge=1, le=10_000)] = 200) -> LogMessage:
         """The last lines of the alarm log: what was raised, cleared, acknowledged, paused, when, by whom."""
         return LogMessage(lines=[dict(line) for line in desk.log.newest(last)])
@@ -114,7 +114,7 @@ def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
     @router.get(
         "/sound/{priority}.wav",
         response_class=Response,
-        responses={200: {"content": {WAV: {}}}, **refusals(422)},
+        responses={200: {"content": {WAV: {}}}, **rejections(422)},
     )
     async def sound(priority: Priority) -> Response:
         """One burst of the sound of a priority; how often it comes again is in `GET /api/dashboard`."""
@@ -122,22 +122,22 @@ def _add_seeing(router: APIRouter, desk: AlarmDesk) -> None:
 
 
 def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
-    @router.post("/acknowledgement", responses=refusals(422, 503, 507))
+    @router.post("/acknowledgement", responses=rejections(422, 503, 507))
     def acknowledge(asked: AcknowledgeRequest, request: Request) -> AlarmsMessage:
         """Say that these alarms were seen: their sound stops, and one that was over goes out of sight."""
         return _logged(desk, desk.acknowledge(asked.numbers, by=acting(request.scope, asked.by)))
 
-    @router.post("/pause", responses=refusals(422, 503, 507))
+    @router.post("/pause", responses=rejections(422, 503, 507))
     def pause(asked: PauseRequest, request: Request) -> AlarmsMessage:
         """No sound for at most two minutes; it comes back by itself, at once with a new or higher alarm."""
         return _logged(desk, desk.pause(asked.seconds, by=acting(request.scope, asked.by)))
 
-    @router.post("/resumption", responses=refusals(422, 503, 507))
+    @router.post("/resumption", responses=rejections(422, 503, 507))
     def resume(asked: ByRequest, request: Request) -> AlarmsMessage:
         """End the pause now."""
         return _logged(desk, desk.resume(by=acting(request.scope, asked.by)))
 
-    @router.post("/screens", responses=refusals(422))
+    @router.post("/screens", responses=rejections(422))
     def screen(asked: ScreenRequest) -> AlarmsMessage:
         """A screen says whether its sound is armed, every two seconds."""
         if asked.state == "closed":
@@ -147,12 +147,12 @@ def _add_answering(router: APIRouter, desk: AlarmDesk) -> None:
 
 
 def _add_holding(router: APIRouter, desk: AlarmDesk, holds: Holds) -> None:
-    @router.post("/hold", responses=refusals(422, 503, 507))
+    @router.post("/hold", responses=rejections(422, 503, 507))
     def hold(request: Request, asked: ByRequest) -> AlarmsMessage:
         """Ask those in theatre to hold. It raises an alarm, and stops or changes nothing."""
         return _logged(desk, holds.ask(person_of(request.scope), name=asked.by or ""))
 
-    @router.post("/release", responses=refusals(409, 422, 503, 507))
+    @router.post("/release", responses=rejections(409, 422, 503, 507))
     def release(request: Request, asked: ByRequest) -> AlarmsMessage:
         """Ask no more: who asked for themselves, the operator for everybody."""
         return _logged(desk, holds.release(person_of(request.scope), name=asked.by or ""))

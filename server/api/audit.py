@@ -6,7 +6,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query
 from fastapi.responses import FileResponse, Response
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.session_messages import AuditMessage
 from server.security.audit import AuditLog
 
@@ -17,7 +17,7 @@ def audit_router(audit: AuditLog | None) -> APIRouter:
     """Everything under `/api/audit`."""
     router = APIRouter(prefix="/api/audit", tags=["people"])
 
-    @router.get("", responses=refusals(422, 503))
+    @router.get("", responses=rejections(422, 503))
     def read(
         last: Annotated[int, Query(ge=1, le=1000)] = 100,
         before: Annotated[int | None, Query(ge=1, le=10**9)] = None,
@@ -39,7 +39,7 @@ def audit_router(audit: AuditLog | None) -> APIRouter:
     @router.get(
         "/export",
         response_class=FileResponse,
-        responses={200: {"content": {LINES: {}}}, **refusals(503)},
+        responses={200: {"content": {LINES: {}}}, **rejections(503)},
     )
     def export() -> Response:
         """The whole log, a line of JSON for each; `coaxial audit verify FILE` tells whether it is whole."""

@@ -98,7 +98,7 @@ class Patience:
         if self.piece_bytes is not None and self.came_bytes >= self.piece_bytes:
             self.left_s, self.came_bytes = self.whole_s, 0
 
-    def refusal(self, taken_bytes: int) -> BodyTooSlow:
+    def rejection(self, taken_bytes: int) -> BodyTooSlow:
         """What is said when there is none left."""
         message = f"the request was not whole after {self.whole_s:g} s"
         if self.piece_bytes is not None:
@@ -131,22 +131,22 @@ class _Body:
         if self._is_whole:
             # From here on it is waited for the client to go, which is in no hurry.
             return await self._receive()
-        self._refuse_above(self.announced_bytes)
+        self._reject_above(self.announced_bytes)
         loop = asyncio.get_running_loop()
         began_s = loop.time()
         try:
             async with asyncio.timeout(self._patience.left_s):
                 message = await self._receive()
         except TimeoutError:
-            raise self._patience.refusal(self._taken_bytes) from None
+            raise self._patience.rejection(self._taken_bytes) from None
         came_bytes = len(message.get("body", b""))
         self._patience.spend(loop.time() - began_s, came_bytes)
         self._taken_bytes += came_bytes
-        self._refuse_above(self._taken_bytes)
+        self._reject_above(self._taken_bytes)
         self._is_whole = not message.get("more_body", False)
         return message
 
-    def _refuse_above(self, size_bytes: int) -> None:
+    def _reject_above(self, size_bytes: int) -> None:
         if self._max_bytes is not None and size_bytes > self._max_bytes:
             size, allowed = size_bytes / 1024, self._max_bytes / 1024
             raise BodyTooLarge(

@@ -16,7 +16,7 @@ from server.api.camera_messages import (
     collection_message,
 )
 from server.api.case_messages import DocumentMessage, document_message
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.api.uploads import received
 from server.picture_file import decoded
@@ -33,7 +33,7 @@ def camera_router(step: CameraStep, home: Home) -> APIRouter:
     """Everything under `/api/camera`."""
     router = APIRouter(prefix="/api/camera", tags=["camera"])
 
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def camera() -> CameraStepMessage:
         """What the open case has of the camera, and whether views are being collected."""
         return CameraStepMessage(
@@ -48,7 +48,7 @@ def camera_router(step: CameraStep, home: Home) -> APIRouter:
     @router.post(
         "/board",
         response_class=Response,
-        responses={200: {"content": {"application/pdf": {}, "image/svg+xml": {}}}, **refusals(422)},
+        responses={200: {"content": {"application/pdf": {}, "image/svg+xml": {}}}, **rejections(422)},
     )
     def board(asked: BoardFileRequest) -> Response:
         """A board as a page to print at 100 %, with rulers to check the printer."""
@@ -61,7 +61,7 @@ def camera_router(step: CameraStep, home: Home) -> APIRouter:
 
 
 def _add_calibration(router: APIRouter, step: CameraStep) -> None:
-    @router.post("/calibration", status_code=202, responses=refusals(409, 422, 503))
+    @router.post("/calibration", status_code=202, responses=rejections(409, 422, 503))
     def calibrate(asked: CalibrationRequest) -> JobMessage:
         """Fit the camera to the collected views; what passes the gate is kept in the open case.
 
@@ -70,7 +70,7 @@ def _add_calibration(router: APIRouter, step: CameraStep) -> None:
         """
         return job_message(step.calibrate(made_by=asked.made_by))
 
-    @router.get("/calibration", responses=refusals(409, 503))
+    @router.get("/calibration", responses=rejections(409, 503))
     def calibration() -> DocumentMessage:
         """The calibration of the open case with its report; refused where there is none that holds.
 
@@ -78,7 +78,7 @@ def _add_calibration(router: APIRouter, step: CameraStep) -> None:
         """
         return document_message(step.kept(), Current())
 
-    @router.post("/accuracy", status_code=201, responses=refusals(409, 422, 503, 507))
+    @router.post("/accuracy", status_code=201, responses=rejections(409, 422, 503, 507))
     def accuracy(asked: AccuracyRequest) -> DocumentMessage:
         """Measure known displacements on a board that is in the picture now, as in the paper's Table 2.
 
@@ -90,7 +90,7 @@ def _add_calibration(router: APIRouter, step: CameraStep) -> None:
 
 
 def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
-    @router.post("/collection", status_code=201, responses=refusals(422))
+    @router.post("/collection", status_code=201, responses=rejections(422))
     def begin(asked: CollectionRequest) -> CollectionMessage:
         """Collect views of a board from the live images; one is taken when it holds still and adds something.
 
@@ -98,7 +98,7 @@ def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
         """
         return collection_message(step.begin(board_of(asked.board)))
 
-    @router.get("/collection", responses=refusals(409))
+    @router.get("/collection", responses=rejections(409))
     def progress() -> CollectionMessage:
         """How far it has come, what is missing, and where the board was seen just now."""
         return collection_message(step.collection)
@@ -112,7 +112,7 @@ def _add_collection(router: APIRouter, step: CameraStep, home: Home) -> None:
     @router.post(
         "/collection/images",
         status_code=201,
-        responses=refusals(409, 413, 422, 503, 507),
+        responses=rejections(409, 413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": IMAGE_TYPES}},
     )
     async def add_image(request: Request, name: str = "sent") -> CollectionMessage:

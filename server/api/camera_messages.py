@@ -7,7 +7,7 @@ from pydantic import Field
 from server.api.case_messages import DocumentMessage
 from server.api.doing import MadeBy
 from server.procedure.board_collection import BoardCollection, CollectionStatus
-from server.stream.messages import Message, TroubleMessage, trouble_message
+from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.camera import Board, CharucoBoard, CharucoLayout, CheckerBoard, DotBoard, DotLayout
 
 SHOW_IT = "Show the board to the camera."
@@ -91,7 +91,7 @@ class CollectionMessage(Message):
     """What became of that image."""
     points_px: list[list[float]]
     """Where the board was seen in it."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
 
 
 class CameraStepMessage(Message):
@@ -199,5 +199,5 @@ def collection_message(collection: BoardCollection) -> CollectionMessage:
         image_number=status.image_number,
         said=status.said,
         points_px=status.points_px.round(2).tolist(),
-        trouble=trouble_message(status.trouble),
+        problem=problem_message(status.problem),
     )

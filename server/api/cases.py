@@ -21,7 +21,7 @@ from server.api.case_messages import (
     files_message,
     verification_message,
 )
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.uploads import received
 from server.security import acting
 from server.store import CaseStore, StoreConflict
@@ -43,7 +43,7 @@ def cases_router(store: CaseStore) -> APIRouter:
 
 
 def _add_list(router: APIRouter, store: CaseStore) -> None:
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def cases() -> CasesMessage:
         """All cases, and which one is open."""
         opened = store.opened()
@@ -52,29 +52,29 @@ def _add_list(router: APIRouter, store: CaseStore) -> None:
             cases=[case_message(case) for case in store.list()],
         )
 
-    @router.post("", status_code=201, responses=refusals(422, 503, 507))
+    @router.post("", status_code=201, responses=rejections(422, 503, 507))
     def create(asked: CaseNameMessage) -> CaseMessage:
         """Make a case."""
         return case_message(store.create(asked.name))
 
 
 def _add_one(router: APIRouter, store: CaseStore) -> None:
-    @router.get("/{case_id}", responses=refusals(404, 503))
+    @router.get("/{case_id}", responses=rejections(404, 503))
     def case(case_id: str) -> CaseMessage:
         """One case."""
         return case_message(store.get(case_id))
 
-    @router.patch("/{case_id}", responses=refusals(404, 422, 503, 507))
+    @router.patch("/{case_id}", responses=rejections(404, 422, 503, 507))
     def rename(case_id: str, asked: CaseNameMessage) -> CaseMessage:
         """Give a case another name."""
         return case_message(store.rename(case_id, asked.name))
 
-    @router.post("/{case_id}/open", responses=refusals(404, 503, 507))
+    @router.post("/{case_id}/open", responses=rejections(404, 503, 507))
     def open_case(case_id: str) -> CaseMessage:
         """Make this the case that is worked in; the one that was open is closed by it."""
         return case_message(store.open(case_id))
 
-    @router.post("/{case_id}/close", responses=refusals(404, 409, 503, 507))
+    @router.post("/{case_id}/close", responses=rejections(404, 409, 503, 507))
     def close_case(case_id: str) -> CaseMessage:
         """Close this case; then none is open."""
         closed = store.get(case_id)
@@ -89,7 +89,7 @@ def _add_one(router: APIRouter, store: CaseStore) -> None:
         store.close()
         return case_message(closed)
 
-    @router.post("/{case_id}/deletion", status_code=204, responses=refusals(404, 409, 422, 503))
+    @router.post("/{case_id}/deletion", status_code=204, responses=rejections(404, 409, 422, 503))
     def delete(case_id: str, asked: ConfirmationMessage) -> Response:
         """Delete a case and everything in it for ever. The word of confirmation is its name.
 
@@ -103,7 +103,7 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
     @router.get(
         "/{case_id}/archive",
         response_class=FileResponse,
-        responses={200: {"content": {ZIP: {}}}, **refusals(404, 503, 507)},
+        responses={200: {"content": {ZIP: {}}}, **rejections(404, 503, 507)},
     )
     def copy_out(case_id: str, *, with_identity: bool = False) -> FileResponse:
         """The case as one archive (zip). Its name, and who the patient is, are in it only if asked for."""
@@ -118,7 +118,7 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
     @router.post(
         "/archive",
         status_code=201,
-        responses=refusals(413, 422, 503, 507),
+        responses=rejections(413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": {ZIP: {}}}},
     )
     async def copy_in(request: Request) -> CaseMessage:
@@ -133,18 +133,18 @@ def _add_archives(router: APIRouter, store: CaseStore) -> None:
 
 
 def _add_documents(router: APIRouter, store: CaseStore) -> None:
-    @router.get("/{case_id}/documents", responses=refusals(404, 503))
+    @router.get("/{case_id}/documents", responses=rejections(404, 503))
     def documents(case_id: str) -> DocumentsMessage:
         """Every version of every document, with what it stands on, and whether it holds."""
         return documents_message(store.outline(case_id))
 
-    @router.get("/{case_id}/documents/{document_id}", responses=refusals(404, 503))
+    @router.get("/{case_id}/documents/{document_id}", responses=rejections(404, 503))
     def document(case_id: str, document_id: str) -> DocumentMessage:
         """One version of a document with its content."""
         found = store.document(case_id, document_id)
         return document_message(found, store.standing(found))
 
-    @router.post("/{case_id}/documents/{document_id}/withdrawal", responses=refusals(404, 422, 503, 507))
+    @router.post("/{case_id}/documents/{document_id}/withdrawal", responses=rejections(404, 422, 503, 507))
     def withdraw(case_id: str, document_id: str, asked: WithdrawMessage) -> DocumentMessage:
         """Say that a document no longer holds; what stands on it is out of date from then on."""
         found = store.withdraw(store.document(case_id, document_id), by=asked.by, reason=asked.reason)
@@ -152,7 +152,7 @@ def _add_documents(router: APIRouter, store: CaseStore) -> None:
 
 
 def _add_files(router: APIRouter, store: CaseStore) -> None:
-    @router.get("/{case_id}/files", responses=refusals(404, 503))
+    @router.get("/{case_id}/files", responses=rejections(404, 503))
     def files(case_id: str) -> FilesMessage:
         """The files of a case, with their sizes and sums."""
         return files_message(store.files(case_id))
@@ -160,14 +160,14 @@ def _add_files(router: APIRouter, store: CaseStore) -> None:
     @router.get(
         "/{case_id}/files/{file_id}",
         response_class=FileResponse,
-        responses={200: {"content": {BINARY: {}}}, **refusals(404, 503)},
+        responses={200: {"content": {BINARY: {}}}, **rejections(404, 503)},
     )
     def file(case_id: str, file_id: str) -> FileResponse:
         """One file, whole; parts of it by `Range`."""
         found = store.file(case_id, file_id)
         return FileResponse(found.path, media_type=BINARY, filename=found.id)
 
-    @router.post("/{case_id}/verification", responses=refusals(404, 503))
+    @router.post("/{case_id}/verification", responses=rejections(404, 503))
     def verify(case_id: str) -> VerificationMessage:
         """Read every file of the case from end to end, and tell those that are not as they were stored."""
         return verification_message(store.verify(case_id))

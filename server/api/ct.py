@@ -21,7 +21,7 @@ from server.api.ct_messages import (
     upload_message,
 )
 from server.api.doing import MadeByQuery
-from server.api.errors import STATUS_OF, refusals
+from server.api.errors import STATUS_OF, rejections
 from server.api.pictures import (
     HU,
     PNG,
@@ -75,7 +75,7 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
     @router.post(
         "",
         status_code=202,
-        responses=refusals(409, 413, 422, 503, 507),
+        responses=rejections(409, 413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": CT_TYPES}},
     )
     async def send(request: Request, made_by: MadeByQuery) -> UploadMessage:
@@ -85,12 +85,12 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         of date then. If it holds several CT series, the job's result lists them, for one to be chosen. What
         cannot be planned on is refused by the job, and nothing of it is kept.
         """
-        await to_thread.run_sync(step.refuse_without_case)
+        await to_thread.run_sync(step.reject_without_case)
         async with received(request, home, max_bytes=LARGEST_CT_BYTES) as path:
             return upload_message(await to_thread.run_sync(lambda: step.receive(path, made_by=made_by)))
 
     @router.post(
-        "/uploads/{upload_id}/series/{series}", status_code=202, responses=refusals(404, 422, 503, 507)
+        "/uploads/{upload_id}/series/{series}", status_code=202, responses=rejections(404, 422, 503, 507)
     )
     def choose(upload_id: str, series: str) -> UploadMessage:
         """Read this series of an upload that holds several."""
@@ -102,7 +102,7 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
         responses={
             **PNG_ANSWER,
             204: {"description": "No slice is read yet; ask again in a moment."},
-            **refusals(404, 503),
+            **rejections(404, 503),
         },
     )
     def preview(upload_id: str) -> Response:
@@ -116,14 +116,14 @@ def _add_uploads(router: APIRouter, step: CtStep, home: Home) -> None:
 
 
 def _add_ct(router: APIRouter, opened: OpenedCt) -> None:
-    @router.get("", responses=refusals(409, 422, 503))
+    @router.get("", responses=rejections(409, 422, 503))
     def ct() -> CtMessage:
         """The CT of the open case: what it is, where its slices lie, and what to know of it."""
         found = opened.current()
         heading = heading_message(found.document, Current())
         return ct_message(heading, found.document.content, found.volume)
 
-    @router.post("/probe", responses=refusals(409, 422, 503))
+    @router.post("/probe", responses=rejections(409, 422, 503))
     def probe(asked: ProbeRequest) -> ProbeMessage:
         """The Hounsfield units at a point."""
         volume = opened.current().volume
@@ -137,7 +137,9 @@ def _add_ct(router: APIRouter, opened: OpenedCt) -> None:
 
 def _add_slices(router: APIRouter, opened: OpenedCt) -> None:
     @router.get(
-        "/slices/{plane}.png", response_class=Response, responses={**SLICE_ANSWER, **refusals(409, 422, 503)}
+        "/slices/{plane}.png",
+        response_class=Response,
+        responses={**SLICE_ANSWER, **rejections(409, 422, 503)},
     )
     def slice_picture(
         request: Request,
@@ -163,7 +165,7 @@ def _add_slices(router: APIRouter, opened: OpenedCt) -> None:
 
         return placed_picture(request, found.document.id, draw)
 
-    @router.get("/slices/{plane}", responses=refusals(409, 422, 503))
+    @router.get("/slices/{plane}", responses=rejections(409, 422, 503))
     def slice_place(
         plane: Plane, at_mm: AtMm | None = None, slab_mm: SlabMm = 0.0, pixel_mm: PixelMm | None = None
     ) -> SliceMessage:
@@ -237,7 +239,7 @@ class Oblique:
 
 def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
     @router.get(
-        "/oblique.png", response_class=Response, responses={**SLICE_ANSWER, **refusals(409, 422, 503)}
+        "/oblique.png", response_class=Response, responses={**SLICE_ANSWER, **rejections(409, 422, 503)}
     )
     def oblique_picture(
         request: Request,
@@ -260,7 +262,7 @@ def _add_oblique(router: APIRouter, opened: OpenedCt) -> None:
 
         return placed_picture(request, found.document.id, draw)
 
-    @router.get("/oblique", responses=refusals(409, 422, 503))
+    @router.get("/oblique", responses=rejections(409, 422, 503))
     def oblique_place(asked: Annotated[Oblique, Depends()]) -> SliceMessage:
         """Where the pixels of this slice's picture lie in the patient."""
         volume = opened.current().volume

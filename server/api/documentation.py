@@ -11,18 +11,18 @@ from typing import Any
 from fastapi import APIRouter, FastAPI
 from fastapi.responses import HTMLResponse
 
-from server.api.errors import REFUSED_WORDS
+from server.api.errors import REJECTED_WORDS
 
 Schema = Mapping[str, Any]
 
 FRAMEWORKS_SHAPE = "HTTPValidationError"
 FRAMEWORKS_SCHEMAS = (FRAMEWORKS_SHAPE, "ValidationError")
-OUR_SHAPE = {"application/json": {"schema": {"$ref": "#/components/schemas/TroubleMessage"}}}
-OUR_422 = {"description": REFUSED_WORDS[422], "content": OUR_SHAPE}
+OUR_SHAPE = {"application/json": {"schema": {"$ref": "#/components/schemas/ProblemMessage"}}}
+OUR_422 = {"description": REJECTED_WORDS[422], "content": OUR_SHAPE}
 # Whatever has a body can be too slow with it.
-OUR_408 = {"description": REFUSED_WORDS[408], "content": OUR_SHAPE}
+OUR_408 = {"description": REJECTED_WORDS[408], "content": OUR_SHAPE}
 # Whatever changes something is written into the audit log before it is answered.
-OUR_507 = {"description": REFUSED_WORDS[507], "content": OUR_SHAPE}
+OUR_507 = {"description": REJECTED_WORDS[507], "content": OUR_SHAPE}
 
 STYLE = """
 :root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }

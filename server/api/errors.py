@@ -11,11 +11,11 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.errors import CaptureError, SetupOrderError
 from server.jobs import JobUnknown
-from server.security import refusals as door
+from server.security import rejections as door
 from server.store import NotStored, OutOfDateError, StoreConflict, StoreError
 from server.stream.errors import CameraUnknown, TooManyViewers
 from server.stream.fitting.sizes import SizeUnknown
-from server.stream.messages import TroubleMessage
+from server.stream.messages import ProblemMessage
 from tracker.errors import CalibrationError, InvalidInput, NavigationError, PlanError, RegistrationError
 
 _log = structlog.get_logger(__name__)
@@ -45,7 +45,7 @@ TIMEOUT = 408
 # Whose refusals say how long to wait.
 AGAIN_LATER = 429
 
-REFUSED_WORDS = {
+REJECTED_WORDS = {
     401: "Nobody is signed in, or no longer.",
     403: "Who is signed in may not do this, or a page that is none of this server asks for it.",
     404: "There is no such thing.",
@@ -68,7 +68,7 @@ TOLD = {
         "Look at /api/docs for what can be asked.",
     ),
 }
-INTERNAL = TroubleMessage(
+INTERNAL = ProblemMessage(
     code="INTERNAL",
     message="the server made a mistake while answering",
     remedy="Try again; if it comes back, send the server's log to the maintainer.",
@@ -83,9 +83,9 @@ class NothingYet(NavigationError):
 STATUS_OF[NothingYet] = 503
 
 
-def refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
+def rejections(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """What OpenAPI says of a route's refusals."""
-    return {status: {"model": TroubleMessage, "description": REFUSED_WORDS[status]} for status in statuses}
+    return {status: {"model": ProblemMessage, "description": REJECTED_WORDS[status]} for status in statuses}
 
 
 def status_of(error: NavigationError) -> int:
@@ -103,15 +103,15 @@ def install_errors(app: FastAPI) -> None:
     app.add_middleware(InternalErrors)
 
 
-def _answer(status: int, trouble: TroubleMessage, headers: dict[str, str] | None = None) -> JSONResponse:
+def _answer(status: int, problem: ProblemMessage, headers: dict[str, str] | None = None) -> JSONResponse:
     kept = {"Cache-Control": "no-store", **(headers or {})}
-    return JSONResponse(trouble.model_dump(mode="json"), status_code=status, headers=kept)
+    return JSONResponse(problem.model_dump(mode="json"), status_code=status, headers=kept)
 
 
 async def _navigation(_request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, NavigationError):
         raise error
-    told = TroubleMessage(code=error.code, message=error.message, remedy=error.remedy, context=error.context)
+    told = ProblemMessage(code=error.code, message=error.message, remedy=error.remedy, context=error.context)
     status = status_of(error)
     headers = {
         TIMEOUT: {"Connection": "close"},
@@ -129,7 +129,7 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
         return await _navigation(request, error.__cause__)
     if isinstance(error.__cause__, ValueError | RecursionError):
         # FastAPI's own 400 for a body that is no text; a body that is no JSON is 422 everywhere else.
-        told = TroubleMessage(
+        told = ProblemMessage(
             code="REQUEST_INVALID",
             message="the body of the request is no JSON: it is no text in UTF-8, is nested too deeply, or "
             "has a number that is too long",
@@ -141,7 +141,7 @@ async def _http(request: Request, error: Exception) -> JSONResponse:
         error.status_code,
         (f"HTTP_{error.status_code}", str(error.detail), "Look at /api/docs for what can be asked."),
     )
-    told = TroubleMessage(
+    told = ProblemMessage(
         code=code,
         message=message.format(path=path, method=request.method) if error.status_code in TOLD else message,
         remedy=remedy,
@@ -159,7 +159,7 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
     # curl -d says that it sends a form, and the framework then says only that a text is no object.
     sent = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     is_form = sent in ("application/x-www-form-urlencoded", "text/plain")
-    told = TroubleMessage(
+    told = ProblemMessage(
         code="REQUEST_INVALID",
         message=f"{where}: {first['msg']}" + (f" (and {len(found) - 1} more)" if len(found) > 1 else ""),
         remedy=f"Send JSON and say so, with 'Content-Type: application/json' in place of {sent}."

@@ -38,8 +38,8 @@ def health_message(instant: Instant | None, *, now_s: float, stale_after_ms: flo
     is_well = (
         instant.process.state is ProcessState.RUNNING
         and instant.source.state is SourceState.RUNNING
-        and instant.process.trouble is None
-        and instant.source.trouble is None
+        and instant.process.problem is None
+        and instant.source.problem is None
         and age_ms is not None
         and age_ms <= stale_after_ms
     )

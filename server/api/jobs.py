@@ -2,9 +2,9 @@
 
 from fastapi import APIRouter
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.jobs import Job, Jobs, JobState
-from server.stream.messages import Message, TroubleMessage, trouble_message
+from server.stream.messages import Message, ProblemMessage, problem_message
 
 
 class JobMessage(Message):
@@ -20,7 +20,7 @@ class JobMessage(Message):
     """What is done just now, in words."""
     result: object
     """What came out; null until it is done."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
     """Why it failed; null if it did not."""
 
 
@@ -39,7 +39,7 @@ def job_message(job: Job) -> JobMessage:
         progress_ratio=job.progress_ratio,
         doing=job.doing,
         result=job.result,
-        trouble=trouble_message(job.trouble),
+        problem=problem_message(job.problem),
     )
 
 
@@ -52,12 +52,12 @@ def jobs_router(jobs: Jobs) -> APIRouter:
         """All jobs that are remembered, the newest first."""
         return JobsMessage(jobs=[job_message(job) for job in jobs.list()])
 
-    @router.get("/{job_id}", responses=refusals(404))
+    @router.get("/{job_id}", responses=rejections(404))
     def job(job_id: str) -> JobMessage:
         """How far a job is, and what came out of it."""
         return job_message(jobs.get(job_id))
 
-    @router.delete("/{job_id}", responses=refusals(404))
+    @router.delete("/{job_id}", responses=rejections(404))
     def cancel(job_id: str) -> JobMessage:
         """Cancel a job. One that is over, or whose result is just being kept, stays as it is."""
         return job_message(jobs.cancel(job_id))

@@ -4,7 +4,7 @@ import time
 
 from fastapi import APIRouter, Response
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.latency_messages import (
     LatencyCodesMessage,
     LatencyCodesRequest,
@@ -24,7 +24,7 @@ def latency_router(step: LatencyStep) -> APIRouter:
     """Everything under `/api/latency`."""
     router = APIRouter(prefix="/api/latency", tags=["camera"])
 
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def latency() -> LatencyMessage:
         """The latency as it was measured last with this camera."""
         result = step.newest()
@@ -32,7 +32,7 @@ def latency_router(step: LatencyStep) -> APIRouter:
             measuring=step.is_measuring, result=None if result is None else result_message(result)
         )
 
-    @router.post("/measurement", status_code=201, responses=refusals(422, 503))
+    @router.post("/measurement", status_code=201, responses=rejections(422, 503))
     def begin(asked: LatencyCodesRequest) -> LatencyCodesMessage:
         """Read codes in the live images from now on, and say which codes the page is to show.
 
@@ -41,7 +41,7 @@ def latency_router(step: LatencyStep) -> APIRouter:
         """
         return codes_message(step.begin(asked.codes))
 
-    @router.get("/measurement", responses=refusals(409))
+    @router.get("/measurement", responses=rejections(409))
     async def reading() -> LatencyReadingMessage:
         """In how many images a code was read, and the server's clock."""
         return reading_message(step.measurement, now_s=time.monotonic())
@@ -52,7 +52,7 @@ def latency_router(step: LatencyStep) -> APIRouter:
         step.end()
         return Response(status_code=204)
 
-    @router.post("/measurement/conclusion", status_code=201, responses=refusals(409, 422, 503, 507))
+    @router.post("/measurement/conclusion", status_code=201, responses=rejections(409, 422, 503, 507))
     def conclude(asked: LatencyConclusionRequest) -> LatencyResultMessage:
         """Time the codes that the page painted by the images that it showed, and keep the result.
 

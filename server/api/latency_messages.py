@@ -15,7 +15,7 @@ from server.latency import (
     code_patterns,
 )
 from server.procedure.latency import LatencyMeasurement, PageTimes
-from server.stream.messages import Message, TroubleMessage, trouble_message
+from server.stream.messages import Message, ProblemMessage, problem_message
 
 # Half a day of the page's clock, and years of the server's.
 PageMs: TypeAlias = Annotated[float, Field(ge=0.0, le=1e12, allow_inf_nan=False)]
@@ -58,7 +58,7 @@ class LatencyReadingMessage(Message):
     """In how many of them a code was read."""
     server_s: float
     """Monotonic clock of the server as it answers, to compare the page's with."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
     """Why reading ended."""
 
 
@@ -169,7 +169,7 @@ def reading_message(measurement: LatencyMeasurement, *, now_s: float) -> Latency
         looked_images=status.looked_images,
         read_images=status.read_images,
         server_s=now_s,
-        trouble=trouble_message(status.trouble),
+        problem=problem_message(status.problem),
     )
 
 

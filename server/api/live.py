@@ -4,7 +4,7 @@ import time
 
 from fastapi import APIRouter
 
-from server.api.errors import NothingYet, refusals
+from server.api.errors import NothingYet, rejections
 from server.live import LiveHub
 from server.stream.messages import LiveMessage, live_message
 
@@ -13,7 +13,7 @@ def live_router(hub: LiveHub) -> APIRouter:
     """`GET /api/live`."""
     router = APIRouter(prefix="/api", tags=["live"])
 
-    @router.get("/live", responses=refusals(503))
+    @router.get("/live", responses=rejections(503))
     async def live() -> LiveMessage:
         """What is true now: source, tracking process, and the newest image's poses and numbers.
 

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query, Request, Response
 
 from server.api.case_messages import ImportedMessage, imported_message
 from server.api.doing import MadeByQuery
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.uploads import received
 from server.config import Name
 from server.picture_file import png_bytes
@@ -46,7 +46,7 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
     """Everything under `/api/markers`."""
     router = APIRouter(prefix="/api/markers", tags=["markers"])
 
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def markers() -> KnownMarkersMessage:
         """The markers that are looked for now."""
         return KnownMarkersMessage(markers=[_message(known) for known in step.known()])
@@ -54,7 +54,7 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
     @router.post(
         "",
         status_code=201,
-        responses=refusals(409, 413, 422, 503, 507),
+        responses=rejections(409, 413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": PICTURE_TYPES}},
     )
     async def add(
@@ -76,13 +76,13 @@ def markers_router(step: MarkerStep, home: Home) -> APIRouter:
     @router.get(
         "/{name}/picture",
         response_class=Response,
-        responses={200: {"content": {"image/png": {}}}, **refusals(404, 503)},
+        responses={200: {"content": {"image/png": {}}}, **rejections(404, 503)},
     )
     def picture(name: str) -> Response:
         """The marker's picture as it is looked for: grey, row 0 on top."""
         return Response(png_bytes(step.one(name).model.image), media_type="image/png")
 
-    @router.delete("/{name}", status_code=204, responses=refusals(404, 409, 422, 503, 507))
+    @router.delete("/{name}", status_code=204, responses=rejections(404, 409, 422, 503, 507))
     def remove(name: str, made_by: MadeByQuery) -> Response:
         """Look for this marker of the open case no more; what was calibrated behind it is out of date."""
         step.remove(name, by=made_by)

@@ -235,7 +235,7 @@ class ProposalMessage(Message):
     laid: LaidMessage
     marked: list[MarkedNeedleMessage]
     """The needles in the image, in the plan's order: for the conclusion, where this one is picked."""
-    chance_ratio: float
+    probability_ratio: float
     """0..1, how likely this one is among those that are proposed."""
     lead: float | None
     """By how much the likeliest other one is worse in chi squared; null where there is no other."""
@@ -262,7 +262,7 @@ def proposals_message(proposed: Sequence[ProposedSlice]) -> ProposalsMessage:
                     )
                     for seen in one.found
                 ],
-                chance_ratio=one.chance_ratio,
+                probability_ratio=one.probability_ratio,
                 lead=one.lead if math.isfinite(one.lead) else None,
             )
             for one in proposed

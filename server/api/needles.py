@@ -6,7 +6,7 @@ import cv2
 from fastapi import APIRouter, Query, Response
 
 from server.api.case_messages import DocumentMessage, document_message
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.needle_messages import (
     LaidMessage,
     LaidRequest,
@@ -30,8 +30,8 @@ from server.store import Current
 from tracker.registration.needles import Standing
 
 JPEG = "image/jpeg"
-KEPT = refusals(409, 422, 503, 507)
-SEEN = refusals(409, 422, 503)
+KEPT = rejections(409, 422, 503, 507)
+SEEN = rejections(409, 422, 503)
 
 
 def needles_router(steps: RegistrationSteps, opened: OpenedCt) -> APIRouter:

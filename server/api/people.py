@@ -5,7 +5,7 @@ from datetime import timedelta
 
 from fastapi import APIRouter, Request, Response
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.session import session_of
 from server.api.session_messages import (
     InvitedMessage,
@@ -20,7 +20,7 @@ from server.security.people import InvitationState, PeopleDesk
 from server.security.people.desk import Wanted
 from server.security.person import acting
 from server.security.reach import is_loopback, shown_host
-from server.security.refusals import SignInOff
+from server.security.rejections import SignInOff
 
 ENTER_PATH = "/enter"
 
@@ -29,7 +29,7 @@ def people_router(people: PeopleDesk | None, *, listens_everywhere: bool) -> API
     """Everything under `/api/people`."""
     router = APIRouter(prefix="/api/people", tags=["people"])
 
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def everybody(request: Request) -> PeopleMessage:
         """Who is signed in, and who is invited."""
         if people is None:
@@ -41,7 +41,7 @@ def people_router(people: PeopleDesk | None, *, listens_everywhere: bool) -> API
             invitations=[invitation_message(one, state) for one, state in people.invitations()],
         )
 
-    @router.post("/invitations", status_code=201, responses=refusals(409, 422, 503))
+    @router.post("/invitations", status_code=201, responses=rejections(409, 422, 503))
     def invite(asked: InviteRequest, request: Request) -> InvitedMessage:
         """Invite somebody: a link and its QR code, told once."""
         desk = _required(people)
@@ -66,14 +66,14 @@ def people_router(people: PeopleDesk | None, *, listens_everywhere: bool) -> API
             is_reachable=not is_loopback(host),
         )
 
-    @router.delete("/invitations/{invitation_id}", status_code=204, responses=refusals(404, 409, 503))
+    @router.delete("/invitations/{invitation_id}", status_code=204, responses=rejections(404, 409, 503))
     def revoke(invitation_id: str) -> Response:
         """Take an invitation back. Who came in by it stays until their session is ended."""
         revoked = _required(people).revoke(invitation_id)
         note({"what": "invitation", "name": revoked.person.name, "from": "open", "to": "revoked"})
         return Response(status_code=204)
 
-    @router.delete("/sessions/{session_id}", status_code=204, responses=refusals(404, 409, 503))
+    @router.delete("/sessions/{session_id}", status_code=204, responses=rejections(404, 409, 503))
     def end(session_id: str) -> Response:
         """End somebody's session: within two seconds they see nothing more."""
         ended = _required(people).end(session_id)

@@ -7,7 +7,7 @@ from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
 from server.api.doing import MadeByQuery
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import HU, PNG_ANSWER, WindowHu, asked_window, picture
 from server.api.plan_messages import (
@@ -39,7 +39,7 @@ from tracker.plan.pedicle import Side
 
 LARGEST_PLAN_BYTES = 8 * 2**20
 JSON = "application/json"
-CHANGED = refusals(404, 409, 422, 503, 507)
+CHANGED = rejections(404, 409, 422, 503, 507)
 On: TypeAlias = Annotated[Version | None, Query(alias="expected_version")]
 
 
@@ -58,10 +58,10 @@ def plan_router(step: PlanStep, opened: OpenedCt, home: Home, *, min_landmarks: 
 
 
 def _add_whole(router: APIRouter, step: PlanStep, min_landmarks: int) -> None:
-    @router.get("", responses=refusals(409, 503))
+    @router.get("", responses=rejections(409, 503))
     def plan() -> PlanMessage:
         """The newest plan of the open case, and whether it still holds."""
-        return plan_message(step.shelf.latest())
+        return plan_message(step.repository.latest())
 
     @router.put("", responses=CHANGED)
     def replace(asked: PlanRequest) -> PlanMessage:
@@ -83,11 +83,11 @@ def _add_whole(router: APIRouter, step: PlanStep, min_landmarks: int) -> None:
 
 def _add_files(router: APIRouter, step: PlanStep, opened: OpenedCt, home: Home) -> None:
     @router.get(
-        "/export", response_class=Response, responses={200: {"content": {JSON: {}}}, **refusals(409, 503)}
+        "/export", response_class=Response, responses={200: {"content": {JSON: {}}}, **rejections(409, 503)}
     )
     def write() -> Response:
         """The plan as a file: JSON with who made it, when, and on which CT; nothing names the patient."""
-        kept, ct = step.shelf.latest(), opened.current()
+        kept, ct = step.repository.latest(), opened.current()
         on_it = ct if ct.document.id in kept.document.stands_on else None
         return Response(
             json.dumps(plan_out(kept, on_it), indent=1, allow_nan=False),
@@ -98,7 +98,7 @@ def _add_files(router: APIRouter, step: PlanStep, opened: OpenedCt, home: Home) 
     @router.post(
         "/import",
         status_code=201,
-        responses=refusals(409, 413, 422, 503, 507),
+        responses=rejections(409, 413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": {JSON: {}}}},
     )
     async def read(
@@ -163,7 +163,7 @@ def _add_channels(router: APIRouter, step: PlanStep) -> None:
         by = Author(made_by=made_by, expected_version=expected_version)
         return plan_message(step.remove_channel(name, side, by))
 
-    @router.get("/proposals/screw", responses=refusals(409, 422, 503))
+    @router.get("/proposals/screw", responses=rejections(409, 422, 503))
     def propose(vertebra: str, side: Side) -> ScrewProposalMessage:
         """The thickest and longest screw of the catalogue that keeps its margins in this channel."""
         diameter_mm, length_mm = step.propose_screw(vertebra, side)
@@ -191,7 +191,7 @@ def _add_channels(router: APIRouter, step: PlanStep) -> None:
 
 
 def _add_reference(router: APIRouter, step: PlanStep, opened: OpenedCt) -> None:
-    @router.get("/proposals/slice", responses=refusals(409, 422, 503))
+    @router.get("/proposals/slice", responses=rejections(409, 422, 503))
     def propose(vertebra: str) -> SliceProposalMessage:
         """The slice nearest to the isthmuses of a vertebra, and the point half-way between them."""
         return proposal_message(step.propose_slice(vertebra))
@@ -211,7 +211,7 @@ def _add_reference(router: APIRouter, step: PlanStep, opened: OpenedCt) -> None:
     @router.get(
         "/vertebrae/{name}/reference.png",
         response_class=Response,
-        responses={**PNG_ANSWER, **refusals(409, 422, 503)},
+        responses={**PNG_ANSWER, **rejections(409, 422, 503)},
     )
     def reference(
         request: Request,
@@ -222,7 +222,7 @@ def _add_reference(router: APIRouter, step: PlanStep, opened: OpenedCt) -> None:
     ) -> Response:
         """The reference slice with its three lines and the paths, from entry to target (a ring)."""
         grey = asked_window(window, level, preset)
-        kept, ct = step.shelf.latest_that_holds(), opened.current()
+        kept, ct = step.repository.latest_that_holds(), opened.current()
         vertebra = vertebra_named(kept.plan, name)
         return picture(request, kept.document.id, lambda: reference_picture(vertebra, ct.volume, grey))
 
@@ -238,15 +238,15 @@ def _add_landmarks(router: APIRouter, step: PlanStep) -> None:
 
 
 def _add_active(router: APIRouter, step: PlanStep) -> None:
-    @router.post("/active-channel", responses=refusals(409, 422, 503, 507))
+    @router.post("/active-channel", responses=rejections(409, 422, 503, 507))
     def activate(asked: ActiveChannelRequest) -> PlanMessage:
         """Say which channel is to be drilled now; navigation works with it from the next image on.
 
         A change of the plan that leaves this channel as it is leaves it active.
         """
-        return plan_message(step.shelf.activate(asked.vertebra, asked.side, made_by=asked.made_by))
+        return plan_message(step.repository.activate(asked.vertebra, asked.side, made_by=asked.made_by))
 
-    @router.delete("/active-channel", responses=refusals(409, 422, 503, 507))
+    @router.delete("/active-channel", responses=rejections(409, 422, 503, 507))
     def deactivate(made_by: MadeByQuery) -> PlanMessage:
         """Have no channel to be drilled now."""
-        return plan_message(step.shelf.deactivate(made_by=made_by))
+        return plan_message(step.repository.deactivate(made_by=made_by))

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Request
 from pydantic import Field
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.procedure.confirm import ConfirmStep
 from server.procedure.confirmed import ConfirmationNeeded
 from server.procedure.state import Procedure, ProcedureState, StepName, StepState
@@ -86,12 +86,12 @@ def procedure_router(procedure: Procedure, confirm: ConfirmStep) -> APIRouter:
     """`GET /api/procedure`, and the confirmation after a start."""
     router = APIRouter(prefix="/api/procedure", tags=["procedure"])
 
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def state() -> ProcedureMessage:
         """How every step of the open case stands: done, missing, failed, out of date or due again."""
         return procedure_message(procedure.state())
 
-    @router.post("/confirmation", responses=refusals(409, 422, 503, 507))
+    @router.post("/confirmation", responses=rejections(409, 422, 503, 507))
     def confirmation(asked: ConfirmationRequest, request: Request) -> ProcedureMessage:
         """Say, after a start, that patient, marker and camera stand as they did: navigation goes on.
 

@@ -7,12 +7,12 @@ from pydantic import Field
 
 from server.api.camera_messages import BoardMessage, board_message, board_of
 from server.api.doing import MadeBy
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.camera_file import LONGEST_READOUT_MS
 from server.procedure.readout import FoundBy, ReadoutStep
 from server.procedure.readout_collection import BURST_IMAGES, BurstStage, BurstStatus
-from server.stream.messages import Message, TroubleMessage, trouble_message
+from server.stream.messages import Message, ProblemMessage, problem_message
 
 
 class ReadoutMessage(Message):
@@ -50,7 +50,7 @@ class BurstMessage(Message):
     found_images: int
     images: int
     """That a burst has."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
 
 
 class ReadoutMeasureRequest(Message):
@@ -63,12 +63,12 @@ def readout_router(step: ReadoutStep) -> APIRouter:
     """Everything under `/api/camera/readout`."""
     router = APIRouter(prefix="/api/camera/readout", tags=["camera"])
 
-    @router.get("", responses=refusals(422, 503))
+    @router.get("", responses=rejections(422, 503))
     def readout() -> ReadoutMessage:
         """What the calibration of the open case says of it."""
         return _message(step)
 
-    @router.put("", responses=refusals(409, 422, 503, 507))
+    @router.put("", responses=rejections(409, 422, 503, 507))
     def state(asked: StatedReadoutRequest) -> ReadoutMessage:
         """Keep a readout time out of the data sheet with the calibration, or that it is not known.
 
@@ -77,12 +77,12 @@ def readout_router(step: ReadoutStep) -> APIRouter:
         step.state(asked.readout_ms, made_by=asked.made_by)
         return _message(step)
 
-    @router.post("/collection", status_code=201, responses=refusals(409, 422, 503))
+    @router.post("/collection", status_code=201, responses=rejections(409, 422, 503))
     def begin(asked: BurstRequest) -> BurstMessage:
         """Wait for this board to be moved quickly, take a burst of images, and look for the board in them."""
         return _burst(step.begin(board_of(asked.board)).status)
 
-    @router.get("/collection", responses=refusals(409))
+    @router.get("/collection", responses=rejections(409))
     def progress() -> BurstMessage:
         """How far it has come."""
         return _burst(step.collection.status)
@@ -93,7 +93,7 @@ def readout_router(step: ReadoutStep) -> APIRouter:
         step.end()
         return Response(status_code=204)
 
-    @router.post("/measurement", status_code=202, responses=refusals(409, 422, 503))
+    @router.post("/measurement", status_code=202, responses=rejections(409, 422, 503))
     def measure(asked: ReadoutMeasureRequest) -> JobMessage:
         """Fit the readout to the burst, and keep it with the calibration where the motion determines it.
 
@@ -122,5 +122,5 @@ def _burst(status: BurstStatus) -> BurstMessage:
         read_images=status.read_images,
         found_images=status.found_images,
         images=BURST_IMAGES,
-        trouble=trouble_message(status.trouble),
+        problem=problem_message(status.problem),
     )

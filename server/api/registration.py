@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Response
 
 from server.api.case_messages import DocumentMessage, document_message
 from server.api.doing import MadeByQuery
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.registration_messages import (
     ByRequest,
     CheckMessage,
@@ -26,26 +26,26 @@ from server.api.registration_messages import (
     registration_message,
 )
 from server.config import RegistrationConfig
-from server.live import Trouble
+from server.live import Problem
 from server.procedure.registration import (
     CheckStep,
     NudgeStep,
     PointsStep,
-    RegistrationShelf,
+    RegistrationRepository,
     RegistrationSteps,
 )
 from server.store import Current
-from server.stream.messages import TroubleMessage
+from server.stream.messages import ProblemMessage
 from tracker.errors import RegistrationError
 from tracker.registration.nudge import Nudge
 
-KEPT = refusals(409, 422, 503, 507)
+KEPT = rejections(409, 422, 503, 507)
 
 
 def registration_router(steps: RegistrationSteps) -> APIRouter:
     """Everything under `/api/registration`. Plain functions: they wait for the disk, in threads."""
     router = APIRouter(prefix="/api/registration", tags=["registration"])
-    _add_whole(router, steps.shelf, steps.points.gate)
+    _add_whole(router, steps.repository, steps.points.gate)
     _add_running(router, steps)
     _add_points(router, steps.points)
     _add_check(router, steps.check)
@@ -53,13 +53,13 @@ def registration_router(steps: RegistrationSteps) -> APIRouter:
     return router
 
 
-def _add_whole(router: APIRouter, shelf: RegistrationShelf, gate: RegistrationConfig) -> None:
-    @router.get("", responses=refusals(409, 422, 503))
+def _add_whole(router: APIRouter, repository: RegistrationRepository, gate: RegistrationConfig) -> None:
+    @router.get("", responses=rejections(409, 422, 503))
     def registration(
         vertebra: Annotated[VertebraName | None, Query()] = None,
     ) -> RegistrationMessage:
         """The newest registration of a vertebra, by default of the one that is to be drilled."""
-        return registration_message(shelf.newest(vertebra), gate)
+        return registration_message(repository.newest(vertebra), gate)
 
 
 def _add_running(router: APIRouter, steps: RegistrationSteps) -> None:
@@ -78,7 +78,7 @@ def _add_points(router: APIRouter, step: PointsStep) -> None:
         step.begin(tool=asked.tool, vertebra=asked.vertebra)
         return _points(step)
 
-    @router.get("/points", responses=refusals(409))
+    @router.get("/points", responses=rejections(409))
     def progress() -> PointsMessage:
         """The points so far with their residuals, the errors to expect, and what is missing."""
         return _points(step)
@@ -89,19 +89,19 @@ def _add_points(router: APIRouter, step: PointsStep) -> None:
         step.end()
         return Response(status_code=204)
 
-    @router.post("/points/captures", status_code=202, responses=refusals(409, 422))
+    @router.post("/points/captures", status_code=202, responses=rejections(409, 422))
     def capture(asked: LandmarkRequest) -> PointsMessage:
         """Take the tip at rest on this landmark from the next images; again, to touch it anew."""
         step.session.capture(asked.landmark)
         return _points(step)
 
-    @router.put("/points/use", responses=refusals(409, 422))
+    @router.put("/points/use", responses=rejections(409, 422))
     def use(asked: UseRequest) -> PointsMessage:
         """Let a landmark that was touched have a say in the fit, or not."""
         step.session.use(asked.landmark, used=asked.used)
         return _points(step)
 
-    @router.delete("/points/captures", responses=refusals(409, 422))
+    @router.delete("/points/captures", responses=rejections(409, 422))
     def forget(landmark: Annotated[str, Query(min_length=1, max_length=60)]) -> PointsMessage:
         """Throw the point of a landmark away."""
         step.session.forget(landmark)
@@ -119,7 +119,7 @@ def _add_check(router: APIRouter, step: CheckStep) -> None:
         """Hold the tip still on a landmark that the registration was not fitted to."""
         return check_message(step.begin(asked.landmark, tool=asked.tool).status)
 
-    @router.get("/check", responses=refusals(409))
+    @router.get("/check", responses=rejections(409))
     def progress() -> CheckMessage:
         """Whether the tip was captured, and how far it is from where the plan has the landmark."""
         return check_message(step.session.status)
@@ -137,7 +137,7 @@ def _add_check(router: APIRouter, step: CheckStep) -> None:
 
 
 def _add_nudges(router: APIRouter, step: NudgeStep) -> None:
-    @router.get("/nudges", responses=refusals(409, 422, 503))
+    @router.get("/nudges", responses=rejections(409, 422, 503))
     def nudges() -> NudgesMessage:
         """What was nudged by hand, by whom and when, and how far all of it leads."""
         return nudges_message(step.status())
@@ -160,8 +160,8 @@ def _points(step: PointsStep) -> PointsMessage:
     return points_message(status, [_told(error) for error in step.failures(status)], step.gate)
 
 
-def _told(error: RegistrationError) -> TroubleMessage:
-    trouble = Trouble.from_error(error)
-    return TroubleMessage(
-        code=trouble.code, message=trouble.message, remedy=trouble.remedy, context=trouble.context
+def _told(error: RegistrationError) -> ProblemMessage:
+    problem = Problem.from_error(error)
+    return ProblemMessage(
+        code=problem.code, message=problem.message, remedy=problem.remedy, context=problem.context
     )

@@ -19,7 +19,7 @@ from server.procedure.registration import (
     residuals_mm,
     target_errors,
 )
-from server.stream.messages import Message, TroubleMessage, trouble_message
+from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.plan.remark import Remark
 from tracker.registration import AnchoredTo, Method
 from tracker.registration.nudge import NudgeAxis, NudgeKind
@@ -106,7 +106,7 @@ class TouchMessage(Message):
     """How long the tip is still to be held at this rate; null before the second image."""
     spread_mm: list[float] | None
     """Standard deviation of the tip along the anchor's axes; null until it is taken."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
     """Why it was refused."""
 
 
@@ -173,7 +173,7 @@ class PointsMessage(Message):
     """Along every channel of the vertebra."""
     limits: PointLimitsMessage
     remarks: list[RemarkMessage]
-    missing: list[TroubleMessage]
+    missing: list[ProblemMessage]
     """What keeps it from being concluded; empty when it passes its gate."""
 
 
@@ -226,7 +226,7 @@ class RegistrationMessage(Message):
 
 
 def points_message(
-    status: PointsStatus, missing: list[TroubleMessage], gate: RegistrationConfig
+    status: PointsStatus, missing: list[ProblemMessage], gate: RegistrationConfig
 ) -> PointsMessage:
     """The points so far, as they are told."""
     fit = status.fit
@@ -292,7 +292,7 @@ def touch_message(status: TouchStatus) -> TouchMessage:
         rate_hz=status.rate_hz,
         left_s=status.left_s,
         spread_mm=None if status.touched is None else status.touched.spread_mm.tolist(),
-        trouble=trouble_message(status.trouble),
+        problem=problem_message(status.problem),
     )
 
 

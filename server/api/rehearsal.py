@@ -4,7 +4,7 @@ from functools import cache
 
 from fastapi import APIRouter, Response
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.rehearsal_messages import (
     MomentMessage,
     RehearsalMessage,
@@ -36,12 +36,12 @@ def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, camera: CameraCo
             )
         return rehearsed
 
-    @router.get("", responses=refusals(409))
+    @router.get("", responses=rejections(409))
     def rehearsal(*, truth: bool = False) -> RehearsalMessage:
         """What is rehearsed. With `truth=1` also what is true, for tests and teaching."""
         return _message(running(), hub, with_truth=truth)
 
-    @router.put("", responses=refusals(409, 422))
+    @router.put("", responses=rejections(409, 422))
     def play(asked: SceneRequest) -> RehearsalMessage:
         """Play another scene in the same theatre, from its beginning, without a restart.
 
@@ -60,7 +60,7 @@ def rehearsal_router(rehearsed: Rehearsed | None, hub: LiveHub, camera: CameraCo
     @router.get(
         "/ct",
         response_class=Response,
-        responses={200: {"content": {NIFTI: {}}}, **refusals(409)},
+        responses={200: {"content": {NIFTI: {}}}, **rejections(409)},
     )
     def ct() -> Response:
         """The CT of the rehearsal's vertebra, as .nii.gz; its LPS is the theatre's own vertebra frame."""

@@ -2,14 +2,14 @@
 
 from fastapi import APIRouter, Request, Response
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.session_messages import EnteredMessage, EnterRequest, SessionMessage
 from server.security.audit import note
 from server.security.cookies import cookie_header
 from server.security.guard import SECURE_KEY, SESSION_KEY
 from server.security.people import PeopleDesk, Session
 from server.security.person import ANYBODY
-from server.security.refusals import SignInOff
+from server.security.rejections import SignInOff
 
 
 def session_of(request: Request) -> Session | None:
@@ -37,7 +37,7 @@ def session_router(people: PeopleDesk | None) -> APIRouter:
             sign_in_required=True,
         )
 
-    @router.post("", responses=refusals(408, 409, 422, 503))
+    @router.post("", responses=rejections(408, 409, 422, 503))
     def enter(asked: EnterRequest, request: Request, response: Response) -> EnteredMessage:
         """Sign in with an invitation: the part of its link after the #.
 
@@ -64,7 +64,7 @@ def session_router(people: PeopleDesk | None) -> APIRouter:
             token=token.text if session.for_machine else None,
         )
 
-    @router.delete("", status_code=204, responses=refusals(409, 503))
+    @router.delete("", status_code=204, responses=rejections(409, 503))
     def leave(request: Request) -> Response:
         """Sign out: the session ends, and with it every picture and socket that it has open."""
         session = session_of(request)

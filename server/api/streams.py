@@ -3,13 +3,13 @@
 from fastapi import APIRouter, WebSocket
 from starlette.responses import Response
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.stream.errors import CameraUnknown
 from server.stream.fitting.sizes import Choice, choice_from_text
 from server.stream.live_socket import watch_live
 from server.stream.mjpeg import Video
 from server.stream.phone.socket import PhoneDoor, receive_phone
-from server.stream.socket import LONGEST_REASON, REFUSED
+from server.stream.socket import LONGEST_REASON, REJECTED
 from server.stream.view_socket import View, watch_view
 from tracker.errors import NavigationError
 
@@ -52,7 +52,7 @@ def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDo
                 "content": {"multipart/x-mixed-replace": {}},
                 "description": "JPEG after JPEG, without end.",
             },
-            **refusals(404, 422, 503),
+            **rejections(404, 422, 503),
         },
     )
     async def video_of(camera: str, size: Choice = Choice.AUTO) -> Response:
@@ -80,7 +80,7 @@ def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDo
                 raise CameraUnknown(asked, [camera_name])
             choice = choice_from_text(websocket.query_params.get("size", Choice.AUTO))
         except NavigationError as error:
-            await _refuse(websocket, error)
+            await _reject(websocket, error)
             return
         await watch_view(websocket, view, choice=choice)
 
@@ -91,7 +91,7 @@ def streams_router(*, camera_name: str, video: Video, view: View, phone: PhoneDo
     return router
 
 
-async def _refuse(websocket: WebSocket, error: NavigationError) -> None:
+async def _reject(websocket: WebSocket, error: NavigationError) -> None:
     """Say why, which a browser shows to no page before the socket is accepted."""
     await websocket.accept()
-    await websocket.close(REFUSED, error.message[:LONGEST_REASON])
+    await websocket.close(REJECTED, error.message[:LONGEST_REASON])

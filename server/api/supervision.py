@@ -2,7 +2,7 @@
 
 from fastapi import APIRouter, Request, WebSocket
 
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.supervision_messages import (
     RoomMessage,
     SignatureRequest,
@@ -19,7 +19,7 @@ from server.supervision.people import Seat
 from server.supervision.signatures import Signable
 from server.supervision.told import Told
 
-KEPT = refusals(404, 409, 422, 503, 507)
+KEPT = rejections(404, 409, 422, 503, 507)
 
 ROOM_IN_WORDS = """
 `WS /ws/room?view=theatre|operator|supervisor`: the client sends `{"next": true}` and gets one `RoomMessage`
@@ -57,7 +57,7 @@ def signatures_router(desk: SignatureDesk) -> APIRouter:
     """Everything under `/api/supervision/signatures`. Plain functions: they wait for the disk, in threads."""
     router = APIRouter(prefix="/api/supervision/signatures", tags=["supervision"])
 
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def signatures(request: Request) -> SignaturesMessage:
         """The plan and the registration that are to be drilled by, with the signatures of these versions."""
         return _message(request, desk.overview())

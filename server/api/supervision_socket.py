@@ -19,7 +19,7 @@ from server.api.supervision_messages import Said, room_message
 from server.security import person_of
 from server.stream.connection import line_of
 from server.stream.errors import TooManyViewers
-from server.stream.socket import REFUSED, TRY_LATER, Misbehaviour, converse, turn_away
+from server.stream.socket import REJECTED, TRY_LATER, Misbehaviour, converse, turn_away
 from server.stream.viewers import ViewerKind, Viewers
 from server.supervision import Lobby, Unfair, View
 from server.supervision.lobby import HEARTBEAT_S, MIN_BETWEEN_S, Waiting
@@ -35,7 +35,7 @@ async def sit_in_room(websocket: WebSocket, *, lobby: Lobby, viewers: Viewers) -
     await websocket.accept()
     asked = websocket.query_params.get("view", "")
     if asked not in set(View):
-        await websocket.close(REFUSED, f"view is one of {', '.join(View)}")
+        await websocket.close(REJECTED, f"view is one of {', '.join(View)}")
         return
     person = person_of(websocket.scope)
     try:
@@ -76,7 +76,7 @@ async def _talk(websocket: WebSocket, lobby: Lobby, viewers: Viewers, here: Wait
             _do(said, lobby, here)
         except Unfair as unfair:
             _log.warning("room_misused", by=here.seat.person.name, why=str(unfair))
-            raise Misbehaviour(REFUSED, str(unfair)) from unfair
+            raise Misbehaviour(REJECTED, str(unfair)) from unfair
         lobby.changed()
 
     await converse(websocket, viewers, speak=speak, hear=hear)
@@ -94,7 +94,7 @@ def _said(text: str) -> Said:
     try:
         return Said.model_validate_json(text, strict=True)
     except ValidationError as error:
-        raise Misbehaviour(REFUSED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
+        raise Misbehaviour(REJECTED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
 
 
 def _do(said: Said, lobby: Lobby, here: Waiting) -> None:

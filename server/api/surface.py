@@ -10,7 +10,7 @@ from pydantic import Field
 from server.api.case_messages import DocumentMessage, document_message
 from server.api.ct_messages import PointLps
 from server.api.doing import MadeBy, MadeByQuery
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.jobs import JobMessage, job_message
 from server.api.pictures import KEEP
 from server.api.uploads import received
@@ -50,7 +50,7 @@ def surface_router(step: SurfaceStep, store: CaseStore, home: Home) -> APIRouter
     router = APIRouter(prefix="/api", tags=["surface"])
     _add_making(router, step, home)
 
-    @router.get("/surface", responses=refusals(409, 503))
+    @router.get("/surface", responses=rejections(409, 503))
     def surface() -> DocumentMessage:
         """The surface of the open case: how it was made, how large it is, and what to know of it."""
         document, _ = step.latest()
@@ -59,7 +59,7 @@ def surface_router(step: SurfaceStep, store: CaseStore, home: Home) -> APIRouter
     @router.get(
         "/surface.ply",
         response_class=FileResponse,
-        responses={200: {"content": {PLY: {}}}, **refusals(409, 503)},
+        responses={200: {"content": {PLY: {}}}, **rejections(409, 503)},
     )
     def triangles(request: Request) -> Response:
         """Its triangles, binary PLY in mm of LPS."""
@@ -73,7 +73,7 @@ def surface_router(step: SurfaceStep, store: CaseStore, home: Home) -> APIRouter
 
 
 def _add_making(router: APIRouter, step: SurfaceStep, home: Home) -> None:
-    @router.post("/surface/from-ct", status_code=202, responses=refusals(409, 422, 503, 507))
+    @router.post("/surface/from-ct", status_code=202, responses=rejections(409, 422, 503, 507))
     def from_ct(asked: BoneRequest) -> JobMessage:
         """Make the surface of the bone in the CT of the open case, in a job."""
         region = asked.region
@@ -89,7 +89,7 @@ def _add_making(router: APIRouter, step: SurfaceStep, home: Home) -> None:
     @router.post(
         "/surface",
         status_code=202,
-        responses=refusals(409, 413, 422, 503, 507),
+        responses=rejections(409, 413, 422, 503, 507),
         openapi_extra={"requestBody": {"required": True, "content": MESH_TYPES}},
     )
     async def send(
@@ -104,7 +104,7 @@ def _add_making(router: APIRouter, step: SurfaceStep, home: Home) -> None:
         Where its numbers cannot be a vertebra's in mm, the job refuses it and proposes a unit; nothing is
         scaled that was not asked for.
         """
-        await to_thread.run_sync(step.refuse_without_case)
+        await to_thread.run_sync(step.reject_without_case)
         order = MeshOrder(file_format=file_format, unit=unit, space=space)
         async with received(request, home, max_bytes=LARGEST_MESH_BYTES) as path:
             job = await to_thread.run_sync(lambda: step.from_mesh(path, order, made_by=made_by))

@@ -3,17 +3,17 @@
 from fastapi import APIRouter, Response
 
 from server.api.case_messages import DocumentMessage, document_message
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.api.registration_messages import ByRequest, RemarkMessage, ToolRequest, remark_message
-from server.live import Trouble
+from server.live import Problem
 from server.procedure.registered import Value
 from server.procedure.registration import SweepStep
 from server.procedure.registration.sweep import SweepStatus
 from server.store import Current
-from server.stream.messages import Message, TroubleMessage, trouble_message
+from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.registration import AnchoredTo
 
-KEPT = refusals(409, 422, 503, 507)
+KEPT = rejections(409, 422, 503, 507)
 
 
 class TakingRequest(Message):
@@ -36,7 +36,7 @@ class SweepMessage(Message):
     """Images in which the tip was not known."""
     reach_mm: list[float]
     """From end to end along the sweep's three axes, the longest first."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
 
 
 class SweepFitMessage(Message):
@@ -46,7 +46,7 @@ class SweepFitMessage(Message):
     weakest: str
     """The way in which the sweep alone holds the bone least, in words."""
     remarks: list[RemarkMessage]
-    missing: list[TroubleMessage]
+    missing: list[ProblemMessage]
     """What keeps it from being concluded; empty when it passes its gate."""
 
 
@@ -59,12 +59,12 @@ def sweep_router(step: SweepStep) -> APIRouter:
         """Take the tip's places from the live images while it is swept over the vertebra's bare bone."""
         return _message(step.begin(tool=asked.tool).status)
 
-    @router.get("", responses=refusals(409))
+    @router.get("", responses=rejections(409))
     def progress() -> SweepMessage:
         """How much was swept."""
         return _message(step.session.status)
 
-    @router.put("", responses=refusals(409))
+    @router.put("", responses=rejections(409))
     def take(asked: TakingRequest) -> SweepMessage:
         """Leave the tip out while it is lifted off the bone, or take it again."""
         step.session.take(taking=asked.taking)
@@ -86,7 +86,7 @@ def sweep_router(step: SweepStep) -> APIRouter:
             remarks=[remark_message(remark) for remark in found.remarks],
             missing=[
                 message
-                for message in (trouble_message(Trouble.from_error(one)) for one in failures)
+                for message in (problem_message(Problem.from_error(one)) for one in failures)
                 if message is not None
             ],
         )
@@ -109,5 +109,5 @@ def _message(status: SweepStatus) -> SweepMessage:
         points=status.points,
         unseen=status.unseen,
         reach_mm=list(status.reach_mm),
-        trouble=trouble_message(status.trouble),
+        problem=problem_message(status.problem),
     )

@@ -7,13 +7,13 @@ from pydantic import Field
 
 from server.api.case_messages import DocumentMessage, document_message
 from server.api.doing import MadeBy
-from server.api.errors import refusals
+from server.api.errors import rejections
 from server.config import Name, Point
-from server.live import Trouble
+from server.live import Problem
 from server.procedure.tool import KnownTool, ToolStep
 from server.procedure.tool_collection import GatheringStatus
 from server.store import Current
-from server.stream.messages import Message, TroubleMessage, trouble_message
+from server.stream.messages import Message, ProblemMessage, problem_message
 from tracker.errors import CalibrationError
 from tracker.pose.tool import PivotCalibration, SpinCalibration, TipCheck
 from tracker.pose.tool.collector import Missing, Need, Outcome, Purpose, Taking
@@ -92,11 +92,11 @@ class GatheringMessage(Message):
     """At right angles to it."""
     spin_range_deg: float | None
     outcome: OutcomeMessage | None
-    outcome_trouble: TroubleMessage | None
+    outcome_problem: ProblemMessage | None
     """Why the poses give nothing yet."""
     missing: list[MissingMessage]
     """Empty when it is enough."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
 
 
 class ConclusionRequest(Message):
@@ -112,14 +112,14 @@ def tools_router(step: ToolStep) -> APIRouter:
     """Everything under `/api/tools`."""
     router = APIRouter(prefix="/api/tools", tags=["tools"])
 
-    @router.get("", responses=refusals(503))
+    @router.get("", responses=rejections(503))
     def tools() -> KnownToolsMessage:
         """The tools that are known, with their newest calibrations."""
         return KnownToolsMessage(
             collecting=step.is_collecting, tools=[_known(one, step) for one in step.all()]
         )
 
-    @router.post("/collection", status_code=201, responses=refusals(409, 422, 503))
+    @router.post("/collection", status_code=201, responses=rejections(409, 422, 503))
     def begin(asked: GatheringRequest) -> GatheringMessage:
         """Gather poses of a tool from the live images: to pivot it, to spin it, or to check its tip.
 
@@ -127,7 +127,7 @@ def tools_router(step: ToolStep) -> APIRouter:
         """
         return _message(step.begin(asked.tool, marker=asked.marker, purpose=asked.purpose).status)
 
-    @router.get("/collection", responses=refusals(409))
+    @router.get("/collection", responses=rejections(409))
     def progress() -> GatheringMessage:
         """How far it has come, what the poses give now, and what is missing."""
         return _message(step.collection.status)
@@ -138,7 +138,7 @@ def tools_router(step: ToolStep) -> APIRouter:
         step.end()
         return Response(status_code=204)
 
-    @router.post("/collection/conclusion", status_code=201, responses=refusals(409, 422, 503, 507))
+    @router.post("/collection/conclusion", status_code=201, responses=rejections(409, 422, 503, 507))
     def conclude(asked: ConclusionRequest) -> DocumentMessage:
         """Keep what the poses give in the open case, if it passes its gate; it is used from then on."""
         document = step.conclude(
@@ -181,11 +181,11 @@ def _message(status: GatheringStatus) -> GatheringMessage:
         tilt_range_across_deg=None if turning is None else turning.tilt_range_across_deg,
         spin_range_deg=None if turning is None else turning.spin_range_deg,
         outcome=None if isinstance(outcome, CalibrationError) else _outcome(outcome),
-        outcome_trouble=trouble_message(
-            Trouble.from_error(outcome) if isinstance(outcome, CalibrationError) else None
+        outcome_problem=problem_message(
+            Problem.from_error(outcome) if isinstance(outcome, CalibrationError) else None
         ),
         missing=[_missing(one) for one in progress.missing],
-        trouble=trouble_message(status.trouble),
+        problem=problem_message(status.problem),
     )
 
 

@@ -24,8 +24,8 @@ async def received(request: Request, home: Home, *, max_bytes: int) -> AsyncIter
         StoreError: STORE_FULL, STORE_READ_ONLY or STORE_FAILED.
     """
     announced_bytes = _announced_bytes(request)
-    _refuse_above(announced_bytes, max_bytes)
-    home.refuse_without_room(announced_bytes)
+    _reject_above(announced_bytes, max_bytes)
+    home.reject_without_room(announced_bytes)
     path = home.new_temporary()
     try:
         await _write(request, path, home, max_bytes=max_bytes)
@@ -41,7 +41,7 @@ async def _write(request: Request, path: Path, home: Home, *, max_bytes: int) ->
         try:
             async for chunk in request.stream():
                 taken_bytes += len(chunk)
-                _refuse_above(taken_bytes, max_bytes)
+                _reject_above(taken_bytes, max_bytes)
                 waiting += chunk
                 if len(waiting) >= PIECE_BYTES:
                     await to_thread.run_sync(stream.write, waiting)
@@ -67,7 +67,7 @@ def _announced_bytes(request: Request) -> int:
     return int(announced) if announced.isdecimal() else 0
 
 
-def _refuse_above(size_bytes: int, max_bytes: int) -> None:
+def _reject_above(size_bytes: int, max_bytes: int) -> None:
     if size_bytes > max_bytes:
         raise InvalidInput(
             "UPLOAD_TOO_LARGE",

@@ -9,7 +9,7 @@ import structlog
 from server.capture.frozen import SameImage
 from server.capture.shot import Shot, Source
 from server.errors import CaptureError
-from server.live import SourceState, SourceStatus, Trouble
+from server.live import Problem, SourceState, SourceStatus
 
 # Half a second to knock and this to wait: a source that is back is found within a second.
 RETRY_AFTER_S = 0.3
@@ -34,7 +34,7 @@ class Capture:
         self._change = threading.Condition()
         self._newest: Shot | None = None
         self._state = SourceState.OPENING
-        self._trouble: Trouble | None = None
+        self._problem: Problem | None = None
         self._same = SameImage()
         self._told: tuple[str, str] | None = None
         self._failed_at_s: float | None = None
@@ -83,33 +83,33 @@ class Capture:
         """What the source is doing."""
         now_s = time.monotonic()
         with self._change:
-            state, trouble = self._state, self._trouble
+            state, problem = self._state, self._problem
             silent_s = now_s - self._alive_at_s
             if self._source.stalls and self._is_open and silent_s > STALLED_AFTER_S:
-                state, trouble = SourceState.RECONNECTING, self._stalled()
+                state, problem = SourceState.RECONNECTING, self._stalled()
             recent = [t for t in self._times if now_s - t <= RATE_WINDOW_S]
             pending = 0 if self._newest is None else 1
             return SourceStatus(
                 name=self._source.name,
                 state=state,
-                trouble=trouble,
+                problem=problem,
                 images=self._images,
                 skipped_images=max(0, self._images - self._taken - pending),
                 rate_hz=_rate_hz(recent) if state is SourceState.RUNNING else 0.0,
                 camera=self._source.camera,
             )
 
-    def _stalled(self) -> Trouble:
+    def _stalled(self) -> Problem:
         camera = self._source.camera
         if camera is not None and camera.trigger:
-            return Trouble(
+            return Problem(
                 code="CAMERA_NOT_TRIGGERED",
                 message=f"{self._source.name} waits for a pulse on {camera.trigger}, and none came for "
                 f"{STALLED_AFTER_S:g} s",
                 remedy="Start what triggers it, and check its cable; or set camera.trigger to null.",
                 context={"source": self._source.name, "trigger": camera.trigger, "limit_s": STALLED_AFTER_S},
             )
-        return Trouble(
+        return Problem(
             code="SOURCE_STALLED",
             message=f"the source {self._source.name} is open, but gave no image for {STALLED_AFTER_S:g} s",
             remedy="Check the camera, its power and its cable; it is tried again by itself.",
@@ -175,12 +175,12 @@ class Capture:
             self._alive_at_s = shot.captured_at_s
             self._times.append(shot.captured_at_s)
             self._state = SourceState.RUNNING
-            self._trouble = None if defect is None else Trouble.from_error(defect)
+            self._problem = None if defect is None else Problem.from_error(defect)
             self._change.notify_all()
         if started:
             self._tell_running(shot)
         if defect is not None:
-            self._tell_trouble(defect)
+            self._tell_problem(defect)
         elif started:
             self._told = None
         if self._source.waits_for_taker:
@@ -189,11 +189,11 @@ class Capture:
 
     def _end(self) -> None:
         if self._source.defect is not None:
-            self._tell_trouble(self._source.defect)
+            self._tell_problem(self._source.defect)
         with self._change:
             self._state = SourceState.ENDED
             self._is_open = False
-            self._trouble = None if self._source.defect is None else Trouble.from_error(self._source.defect)
+            self._problem = None if self._source.defect is None else Problem.from_error(self._source.defect)
             self._status_changed = True
             self._change.notify_all()
         log.info("source ended", source=self._source.name, images=self._images)
@@ -203,7 +203,7 @@ class Capture:
         with self._change:
             self._is_open = False
             self._state = SourceState.RECONNECTING
-            self._trouble = Trouble.from_error(error)
+            self._problem = Problem.from_error(error)
             self._times.clear()
             # An image from before the failure must not be looked at as if it were live.
             self._newest = None
@@ -211,7 +211,7 @@ class Capture:
             if self._failed_at_s is None:
                 self._failed_at_s = time.monotonic()
             self._change.notify_all()
-        self._tell_trouble(error)
+        self._tell_problem(error)
 
     def _tell_running(self, shot: Shot) -> None:
         height, width = shot.image.shape[:2]
@@ -223,7 +223,7 @@ class Capture:
             log.info("source is back", source=self._source.name, size_px=size, away_s=away_s)
         self._failed_at_s = None
 
-    def _tell_trouble(self, error: CaptureError) -> None:
+    def _tell_problem(self, error: CaptureError) -> None:
         """Log it once, not at every attempt."""
         sentence = (error.code, error.message)
         if sentence != self._told:

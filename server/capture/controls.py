@@ -142,7 +142,7 @@ class ControlKeeper:
         except OSError as error:
             log.warning(
                 "a control of the camera cannot be set",
-                code="CAMERA_CONTROL_REFUSED",
+                code="CAMERA_CONTROL_REJECTED",
                 camera=self._name,
                 control=control.value,
                 value=value,

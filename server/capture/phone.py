@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from server.capture.shot import Shot
 from server.errors import CaptureError
-from server.live import CameraMode, CameraStatus, ImageClock, Trouble
+from server.live import CameraMode, CameraStatus, ImageClock, Problem
 from tracker.camera import CameraControl
 
 NAME = "phone"
@@ -96,7 +96,7 @@ class Inbound:
 
     sender: str
     image: PhoneImage | None = None
-    problem: Trouble | None = None
+    problem: Problem | None = None
 
 
 class Inbox(Protocol):
@@ -211,9 +211,9 @@ def _decoded(jpeg: bytes) -> npt.NDArray[np.uint8] | None:
     return None if image is None else np.asarray(image, dtype=np.uint8)
 
 
-def broken_image() -> Trouble:
+def broken_image() -> Problem:
     """An image is no JPEG, or is cut off."""
-    return Trouble(
+    return Problem(
         code="PHONE_IMAGE_BROKEN",
         message="an image that the phone sent is no whole JPEG",
         remedy="Reload the page on the phone; if it happens again, use another browser there.",
@@ -247,7 +247,7 @@ def _silent() -> CaptureError:
     )
 
 
-def _unusable(problem: Trouble) -> CaptureError:
+def _unusable(problem: Problem) -> CaptureError:
     return CaptureError(problem.code, problem.message, problem.remedy, dict(problem.context))
 
 

@@ -16,7 +16,7 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
     columns, rows = size_of("--size", given.size)
     board: Board
     if given.pattern is Pattern.DOTS:
-        _refuse_unused(given, "square_mm", "marker_mm", "dictionary")
+        _reject_unused(given, "square_mm", "marker_mm", "dictionary")
         board = DotBoard(
             columns=columns,
             rows=rows,
@@ -25,10 +25,10 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
             fiducials=indexes_of(given.fiducials),
         )
     elif given.pattern is Pattern.CHECKERBOARD:
-        _refuse_unused(given, "pitch_mm", "marker_mm", "dictionary", "fiducials", "layout")
+        _reject_unused(given, "pitch_mm", "marker_mm", "dictionary", "fiducials", "layout")
         board = CheckerBoard(columns=columns, rows=rows, square_mm=_needed(given, "square_mm"))
     else:
-        _refuse_unused(given, "pitch_mm", "fiducials")
+        _reject_unused(given, "pitch_mm", "fiducials")
         if given.dictionary is None:
             raise _missing(given, "dictionary")
         layout = _layout(given, Layout.NEWER, Layout.OLDER)
@@ -41,7 +41,7 @@ def boards_of(given: BoardOptions) -> tuple[Board, ...]:
             layout=None if layout is None else CharucoLayout(layout),
         )
     if given.inset is None:
-        _refuse_unused(given, "inset_square_mm")
+        _reject_unused(given, "inset_square_mm")
         return (board,)
     inner_columns, inner_rows = size_of("--inset", given.inset)
     square_mm = _needed(given, "inset_square_mm")
@@ -133,7 +133,7 @@ def _missing(given: BoardOptions, name: str) -> InvalidInput:
     )
 
 
-def _refuse_unused(given: BoardOptions, *names: str) -> None:
+def _reject_unused(given: BoardOptions, *names: str) -> None:
     for name in names:
         if getattr(given, name) is not None:
             option = "--" + name.replace("_", "-")

@@ -14,7 +14,7 @@ import typer
 
 from server.cli.background import Film, film_of
 from server.cli.marker_report import Report, closest_picture, json_of, told
-from server.cli.output import refuse_unwritable, write_whole
+from server.cli.output import reject_unwritable, write_whole
 from server.cli.progress import Steps, shown_steps
 from server.marker_file import load_marker_image
 from server.printing import marker_sheet, pdf_from_sheet, svg_from_sheet
@@ -68,7 +68,7 @@ def design_marker(order: DesignOrder, *, as_json: bool) -> int:
             "Use letters, digits, - and _ with --name, at most 40, a letter or digit first.",
             {"name": order.name},
         )
-    _refuse_output(order)
+    _reject_output(order)
     settings = ScoreSettings()
     with shown_steps() as steps:
         film = (
@@ -141,7 +141,7 @@ def check_marker(
     return 0 if judgement.unique else FAILED
 
 
-def _refuse_output(order: DesignOrder) -> None:
+def _reject_output(order: DesignOrder) -> None:
     """Before the work: a printed marker must stay the one that is tracked, and files need a place."""
     there = [str(file) for file in order.files if file.exists()]
     if there and not order.replace:
@@ -152,7 +152,7 @@ def _refuse_output(order: DesignOrder) -> None:
             {"files": there},
         )
     for file in order.files:
-        refuse_unwritable(file)
+        reject_unwritable(file)
 
 
 def _designed(order: DesignOrder, film: Film | None, settings: ScoreSettings, steps: Steps) -> Design:

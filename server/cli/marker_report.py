@@ -89,7 +89,7 @@ def json_of(report: Report) -> str:
         "accept_target_score_ratio": report.settings.accept_target_score_ratio,
         "turned": _score(judgement.turned),
         "mirrored": _score(judgement.mirrored),
-        "own_likeness": judgement.own_likeness,
+        "own_correlation": judgement.own_correlation,
         "tilt_sd_deg": precision.tilt_sd_deg,
         "plain_tilt_sd_deg": precision.plain_tilt_sd_deg,
         "distance_sd_ratio": precision.distance_sd_ratio,
@@ -114,7 +114,7 @@ def json_of(report: Report) -> str:
                 {
                     "image_number": film.numbers[place.image_index],
                     "corners_px": place.corners_px.tolist(),
-                    "likeness": place.likeness,
+                    "correlation": place.correlation,
                     **_score(place.score),
                 }
                 for place in judgement.nearest

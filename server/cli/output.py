@@ -79,9 +79,9 @@ def lines_to(json_file: str | None, *, inputs: Iterable[Path], replace: bool) ->
     path = Path(json_file).resolve()
     replaced = path.is_file() or not path.exists()
     written = path.with_name(path.name + PART) if replaced else path
-    _refuse_input(json_file, (path, written), inputs)
+    _reject_input(json_file, (path, written), inputs)
     if replaced and not replace:
-        _refuse_older(json_file, path)
+        _reject_older(json_file, path)
     file = _opened(written)
     lines = Lines(file, name=str(written), on_disk=replaced)
     try:
@@ -115,7 +115,7 @@ def write_whole(path: Path, content: bytes) -> None:
         ) from error
 
 
-def refuse_unwritable(path: Path) -> None:
+def reject_unwritable(path: Path) -> None:
     """See that a file can be written before the work for it; its folder is made where it is missing.
 
     Raises:
@@ -138,7 +138,7 @@ def _opened(path: Path) -> IO[str]:
         ) from error
 
 
-def _refuse_older(json_file: str, path: Path) -> None:
+def _reject_older(json_file: str, path: Path) -> None:
     size = path.stat().st_size if path.exists() else 0
     if size:
         raise InvalidInput(
@@ -149,7 +149,7 @@ def _refuse_older(json_file: str, path: Path) -> None:
         )
 
 
-def _refuse_input(json_file: str, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+def _reject_input(json_file: str, outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     for output in outputs:
         for source in inputs:
             with contextlib.suppress(OSError):

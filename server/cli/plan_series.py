@@ -33,6 +33,6 @@ def _line(one: SeriesDescription) -> str:
         f"{across:g} x {down:g} mm",
         f"{one.thickness_mm:g} mm thick" if one.thickness_mm > 0.0 else "",
         one.words,
-        f"not to plan on: {one.trouble}" if one.trouble else "",
+        f"not to plan on: {one.problem}" if one.problem else "",
     ]
     return ", ".join(part for part in parts if part)

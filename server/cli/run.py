@@ -17,7 +17,7 @@ from server.config import Config
 from server.errors import ConfigError
 from server.logs import LogSettings, configure_logging
 from server.security.reach import shown_name
-from server.security.tls import refuse_unsafe
+from server.security.tls import reject_unsafe
 
 if TYPE_CHECKING:
     from server.loop.rehearsed import Rehearsed
@@ -41,7 +41,7 @@ def run_dashboard(given: Given, *, log_json: bool, debug: bool, new_operator_lin
         config = config_from_options(given)
         settings = LogSettings.for_terminal(as_json=True if log_json else None, debug=debug)
         configure_logging(settings)
-        refuse_unsafe(config)
+        reject_unsafe(config)
         _serve(config, settings, _listener(config), stopping, new_operator_link=new_operator_link)
 
 

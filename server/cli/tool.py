@@ -62,7 +62,7 @@ def calibrate_tip(order: PivotOrder, *, as_json: bool) -> int:
     # Asked before the work, so that nobody pivots for a file that cannot be written.
     marker = None if order.output is None else _marker_of(order, files, config)
     if marker is None:
-        _refuse_another_side(files, order.side_mm, order.poses)
+        _reject_another_side(files, order.side_mm, order.poses)
     gate = _gate(config)
     found = pivot_calibration(files.poses, gate)
     failures = found.failures(gate)
@@ -146,7 +146,7 @@ def _marker_of(order: PivotOrder, files: PoseFiles, config: Config) -> ToolMarke
             f"a tool file belongs to one marker, and {missing} is not known",
             "Give --marker NAME and --side-mm MM, or the settings in which the marker stands with --config.",
         )
-    _refuse_another_side(files, side_mm, order.poses)
+    _reject_another_side(files, side_mm, order.poses)
     try:
         return ToolMarker(marker=name, side_mm=side_mm)
     except ValidationError:
@@ -160,11 +160,11 @@ def _marker_of(order: PivotOrder, files: PoseFiles, config: Config) -> ToolMarke
 def _poses_of(order: TipOrder, tool: ToolFile | None) -> PoseFiles:
     """The poses of the tool's marker, tracked with its side."""
     files = read_poses(order.poses, unit=Unit(order.unit), marker=_marker_name(order, tool))
-    _refuse_another_side(files, None if tool is None else tool.side_mm, order.poses)
+    _reject_another_side(files, None if tool is None else tool.side_mm, order.poses)
     return files
 
 
-def _refuse_another_side(files: PoseFiles, side_mm: float | None, path: Path) -> None:
+def _reject_another_side(files: PoseFiles, side_mm: float | None, path: Path) -> None:
     """A pose's millimetres are in proportion to the side that it was tracked with: it must be this one."""
     told = sorted({one.side_mm for one in files.records if one.side_mm is not None})
     wanted = told[0] if side_mm is None and told else side_mm

@@ -46,15 +46,15 @@ def _covered(share: Share) -> str:
 
 def _registrations(figures: Figures) -> Table:
     table = Table(title="Registrations")
-    for heading in ("way", "anchored to", "refused", "check passed", "check, median mm"):
+    for heading in ("way", "anchored to", "rejected", "check passed", "check, median mm"):
         table.add_column(heading)
     for one in figures.registrations:
-        refused = ", ".join(f"{count} {code}" for code, count in sorted(one.refused.items())) or "none"
+        rejected = ", ".join(f"{count} {code}" for code, count in sorted(one.rejected.items())) or "none"
         table.add_row(
             one.way.value,
             one.anchored_to.value,
-            refused,
-            f"{one.check_passed}/{one.theatres - sum(one.refused.values())}",
+            rejected,
+            f"{one.check_passed}/{one.theatres - sum(one.rejected.values())}",
             f"{one.check_median_mm:.2f}",
         )
     return table
@@ -94,7 +94,7 @@ def _registration_value(one: RegistrationFigures) -> dict[str, object]:
         "way": one.way.value,
         "anchored_to": one.anchored_to.value,
         "theatres": one.theatres,
-        "refused": dict(sorted(one.refused.items())),
+        "rejected": dict(sorted(one.rejected.items())),
         "check_passed": one.check_passed,
         "check_median_mm": _finite(one.check_median_mm),
     }

@@ -65,7 +65,7 @@ class SeriesDescription:
     thickness_mm: float
     kernel: str
     compression: str
-    trouble: str = ""
+    problem: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

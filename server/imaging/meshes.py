@@ -35,7 +35,7 @@ def read_mesh(path: Path, *, unit: str | None = None, space: Space | None = None
         PlanError: as `mesh_from_bytes`.
     """
     try:
-        _refuse_large(path.stat().st_size)
+        _reject_large(path.stat().st_size)
         content = path.read_bytes()
     except OSError as error:
         message = f"the mesh cannot be read: {(error.strerror or str(error)).lower()}"
@@ -58,7 +58,7 @@ def mesh_from_bytes(
         InvalidInput: MESH_FORMAT_UNKNOWN, MESH_TOO_LARGE, MESH_UNREADABLE.
         PlanError: as `tracker.plan.mesh.surface_from_mesh`.
     """
-    _refuse_large(len(content))
+    _reject_large(len(content))
     file_format = file_format.lower()
     if file_format not in FORMATS:
         raise InvalidInput(
@@ -101,7 +101,7 @@ def stl_from_surface(surface: Surface) -> bytes:
     return b"Coaxial SPACE=LPS UNIT=mm".ljust(80, b"\0") + content[80:]
 
 
-def _refuse_large(size: int) -> None:
+def _reject_large(size: int) -> None:
     if size > MAX_BYTES:
         raise InvalidInput(
             "MESH_TOO_LARGE",

@@ -13,7 +13,7 @@ BONE_HU = 200
 EVERY = 4
 
 
-def refuse_beyond(beyond: int, voxels: int) -> None:
+def reject_beyond(beyond: int, voxels: int) -> None:
     """Refuses a CT of whose numbers many are none that Hounsfield units can be.
 
     Raises:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from server.disk import refuse_without_room, take_room
+from server.disk import reject_without_room, take_room
 from tracker.errors import InvalidInput
 
 MAX_VOXELS = 2**30
@@ -62,7 +62,7 @@ def voxels_to_fill(shape: tuple[int, int, int], into: Path | None) -> Iterator[V
         voxels.hu.setflags(write=False)
         return
     partial = into.with_name(f".{into.name}.{uuid.uuid4().hex}.partial")
-    refuse_without_room(into.parent, shape[0] * shape[1] * shape[2] * np.dtype(np.int16).itemsize)
+    reject_without_room(into.parent, shape[0] * shape[1] * shape[2] * np.dtype(np.int16).itemsize)
     try:
         mapped = np.lib.format.open_memmap(partial, mode="w+", dtype=np.int16, shape=shape)
         take_room(partial)

@@ -19,7 +19,7 @@ import structlog
 
 from server.jobs.records import Job, JobState
 from server.jobs.work import Progress, Result, Work, as_told, run_work
-from server.live import Trouble
+from server.live import Problem
 from server.logs import LogSettings
 from server.loop.forks import ending_words, forking_context
 from tracker.errors import NavigationError
@@ -193,7 +193,7 @@ class Jobs:
 
     def _listen(
         self, watched: _Watched, process: ForkServerProcess, ours: Connection
-    ) -> Result | Trouble | None:
+    ) -> Result | Problem | None:
         """The last word of the process; None if it ended without one."""
         while True:
             wait([ours, process.sentinel])
@@ -204,12 +204,12 @@ class Jobs:
             except (EOFError, OSError):
                 return None
             if not isinstance(told, Progress):
-                return told if isinstance(told, Result | Trouble) else None
+                return told if isinstance(told, Result | Problem) else None
             with self._lock:
                 ratio = min(1.0, max(watched.job.progress_ratio, told.ratio))
                 watched.job = replace(watched.job, progress_ratio=ratio, doing=told.doing)
 
-    def _end(self, watched: _Watched, told: Result | Trouble) -> None:
+    def _end(self, watched: _Watched, told: Result | Problem) -> None:
         with self._lock:
             if watched.job.state.is_over:
                 return
@@ -223,16 +223,16 @@ class Jobs:
                     watched.job, state=JobState.DONE, progress_ratio=1.0, doing="", result=told.value
                 )
             else:
-                watched.job = replace(watched.job, state=JobState.FAILED, doing="", trouble=told)
+                watched.job = replace(watched.job, state=JobState.FAILED, doing="", problem=told)
         log.info("job over", job=watched.job.id, state=watched.job.state.value)
 
-    def _concluded(self, watched: _Watched, result: Result) -> Result | Trouble:
+    def _concluded(self, watched: _Watched, result: Result) -> Result | Problem:
         try:
             return (
                 result if watched.conclude is None else Result(value=as_told(watched.conclude(result.value)))
             )
         except NavigationError as error:
-            return Trouble.from_error(error)
+            return Problem.from_error(error)
         except Exception:
             log.exception("the result of a job could not be kept", job=watched.job.id)
             return _crashed("gave a result that could not be kept")
@@ -253,8 +253,8 @@ class Jobs:
             del self._watched[job_id]
 
 
-def _crashed(how: str) -> Trouble:
-    return Trouble(
+def _crashed(how: str) -> Problem:
+    return Problem(
         code="JOB_ENDED",
         message=f"the process that did the work {how}",
         remedy="Start it again. If it ends by SIGKILL each time, the machine has too little memory for it.",

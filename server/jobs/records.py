@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from server.live import Trouble
+from server.live import Problem
 
 
 class JobState(StrEnum):
@@ -42,4 +42,4 @@ class Job:
     progress_ratio: float = 0.0
     doing: str = ""
     result: object = None
-    trouble: Trouble | None = None
+    problem: Problem | None = None

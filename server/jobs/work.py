@@ -14,7 +14,7 @@ import cv2
 import structlog
 
 from server.disk import became_full, is_full
-from server.live import Trouble
+from server.live import Problem
 from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
 from tracker.errors import NavigationError
@@ -53,7 +53,7 @@ class Result:
     value: object
 
 
-Told: TypeAlias = Progress | Result | Trouble
+Told: TypeAlias = Progress | Result | Problem
 
 
 def run_work(
@@ -73,10 +73,10 @@ def run_work(
         # Nobody wants it any more.
         os._exit(0)
     except NavigationError as error:
-        told.send(Trouble.from_error(error))
+        told.send(Problem.from_error(error))
     except Exception as error:
         log.exception("a job failed")
-        told.send(_trouble(error, arguments))
+        told.send(_problem(error, arguments))
 
 
 def as_told(value: object) -> object:
@@ -89,18 +89,18 @@ def as_told(value: object) -> object:
     return told
 
 
-def _trouble(error: Exception, arguments: Mapping[str, object]) -> Trouble:
+def _problem(error: Exception, arguments: Mapping[str, object]) -> Problem:
     """What is told of an error that the work did not expect."""
     if isinstance(error, MemoryError):
-        return Trouble(
+        return Problem(
             code="JOB_OUT_OF_MEMORY",
             message="the work needed more memory than there is",
             remedy="Close other programs or use smaller files, then start it again.",
         )
     folder = arguments.get("folder")
     if isinstance(error, OSError) and is_full(error) and isinstance(folder, str):
-        return Trouble.from_error(became_full(Path(folder)))
-    return Trouble(
+        return Problem.from_error(became_full(Path(folder)))
+    return Problem(
         code="JOB_FAILED",
         message="the program made a mistake while it worked",
         remedy="Try again; if it comes back, send the server's log to the maintainer.",

@@ -130,7 +130,7 @@ def latency_report(
     )
     if read_images < MIN_READ_RATIO * max(len(once), 1):
         raise _code_not_read(f"the code was read in {read_images} of {len(once)} images", min_timed)
-    skipped = _refuse_skipped(once, read_by_number)
+    skipped = _reject_skipped(once, read_by_number)
     samples = _samples(painted, once, read_by_number)
     if len(samples) < min_timed:
         raise _code_not_read(f"{len(samples)} of {len(painted)} codes could be timed", min_timed)
@@ -197,7 +197,7 @@ def _place_of(code: int | None, painted: Sequence[PaintedCode], shown_at_ms: flo
     return None
 
 
-def _refuse_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -> int:
+def _reject_skipped(shown: Sequence[ShownImage], read: Mapping[int, ReadImage]) -> int:
     """How many images were skipped.
 
     Raises:

@@ -18,7 +18,7 @@ import numpy.typing as npt
 import structlog
 
 from server.alarms import no_alarms
-from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.live import Instant, LiveHub, Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.loop.board import Board, Posted
 from server.loop.report import Report, ReportUnpacker
 from tracker.navigation import NavigationSnapshot
@@ -79,7 +79,7 @@ class Publisher:
         self._unpacker = ReportUnpacker()
         self._last: Instant | None = None
         self._last_at_s = 0.0
-        self._trouble: Trouble | None = None
+        self._problem: Problem | None = None
         self._alarms = QUIET
         self._shown = Shown()
         self._told = ""
@@ -115,7 +115,7 @@ class Publisher:
         self._board.note_running(posted.generation)
         self._board.note_source(report.source)
         self._board.note_begun(report.begun)
-        self._trouble = report.trouble
+        self._problem = report.problem
         snapshot = None if image is None else report.snapshot
         self._watch(snapshot, report.source)
         shown = Shown() if snapshot is None or image is None else self._drawn(snapshot, image)
@@ -128,7 +128,7 @@ class Publisher:
 
     def _newest(self, posted: Posted) -> tuple[Report | None, Image | None]:
         if posted.generation != self._generation:
-            self._generation, self._read, self._tracked, self._trouble = posted.generation, 0, 0, None
+            self._generation, self._read, self._tracked, self._problem = posted.generation, 0, 0, None
         if posted.ring is None:
             return None, None
         entry = posted.ring.newest(after=self._read)
@@ -146,12 +146,12 @@ class Publisher:
         last, now_s = self._last, time.monotonic()
         source = self._board.source
         if posted.process.state is not ProcessState.RUNNING:
-            source = replace(source, state=SourceState.OPENING, trouble=None, rate_hz=0.0)
+            source = replace(source, state=SourceState.OPENING, problem=None, rate_hz=0.0)
         self._watch(None, source)
         process = self._status(posted.process)
-        changed = last is None or (last.process.state, last.process.trouble) != (
+        changed = last is None or (last.process.state, last.process.problem) != (
             process.state,
-            process.trouble,
+            process.problem,
         )
         if changed or now_s - self._last_at_s >= HEARTBEAT_S:
             self._publish(posted.process, source, Shown())
@@ -170,8 +170,8 @@ class Publisher:
             )
 
     def _status(self, process: ProcessStatus) -> ProcessStatus:
-        trouble = process.trouble or (self._trouble if process.state is ProcessState.RUNNING else None)
-        return replace(process, trouble=trouble, dropped_images=self._dropped)
+        problem = process.problem or (self._problem if process.state is ProcessState.RUNNING else None)
+        return replace(process, problem=problem, dropped_images=self._dropped)
 
     def _publish(self, process: ProcessStatus, source: SourceStatus, shown: Shown) -> None:
         instant = Instant(
@@ -211,7 +211,7 @@ class Publisher:
 
     def _tell_failed(self, error: Exception, *, code: str, what: str, remedy: str = "") -> None:
         sentence = f"{type(error).__name__}: {error}"
-        self._trouble = Trouble(
+        self._problem = Problem(
             code=code,
             message=f"{what}: {sentence}",
             remedy=f"{remedy}Start the program again; if it stays, report it with the log.",

@@ -10,7 +10,7 @@ import struct
 from dataclasses import dataclass
 
 from server.capture.rehearsal import Begun
-from server.live import SourceStatus, Trouble
+from server.live import Problem, SourceStatus
 from tracker.navigation import NavigationSnapshot, Setup
 
 LENGTH = struct.Struct("<I")
@@ -31,7 +31,7 @@ class Report:
 
     source: SourceStatus
     snapshot: NavigationSnapshot | None = None
-    trouble: Trouble | None = None
+    problem: Problem | None = None
     tracked_images: int = 0
     begun: Begun | None = None
 

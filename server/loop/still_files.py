@@ -17,7 +17,7 @@ import numpy as np
 import structlog
 
 import tracker
-from server.disk import DiskFull, refuse_without_room
+from server.disk import DiskFull, reject_without_room
 
 if TYPE_CHECKING:
     from tracker.rehearsal.backdrop import Still
@@ -71,7 +71,7 @@ class StillFiles:
     ) -> None:
         part = path.with_suffix(f".{os.getpid()}.part")
         try:
-            refuse_without_room(self._home, MAX_BYTES)
+            reject_without_room(self._home, MAX_BYTES)
             path.parent.mkdir(mode=0o700, exist_ok=True)
             with part.open("wb") as file:
                 np.savez(file, **arrays)  # type: ignore[arg-type]  # its stub takes the last one for allow_pickle

@@ -19,7 +19,7 @@ from typing import TypeAlias
 
 import structlog
 
-from server.live import ProcessState, ProcessStatus, Trouble
+from server.live import Problem, ProcessState, ProcessStatus
 from server.loop.board import Board
 from server.loop.compiling import Progress, progress
 from server.loop.forks import ending_words, forking_context
@@ -130,12 +130,12 @@ class Supervisor:
         self._board.post(ProcessStatus(state=ProcessState.STARTING), None)
         self._wait_until_compiled()
         while not self._stop.is_set():
-            trouble = self._run_once()
+            problem = self._run_once()
             if self._stop.is_set():
                 return
-            log.error(trouble.message, code=trouble.code, restarts=self._restarts, **trouble.context)
-            self._post(ProcessState.RESTARTING, trouble)
-            self._wait_until_allowed(trouble)
+            log.error(problem.message, code=problem.code, restarts=self._restarts, **problem.context)
+            self._post(ProcessState.RESTARTING, problem)
+            self._wait_until_allowed(problem)
             self._restarts += 1
             self._restarted_at_s.append(self._clock())
 
@@ -154,7 +154,7 @@ class Supervisor:
                 break
         self._post(ProcessState.STARTING, None)
 
-    def _run_once(self) -> Trouble:
+    def _run_once(self) -> Problem:
         """Start a process, watch it to its end, and say how it ended."""
         ring = ImageRing()
         heard, orders = self._context.Pipe(duplex=False)
@@ -168,13 +168,13 @@ class Supervisor:
             process.start()
         except (OSError, EOFError) as error:
             self._let_go(orders)
-            return _trouble(f"could not be started: {error}")
+            return _problem(f"could not be started: {error}")
         finally:
             heard.close()
         self._pid = process.pid
         state = self._board.posted.process.state
         restarting = state if state is ProcessState.STARTING else ProcessState.RESTARTING
-        self._post(restarting, self._board.posted.process.trouble, ring)
+        self._post(restarting, self._board.posted.process.problem, ring)
         log.debug("tracking process started", pid=process.pid, took_s=round(time.monotonic() - started_s, 2))
         ending = self._watch_process(process, ring)
         # From here on nothing it left behind is live; everybody is told before it is cleaned up.
@@ -186,20 +186,20 @@ class Supervisor:
         ring.close()
         return ending
 
-    def _watch_process(self, process: ForkServerProcess, ring: ImageRing) -> Trouble:
+    def _watch_process(self, process: ForkServerProcess, ring: ImageRing) -> Problem:
         """Returns when the process is dead, silent, or to be stopped."""
         began_s = time.monotonic()
         while True:
             ready = wait([process.sentinel, self._asleep], timeout=self._watch.look_every_s)
             if process.sentinel in ready:
                 process.join(STOP_TIMEOUT_S)
-                return _trouble("ended", pid=process.pid, how=ending_words(process.exitcode))
+                return _problem("ended", pid=process.pid, how=ending_words(process.exitcode))
             if self._asleep in ready:
-                return _trouble("was stopped")
+                return _problem("was stopped")
             limit_s = self._watch.silent_after_s if ring.images else self._watch.first_image_after_s
             silent_s = time.monotonic() - max(ring.written_at_s, began_s)
             if silent_s > limit_s:
-                return _trouble(f"sent nothing for {silent_s:.1f} s, limit {limit_s:g} s", pid=process.pid)
+                return _problem(f"sent nothing for {silent_s:.1f} s, limit {limit_s:g} s", pid=process.pid)
 
     def _end(self, process: ForkServerProcess) -> None:
         if self._stop.is_set():
@@ -228,7 +228,7 @@ class Supervisor:
             scene=scene,
         )
 
-    def _wait_until_allowed(self, trouble: Trouble) -> None:
+    def _wait_until_allowed(self, problem: Problem) -> None:
         """Returns when it may be started again; until then it is given up, and says so."""
         watch = self._watch
         while not self._stop.is_set():
@@ -238,17 +238,17 @@ class Supervisor:
             if len(self._restarted_at_s) < watch.restarts:
                 return
             if self._board.posted.process.state is not ProcessState.GIVEN_UP:
-                given_up = _given_up(watch, trouble)
+                given_up = _given_up(watch, problem)
                 log.error(given_up.message, code=given_up.code, remedy=given_up.remedy)
                 self._post(ProcessState.GIVEN_UP, given_up)
             wait([self._asleep], timeout=watch.look_every_s)
 
-    def _post(self, state: ProcessState, trouble: Trouble | None, ring: ImageRing | None = None) -> None:
-        self._board.post(ProcessStatus(state=state, restarts=self._restarts, trouble=trouble), ring)
+    def _post(self, state: ProcessState, problem: Problem | None, ring: ImageRing | None = None) -> None:
+        self._board.post(ProcessStatus(state=state, restarts=self._restarts, problem=problem), ring)
 
 
-def _compiling(now: Progress) -> Trouble:
-    return Trouble(
+def _compiling(now: Progress) -> Problem:
+    return Problem(
         code="TRACKER_COMPILING",
         message=f"the tracker is being compiled for this machine (once): {now.done} of {now.total} functions",
         remedy="Wait a minute or two; it starts by itself.",
@@ -256,9 +256,9 @@ def _compiling(now: Progress) -> Trouble:
     )
 
 
-def _trouble(what: str, **details: object) -> Trouble:
+def _problem(what: str, **details: object) -> Problem:
     """What everybody reads; pid and exit status are for the log."""
-    return Trouble(
+    return Problem(
         code="TRACKING_PROCESS_ENDED",
         message=f"the tracking process {what}",
         remedy="It is started again by itself; if this repeats, look at the log.",
@@ -266,8 +266,8 @@ def _trouble(what: str, **details: object) -> Trouble:
     )
 
 
-def _given_up(watch: Watch, last: Trouble) -> Trouble:
-    return Trouble(
+def _given_up(watch: Watch, last: Problem) -> Problem:
+    return Problem(
         code="TRACKING_GIVEN_UP",
         message=f"the tracking process was started again {watch.restarts} times within {watch.window_s:g} s "
         f"and ended again; the last time: {last.message}",

@@ -8,7 +8,7 @@ import structlog
 
 from server.capture.local_camera import CalibratedCamera
 from server.capture.shot import Shot
-from server.live import Trouble
+from server.live import Problem
 from server.setup import CaseSetup, Preparation
 from tracker.camera import CameraControl, ControlChange, control_changes
 from tracker.errors import CalibrationError
@@ -42,13 +42,13 @@ class Tracking:
         self._lagging = Lagging()
         self._watched_registration: tuple[bytes, float | None] | None = None
         self._guide: Guide | None = None
-        self._size_trouble: Trouble | None = None
+        self._size_problem: Problem | None = None
         self._changes: tuple[ControlChange, ...] = ()
 
     @property
-    def trouble(self) -> Trouble | None:
+    def problem(self) -> Problem | None:
         """Why no millimetre is claimed although images come; None while nothing is in the way."""
-        return self._size_trouble or (_changed_trouble(self._changes[0]) if self._changes else None)
+        return self._size_problem or (_changed_problem(self._changes[0]) if self._changes else None)
 
     @property
     def calibrated_camera(self) -> CalibratedCamera | None:
@@ -111,13 +111,13 @@ class Tracking:
         return dataclasses.replace(snapshot, stage_ms=stage_ms)
 
     def _prepare(self, size_wh_px: tuple[int, int], at_s: float) -> None:
-        self._size_trouble = None
+        self._size_problem = None
         try:
             setup = self._preparation.setup_for(size_wh_px)
         except CalibrationError as error:
             # Told here and shown on the page; the picture goes on without millimetres.
             log.warning(error.message, code=error.code, remedy=error.remedy)
-            self._size_trouble = Trouble.from_error(error)
+            self._size_problem = Problem.from_error(error)
             setup = self._preparation.uncalibrated_setup_for(size_wh_px)
         self._tracker = self._preparation.tracker_for(setup)
         self._steadying, self._lagging = Steadying(self._preparation.smoothing), Lagging()
@@ -133,8 +133,8 @@ class Tracking:
         if changes != self._changes:
             self._changes = changes
             for change in changes:
-                trouble = _changed_trouble(change)
-                log.warning(trouble.message, code=trouble.code, remedy=trouble.remedy)
+                problem = _changed_problem(change)
+                log.warning(problem.message, code=problem.code, remedy=problem.remedy)
 
     def _watch_registration(self, setup: Setup, at_s: float) -> None:
         """Begin to watch another registration; one that stays, or was checked, is watched on."""
@@ -144,9 +144,9 @@ class Tracking:
             self._watching.begin(from_s=self._preparation.registered_from_s, now_s=at_s)
 
 
-def _changed_trouble(change: ControlChange) -> Trouble:
+def _changed_problem(change: ControlChange) -> Problem:
     control, calibrated, now = change.control.value, change.calibrated, change.now
-    return Trouble(
+    return Problem(
         code="CAMERA_CHANGED",
         message=f"{control} of the camera changed from {calibrated} to {now} since the calibration in use, "
         "which does not hold any more",

@@ -24,7 +24,7 @@ from server.capture.local_camera import LocalCameraSource
 from server.capture.rehearsal import RehearsalSource
 from server.capture.shot import Shot, Source
 from server.config import Config
-from server.live import Trouble
+from server.live import Problem
 from server.logs import LogSettings, configure_logging
 from server.loop.parent import die_with_parent
 from server.loop.phone_inbox import PhoneInbox
@@ -196,7 +196,7 @@ def work(
     capture.start()
     link.send(Report(source=capture.status()))
     tracked = 0
-    trouble: Trouble | None = None
+    problem: Problem | None = None
     while not stop.is_set():
         shot = capture.take(HEARTBEAT_S)
         case = newest.take()
@@ -209,7 +209,7 @@ def work(
             staging.order(scene)
         told = Report(source=capture.status(), begun=None if staging is None else staging.begun)
         if shot is None:
-            link.send(replace(told, trouble=trouble, tracked_images=tracked))
+            link.send(replace(told, problem=problem, tracked_images=tracked))
             continue
         try:
             camera = told.source.camera
@@ -219,14 +219,14 @@ def work(
                 controls=None if camera is None else camera.controls,
                 clock=clock,
             )
-            trouble = tracking.trouble
-            link.send(replace(told, snapshot=snapshot, trouble=trouble, tracked_images=tracked + 1), shot)
+            problem = tracking.problem
+            link.send(replace(told, snapshot=snapshot, problem=problem, tracked_images=tracked + 1), shot)
             tracked += 1
         except NavigationError as error:
-            if trouble is None or trouble.code != error.code:
+            if problem is None or problem.code != error.code:
                 log.warning(error.message, code=error.code, remedy=error.remedy)
-            trouble = Trouble.from_error(error)
-            link.send(replace(told, trouble=trouble, tracked_images=tracked))
+            problem = Problem.from_error(error)
+            link.send(replace(told, problem=problem, tracked_images=tracked))
     capture.close(STOP_GRACE_S)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from server.live import Instant, LiveHub, SourceState, SourceStatus, Trouble
+from server.live import Instant, LiveHub, Problem, SourceState, SourceStatus
 from server.procedure.following import Follower
 from tracker.camera import Board, CameraControl, control_changes
 from tracker.camera.collecting import BoardCollector, CollectingProgress, Judgement
@@ -56,7 +56,7 @@ class CollectionStatus:
     image_number: int
     said: str
     points_px: Array
-    trouble: Trouble | None
+    problem: Problem | None
 
 
 SAID = {
@@ -95,7 +95,7 @@ class BoardCollection:
                 image_number=self._image_number,
                 said=self._said,
                 points_px=self._points_px,
-                trouble=self._follower.trouble,
+                problem=self._follower.problem,
             )
 
     @property
@@ -125,7 +125,7 @@ class BoardCollection:
                 {"image": name, "reason": found.reason.value},
             )
         with self._lock:
-            self._refuse_more()
+            self._reject_more()
             self._collector_for(image).keep(found.object_points_mm, found.image_points_px)
             self._taken.append(TakenView(name=name, view=found))
 
@@ -143,7 +143,7 @@ class BoardCollection:
             self._note_absence(found.sentence, number)
             return
         with self._lock:
-            self._refuse_more()
+            self._reject_more()
             collector = self._collector_for(instant.image)
             judgement = collector.judge(
                 ids=found.ids,
@@ -172,7 +172,7 @@ class BoardCollection:
             )
         self._controls = now or self._controls
 
-    def _refuse_more(self) -> None:
+    def _reject_more(self) -> None:
         if len(self._taken) >= MAX_VIEWS:
             raise InvalidInput(
                 "VIEWS_ENOUGH",
@@ -204,8 +204,8 @@ class BoardCollection:
 
 def _no_picture(instant: Instant) -> str:
     """That there is none, and why, as far as camera or tracking say."""
-    trouble = instant.source.trouble or instant.process.trouble
-    if trouble is not None:
-        return f"there is no picture: {trouble.message}"
+    problem = instant.source.problem or instant.process.problem
+    if problem is not None:
+        return f"there is no picture: {problem.message}"
     ended = instant.source.state is SourceState.ENDED
     return "there is no picture: the camera's images have ended" if ended else "there is no picture"

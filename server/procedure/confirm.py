@@ -51,7 +51,7 @@ class ConfirmStep:
         needed = self._procedure.state().confirmation
         if needed is None:
             return None
-        _refuse_another(needed, registration_id)
+        _reject_another(needed, registration_id)
         # From a clock that is read before the picture is looked for: a restart in between asks again.
         at_s = self._clock()
         newest = self._hub.newest
@@ -74,7 +74,7 @@ class ConfirmStep:
         )
 
 
-def _refuse_another(needed: ConfirmationNeeded, registration_id: str) -> None:
+def _reject_another(needed: ConfirmationNeeded, registration_id: str) -> None:
     if registration_id != needed.registration.id:
         raise OutOfDateError(
             "CONFIRMATION_OUT_OF_DATE",

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import structlog
 
-from server.live import Instant, LiveHub, Trouble
+from server.live import Instant, LiveHub, Problem
 from tracker.errors import NavigationError
 
 WAIT_S = 0.2
@@ -44,7 +44,7 @@ class Follower:
         self._rest_s = rest_s
         self._rest_ratio = rest_ratio
         self._stop = threading.Event()
-        self._trouble: Trouble | None = None
+        self._problem: Problem | None = None
         newest = hub.newest
         # What was there before somebody asked is not looked at.
         self._sequence = -1 if newest is None else newest.sequence
@@ -52,14 +52,14 @@ class Follower:
         self._thread.start()
 
     @property
-    def trouble(self) -> Trouble | None:
+    def problem(self) -> Problem | None:
         """Why it ended by itself; None while it follows, and when it was stopped."""
-        return self._trouble
+        return self._problem
 
     @property
     def running(self) -> bool:
         """Whether it still looks."""
-        return self._trouble is None and not self._stop.is_set()
+        return self._problem is None and not self._stop.is_set()
 
     def stop(self) -> None:
         """Look no more; returns when the last look is over."""
@@ -77,11 +77,11 @@ class Follower:
             try:
                 self._look(instant)
             except NavigationError as error:
-                self._trouble = Trouble.from_error(error)
+                self._problem = Problem.from_error(error)
                 return
             except Exception:
                 log.exception("a live image could not be used", step=self._thread.name)
-                self._trouble = Trouble(
+                self._problem = Problem(
                     code="STEP_FAILED",
                     message=f"{self._thread.name} ended by a mistake of the server",
                     remedy="Start it again; if it comes back, send the server's log to the maintainer.",

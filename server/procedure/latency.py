@@ -19,7 +19,7 @@ from server.latency import (
     latency_report,
     plan_codes,
 )
-from server.live import Instant, LiveHub, Trouble
+from server.live import Instant, LiveHub, Problem
 from server.procedure.following import Follower
 from server.procedure.held import Held
 from server.store import CaseStore
@@ -65,7 +65,7 @@ class ReadingStatus:
     running: bool
     looked_images: int
     read_images: int
-    trouble: Trouble | None
+    problem: Problem | None
 
 
 class LatencyMeasurement:
@@ -110,7 +110,7 @@ class LatencyMeasurement:
                 running=self._follower.running,
                 looked_images=len(self._read),
                 read_images=sum(one.code is not None for one in self._read.values()),
-                trouble=self._follower.trouble,
+                problem=self._follower.problem,
             )
 
     def end_for(self, error: NavigationError) -> None:
@@ -123,7 +123,7 @@ class LatencyMeasurement:
         self._follower.stop()
 
     def _look(self, instant: Instant) -> None:
-        self._refuse_to_go_on()
+        self._reject_to_go_on()
         snapshot = instant.snapshot
         if instant.image is None or snapshot is None:
             return
@@ -147,7 +147,7 @@ class LatencyMeasurement:
             self._size_wh_px = snapshot.size_wh_px
             self._read.setdefault(one.image_number, one)
 
-    def _refuse_to_go_on(self) -> None:
+    def _reject_to_go_on(self) -> None:
         with self._lock:
             silent_s, images, ended = self._clock() - self._asked_at_s, len(self._read), self._ended
         if ended is not None:
@@ -251,9 +251,9 @@ class LatencyStep:
         """
         measurement = self.measurement
         self.end()
-        trouble = measurement.status().trouble
-        if trouble is not None:
-            raise SetupOrderError(trouble.code, trouble.message, trouble.remedy, trouble.context)
+        problem = measurement.status().problem
+        if problem is not None:
+            raise SetupOrderError(problem.code, problem.message, problem.remedy, problem.context)
         report = latency_report(
             painted=times.painted,
             read=measurement.read,

@@ -21,7 +21,7 @@ from server.procedure.opened import opened_case
 from server.procedure.read import read_document
 from server.store import CaseStore, Document, DocumentKind, NotStored
 from tracker.errors import InvalidInput, NavigationError
-from tracker.marker import MarkerModel, refuse_alike
+from tracker.marker import MarkerModel, reject_alike
 
 # Each one costs search time in every image.
 MAX_MARKERS = 8
@@ -69,7 +69,7 @@ class MarkerStep:
                 continue
             try:
                 model = self._model_of(document)
-                refuse_alike([*(one.model for one in known), model])
+                reject_alike([*(one.model for one in known), model])
             except NavigationError as error:
                 # It is not looked for; the others are.
                 log.warning(error.message, code=error.code, remedy=error.remedy, document=document.title)
@@ -115,10 +115,10 @@ class MarkerStep:
             InvalidInput: what cannot be a marker's picture, MARKERS_ALIKE, MARKERS_ENOUGH.
         """
         case = opened_case(self._store)
-        self._refuse_settled(name)
+        self._reject_settled(name)
         content = picture.read_bytes()
         model = MarkerModel.from_image(marker_image(content, named=named), side_mm=side_mm, name=name)
-        self._refuse_among_others(model)
+        self._reject_among_others(model)
         with self._store.new_file(case.id, ".picture") as new:
             new.path.write_bytes(content)
         return self._store.put(
@@ -138,7 +138,7 @@ class MarkerStep:
             NotStored: MARKER_UNKNOWN.
         """
         case = opened_case(self._store)
-        self._refuse_settled(name)
+        self._reject_settled(name)
         # Also one whose picture cannot be read any more.
         document = self._store.latest(case.id, DocumentKind.MARKER, name) or self.one(name).document
         if document is not None:
@@ -151,7 +151,7 @@ class MarkerStep:
         path = self._store.file(document.case_id, document.files[0]).path
         return _model(path, document.name, kept.side_mm)
 
-    def _refuse_settled(self, name: str) -> None:
+    def _reject_settled(self, name: str) -> None:
         if name in self._brought:
             raise SetupOrderError(
                 "MARKER_OF_SETTINGS",
@@ -160,10 +160,10 @@ class MarkerStep:
                 {"marker": name},
             )
 
-    def _refuse_among_others(self, model: MarkerModel) -> None:
+    def _reject_among_others(self, model: MarkerModel) -> None:
         """Two markers that look the same would be taken for each other; too many cost too much time."""
         others = [known.model for known in self.known() if known.model.name != model.name]
-        refuse_alike([*others, model])
+        reject_alike([*others, model])
         if len(others) >= MAX_MARKERS:
             raise InvalidInput(
                 "MARKERS_ENOUGH",

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from server.live import Instant, LiveHub, Trouble
+from server.live import Instant, LiveHub, Problem
 from server.procedure.following import Follower
 from tracker.camera import Board
 from tracker.camera.detection import BoardNotFound, find_board
@@ -53,7 +53,7 @@ class BurstStatus:
     taken_images: int
     read_images: int
     found_images: int
-    trouble: Trouble | None
+    problem: Problem | None
 
 
 class ReadoutCollection:
@@ -80,7 +80,7 @@ class ReadoutCollection:
                 taken_images=self._taken,
                 read_images=self._read,
                 found_images=len(self._views),
-                trouble=self._follower.trouble,
+                problem=self._follower.problem,
             )
 
     @property

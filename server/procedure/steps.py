@@ -163,7 +163,7 @@ def _registration(
     return RegistrationSteps.of(
         hub=hub,
         store=store,
-        plans=plan.shelf,
+        plans=plan.repository,
         surfaces=surface,
         procedure=procedure,
         brought=brought,

@@ -56,7 +56,7 @@ class SurfaceStep:
         self._jobs = jobs
         self._opened = opened
 
-    def refuse_without_case(self) -> None:
+    def reject_without_case(self) -> None:
         """To be asked before much is sent; SetupOrderError NO_CASE_OPEN."""
         opened_case(self._store)
 

@@ -3,7 +3,7 @@
 import threading
 from dataclasses import dataclass
 
-from server.live import Instant, LiveHub, Trouble
+from server.live import Instant, LiveHub, Problem
 from server.procedure.following import Follower
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
@@ -31,7 +31,7 @@ class GatheringStatus:
     running: bool
     progress: Progress
     newest: Taking
-    trouble: Trouble | None
+    problem: Problem | None
 
 
 class ToolCollection:
@@ -77,7 +77,7 @@ class ToolCollection:
                 running=self._follower.running,
                 progress=self._collector.progress(),
                 newest=self._newest,
-                trouble=self._follower.trouble,
+                problem=self._follower.problem,
             )
 
     def stop(self) -> None:

@@ -11,7 +11,7 @@ LARGEST_MESSAGE_BYTES = 64 * 1024
 MESSAGES_PER_S = 60.0
 BURST = 120.0
 # A viewer that goes on like this is no viewer.
-REFUSALS_BEFORE_GOODBYE = 500
+REJECTIONS_BEFORE_GOODBYE = 500
 
 
 class Verdict(StrEnum):
@@ -41,7 +41,7 @@ class Gate:
     """
 
     counts: dict[Verdict, int]
-    refusals: int = 0
+    rejections: int = 0
     allowance: float = BURST
     judged_at_s: float | None = None
 
@@ -52,13 +52,13 @@ class Gate:
         self.judged_at_s = now_s
         verdict = self._verdict(message)
         self.counts[verdict] = self.counts.get(verdict, 0) + 1
-        self.refusals += verdict is not Verdict.CAMERA
+        self.rejections += verdict is not Verdict.CAMERA
         return verdict
 
     @property
     def goodbye(self) -> bool:
         """Whether this viewer has sent so much that is refused that it must go."""
-        return self.refusals > REFUSALS_BEFORE_GOODBYE
+        return self.rejections > REJECTIONS_BEFORE_GOODBYE
 
     def _verdict(self, message: bytes | str | None) -> Verdict:
         if self.allowance < 1.0:

@@ -33,7 +33,7 @@ MIN_INTERVAL_S = 1 / 100
 # nothing for much longer asks for a new line.
 MIN_SILENCE_MS = 6000.0
 
-GOING_AWAY, REFUSED, CROWDED = 1001, 1008, 1013
+GOING_AWAY, REJECTED, CROWDED = 1001, 1008, 1013
 
 _log = structlog.get_logger(__name__)
 
@@ -149,16 +149,16 @@ class Scene:
 
     async def _watch(self, websocket: WebSocket) -> None:
         """One viewer, from its handshake to its end."""
-        door, refusal = self._door, self._refusal(websocket)
-        if door is None or refusal is not None:
-            _log.info("scene_viewer_refused", reason=refusal or "not running")
-            await websocket.close(REFUSED)
+        door, rejection = self._door, self._rejection(websocket)
+        if door is None or rejection is not None:
+            _log.info("scene_viewer_rejected", reason=rejection or "not running")
+            await websocket.close(REJECTED)
             return
         try:
             with self._admit(person_of(websocket.scope)):
                 await self._show(door, websocket)
         except NavigationError as full:
-            _log.info("scene_viewer_refused", reason=full.message)
+            _log.info("scene_viewer_rejected", reason=full.message)
             await websocket.close(CROWDED)
 
     async def _show(self, door: Door, websocket: WebSocket) -> None:
@@ -190,7 +190,7 @@ class Scene:
             await asyncio.wait(tasks)
         return next((code for code in [task.result() for task in done] if code is not None), None)
 
-    def _refusal(self, websocket: WebSocket) -> str | None:
+    def _rejection(self, websocket: WebSocket) -> str | None:
         headers = websocket.headers
         # Asked here too, so that the scene is as safe in an app without the guard.
         if not is_same_origin(origin=headers.get("origin"), host=headers.get("host", "")):
@@ -231,8 +231,8 @@ class Scene:
                 return None
             gate.judge(message.get("bytes") or message.get("text"), now_s=time.monotonic())
             if gate.goodbye:
-                _log.warning("scene_viewer_misbehaves", refusals=gate.refusals)
-                return REFUSED
+                _log.warning("scene_viewer_misbehaves", rejections=gate.rejections)
+                return REJECTED
 
 
 def _say_why(follower: asyncio.Task[None]) -> None:

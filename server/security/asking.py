@@ -10,12 +10,12 @@ from server.security.cookies import is_under_tls, token_in_cookie, token_in_head
 from server.security.hosts import SAFE_METHODS
 from server.security.people import PeopleDesk, Session
 from server.security.person import ANYBODY, NOBODY, Person
-from server.security.refusals import (
+from server.security.rejections import (
     AddressUnknown,
     MethodUnknown,
-    PageRefused,
-    RoleRefused,
-    SessionRefused,
+    PageRejected,
+    RoleRejected,
+    SessionRejected,
 )
 from server.security.table import SOCKET, Rule, rules_of
 from tracker.errors import NavigationError
@@ -79,8 +79,8 @@ class Asked:
         """Whose session is shown; None where none is, and where nobody has to sign in.
 
         Raises:
-            SessionRefused, TooManyTries: what is shown opens no door.
-            PageRefused: the browser brings it along for a page that is none of ours.
+            SessionRejected, TooManyTries: what is shown opens no door.
+            PageRejected: the browser brings it along for a page that is none of ours.
         """
         if not people.required:
             return None
@@ -90,7 +90,7 @@ class Asked:
             if shown is None:
                 return None
             if not self.is_page:
-                _refuse_strange_page(self.method, scope)
+                _reject_strange_page(self.method, scope)
         try:
             return people.who(shown, address=self.address)
         except NavigationError:
@@ -103,8 +103,8 @@ class Asked:
         """Who asks, if the table lets them.
 
         Raises:
-            SessionRefused: nobody is signed in, and somebody must be.
-            RoleRefused: somebody is, and may not.
+            SessionRejected: nobody is signed in, and somebody must be.
+            RoleRejected: somebody is, and may not.
             AddressUnknown, MethodUnknown: it is in no table.
         """
         person = ANYBODY if not required else NOBODY if session is None else session.person
@@ -112,17 +112,17 @@ class Asked:
             return person
         if person is NOBODY:
             # What there is and what there is not is told to those who are signed in.
-            raise SessionRefused.needed()
+            raise SessionRejected.needed()
         if not self.rules:
             known = self.is_known
             raise MethodUnknown.at(self.method, self.path) if known else AddressUnknown.at(self.path)
         for rule, _ in self.rules:
             if person.role not in rule.roles:
-                raise RoleRefused.of(person, rule.roles)
+                raise RoleRejected.of(person, rule.roles)
         return person
 
 
-def _refuse_strange_page(method: str, scope: Scope) -> None:
+def _reject_strange_page(method: str, scope: Scope) -> None:
     """A cookie is sent by the browser, whoever asks it to. So who asks must be told by the browser, too.
 
     `SameSite` counts every port of a host as one site. Whether an origin that is told is ours, the guard of
@@ -130,6 +130,6 @@ def _refuse_strange_page(method: str, scope: Scope) -> None:
     """
     headers = Headers(scope=scope)
     if headers.get("sec-fetch-site", "same-origin") not in {"same-origin", "none"}:
-        raise PageRefused.told()
+        raise PageRejected.told()
     if method not in SAFE_METHODS and "origin" not in headers:
-        raise PageRefused.told()
+        raise PageRejected.told()

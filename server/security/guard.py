@@ -8,10 +8,10 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from server.security.asking import Asked
 from server.security.audit import Entry
-from server.security.hosts import refuse
+from server.security.hosts import reject
 from server.security.people import PeopleDesk, Session
 from server.security.person import NOBODY, STATE_KEY, Person
-from server.security.refusals import SessionRefused, TooManyTries, body_of, status_of
+from server.security.rejections import SessionRejected, TooManyTries, body_of, status_of
 from server.security.written import pass_and_write
 from tracker.errors import NavigationError
 
@@ -49,10 +49,10 @@ class SessionGuard:
         try:
             session = asked.session(scope, self._people)
             person = asked.person(session, required=self._people.required)
-            await self._refuse_unwritable(asked)
-        except NavigationError as refusal:
-            await self._write_refusal(asked, session, refusal)
-            await self._say_no(scope, receive, send, refusal)
+            await self._reject_unwritable(asked)
+        except NavigationError as rejection:
+            await self._write_rejection(asked, session, rejection)
+            await self._say_no(scope, receive, send, rejection)
             return
         state = {STATE_KEY: person, SESSION_KEY: session, SECURE_KEY: asked.is_secure}
         inner = {**scope, "state": {**scope.get("state", {}), **state}}
@@ -107,31 +107,33 @@ class SessionGuard:
         while self._people.holds(session_id):
             await asyncio.sleep(LOOK_EVERY_S)
 
-    async def _refuse_unwritable(self, asked: Asked) -> None:
+    async def _reject_unwritable(self, asked: Asked) -> None:
         """Raises StoreError: what was done before is not written yet, and cannot be now."""
         rule, audit = asked.rule, self._people.audit
         if rule is not None and rule.is_written and not rule.is_urgent and not audit.is_well:
             await asyncio.to_thread(audit.catch_up)
 
-    async def _write_refusal(self, asked: Asked, session: Session | None, refusal: NavigationError) -> None:
+    async def _write_rejection(
+        self, asked: Asked, session: Session | None, rejection: NavigationError
+    ) -> None:
         """Tries are written down: of who is signed in, and with what is no key. Opening the page is none."""
-        if refusal.code == "SESSION_NEEDED" or status_of(refusal) not in {401, 403, 429}:
+        if rejection.code == "SESSION_NEEDED" or status_of(rejection) not in {401, 403, 429}:
             return
         entry = Entry(
             who=NOBODY if session is None else session.person,
             what=f"{asked.method} {asked.path}" if asked.rule is None else asked.rule.name,
             address=asked.address,
             of=asked.names,
-            status=status_of(refusal),
-            code=refusal.code,
+            status=status_of(rejection),
+            code=rejection.code,
         )
-        await asyncio.to_thread(self._people.audit.refused, entry)
+        await asyncio.to_thread(self._people.audit.rejected, entry)
 
-    async def _say_no(self, scope: Scope, receive: Receive, send: Send, refusal: NavigationError) -> None:
+    async def _say_no(self, scope: Scope, receive: Receive, send: Send, rejection: NavigationError) -> None:
         headers = {"Cache-Control": "no-store"}
-        if isinstance(refusal, TooManyTries):
-            headers["Retry-After"] = str(refusal.context["wait_s"])
-        if isinstance(refusal, SessionRefused):
+        if isinstance(rejection, TooManyTries):
+            headers["Retry-After"] = str(rejection.context["wait_s"])
+        if isinstance(rejection, SessionRejected):
             headers["WWW-Authenticate"] = 'Bearer realm="coaxial"'
-        status, body = status_of(refusal), body_of(refusal)
-        await refuse(scope, receive, send, status=status, body=body, headers=headers)
+        status, body = status_of(rejection), body_of(rejection)
+        await reject(scope, receive, send, status=status, body=body, headers=headers)

@@ -76,11 +76,11 @@ class HostGuard:
         headers = Headers(scope=scope)
         host, origin = headers.get("host", ""), headers.get("origin")
         if not self._hosts.has(host):
-            await refuse(scope, receive, send, status=421, body=_unknown_host(host))
+            await reject(scope, receive, send, status=421, body=_unknown_host(host))
             return
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE_METHODS
         if changes and not is_same_origin(origin=origin, host=host):
-            await refuse(scope, receive, send, status=403, body=_strange_page(origin, host))
+            await reject(scope, receive, send, status=403, body=_strange_page(origin, host))
             return
         await self._app(scope, receive, send)
 
@@ -112,14 +112,14 @@ def _unknown_host(host: str) -> dict[str, object]:
 def _strange_page(origin: str | None, host: str) -> dict[str, object]:
     shown = (origin or "")[:80]
     return {
-        "code": "ORIGIN_REFUSED",
+        "code": "ORIGIN_REJECTED",
         "message": f"a page from '{shown}' may not do this at '{host[:80]}'",
         "remedy": "Open the dashboard of this server itself, at its own address.",
         "context": {"origin": shown, "host": host[:80]},
     }
 
 
-async def refuse(
+async def reject(
     scope: Scope,
     receive: Receive,
     send: Send,

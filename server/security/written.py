@@ -14,10 +14,10 @@ import structlog
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.security.audit import AuditLog, Entry, noting
-from server.security.hosts import refuse
+from server.security.hosts import reject
 from tracker.errors import NavigationError
 
-REFUSED = 400
+REJECTED = 400
 NO_ROOM = 507
 log = structlog.get_logger(__name__)
 
@@ -75,7 +75,7 @@ class _Answer:
         """Send on, once the line is written; a refusal's line waits for its code, which is in its body."""
         if message["type"] == "http.response.start":
             self.status, self.start = int(message["status"]), message
-            if self.status >= REFUSED:
+            if self.status >= REJECTED:
                 return
         if self.start is not None:
             start, self.start = self.start, None
@@ -88,24 +88,24 @@ class _Answer:
     async def _begin(self, start: Message, message: Message) -> None:
         if message is not start:
             self.code = _code_in(message.get("body", b""))
-        trouble = await self.write()
-        if trouble is not None and self.is_answered:
+        problem = await self.write()
+        if problem is not None and self.is_answered:
             log.warning(
-                "it was done, but is not in the audit log yet", what=self.entry.what, code=trouble.code
+                "it was done, but is not in the audit log yet", what=self.entry.what, code=problem.code
             )
-            trouble = None
-        if trouble is not None and self.status is not None and self.status < REFUSED:
+            problem = None
+        if problem is not None and self.status is not None and self.status < REJECTED:
             self.replaced = True
-            await refuse(self.scope, self.receive, self.send, status=NO_ROOM, body=_unwritten(trouble))
+            await reject(self.scope, self.receive, self.send, status=NO_ROOM, body=_unwritten(problem))
             return
         await self.send(start)
 
     async def write(self) -> NavigationError | None:
         """Write the line; what is refused and changed nothing, no more often than refusals are written."""
         line = replace(self.entry, status=self.status, code=self.code, changes=tuple(self.changes))
-        refused = self.status is not None and self.status >= REFUSED and not self.changes
+        rejected = self.status is not None and self.status >= REJECTED and not self.changes
         try:
-            await asyncio.to_thread(self.audit.refused if refused else self.audit.append, line)
+            await asyncio.to_thread(self.audit.rejected if rejected else self.audit.append, line)
         except NavigationError as error:
             return error
         return None
@@ -119,10 +119,10 @@ def _code_in(body: bytes) -> str:
     return str(told.get("code", "")) if isinstance(told, dict) else ""
 
 
-def _unwritten(trouble: NavigationError) -> dict[str, object]:
+def _unwritten(problem: NavigationError) -> dict[str, object]:
     return {
         "code": "AUDIT_NOT_WRITTEN",
-        "message": f"it was done, but is not in the audit log yet: {trouble.message}",
+        "message": f"it was done, but is not in the audit log yet: {problem.message}",
         "remedy": "Do not do it again; make room on the server's disk, and it is written by itself.",
-        "context": trouble.context,
+        "context": problem.context,
     }

@@ -120,8 +120,8 @@ class CaseStore:
 
     def _mark_leaving(self, case_id: str, confirm: str) -> None:
         with self._ledger.writing() as session:
-            cases.refuse_removal(session, case_id, confirm)
-            self._ledger.refuse_held(case_id)
+            cases.reject_removal(session, case_id, confirm)
+            self._ledger.reject_held(case_id)
             cases.mark_leaving(session, case_id)
 
     # ------------------------------------------------------------ documents

@@ -88,7 +88,7 @@ def close_case(session: Session) -> None:
     session.execute(delete(OpenCaseRow))
 
 
-def refuse_removal(session: Session, case_id: str, confirm: str) -> None:
+def reject_removal(session: Session, case_id: str, confirm: str) -> None:
     """A case is taken away only by who knows its name, and not while people work in it.
 
     Raises:

@@ -64,7 +64,7 @@ def text_of(content: Mapping[str, object]) -> str:
     Raises:
         InvalidInput: CONTENT_NOT_JSON, CONTENT_TOO_LARGE.
     """
-    _refuse_other_than_json(content)
+    _reject_other_than_json(content)
     try:
         text = json.dumps(content, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
         size = len(text.encode("utf-8"))
@@ -81,7 +81,7 @@ def text_of(content: Mapping[str, object]) -> str:
     return text
 
 
-def _refuse_other_than_json(content: object) -> None:
+def _reject_other_than_json(content: object) -> None:
     """Look at every value; an own stack, because a hostile content is deeper than Python's."""
     if not isinstance(content, dict | Mapping):
         raise _not_json("", f"it is a {type(content).__name__}, not a mapping")

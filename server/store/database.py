@@ -107,14 +107,14 @@ def _migrate(engine: Engine, home: Home, *, now: Callable[[], datetime], migrati
     if revision == wanted:
         return
     if revision is not None:
-        _refuse_newer(ScriptDirectory.from_config(config), revision, home)
+        _reject_newer(ScriptDirectory.from_config(config), revision, home)
         _back_up(engine, home, name=f"coaxial-{revision}-{now():%Y%m%dT%H%M%SZ}.sqlite3")
     with for_writing(engine).begin() as connection:
         config.attributes["connection"] = connection
         command.upgrade(config, "head")
 
 
-def _refuse_newer(scripts: ScriptDirectory, revision: str, home: Home) -> None:
+def _reject_newer(scripts: ScriptDirectory, revision: str, home: Home) -> None:
     try:
         scripts.get_revision(revision)
     except CommandError as error:

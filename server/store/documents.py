@@ -67,7 +67,7 @@ class NewDocument:
 def add_document(session: Session, case_id: str, new: NewDocument, *, now: str) -> Document:
     """Store the next version."""
     version = _next_version(session, case_id, new)
-    _refuse_strange(session, case_id, new)
+    _reject_strange(session, case_id, new)
     row = DocumentRow(
         case_id=case_id,
         id=new_id(),
@@ -225,7 +225,7 @@ def _next_version(session: Session, case_id: str, new: NewDocument) -> int:
     return found + 1
 
 
-def _refuse_strange(session: Session, case_id: str, new: NewDocument) -> None:
+def _reject_strange(session: Session, case_id: str, new: NewDocument) -> None:
     """What it stands on and its files must be there, and nothing may lead to the patient's identity."""
     for basis in new.stands_on:
         found = session.get(DocumentRow, (case_id, basis))

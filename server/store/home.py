@@ -13,7 +13,7 @@ from types import TracebackType
 import filelock
 import platformdirs
 
-from server.disk import refuse_without_room
+from server.disk import reject_without_room
 from server.store.errors import StoreError, told
 
 FOLDER_VARIABLE = "COAXIAL_HOME"
@@ -90,14 +90,14 @@ class Home:
         """Give the room up."""
         self.reserve.unlink(missing_ok=True)
 
-    def refuse_without_room(self, needed_bytes: int) -> None:
+    def reject_without_room(self, needed_bytes: int) -> None:
         """To be asked before much is written, so that the disk is not filled for everybody first.
 
         Raises:
             DiskFull: STORE_FULL.
         """
         with told(self.folder):
-            refuse_without_room(self.folder, needed_bytes)
+            reject_without_room(self.folder, needed_bytes)
 
     def close(self) -> None:
         """Let another server have the folder."""

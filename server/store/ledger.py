@@ -72,7 +72,7 @@ class Ledger:
                 if not self._held[case_id]:
                     del self._held[case_id]
 
-    def refuse_held(self, case_id: str) -> None:
+    def reject_held(self, case_id: str) -> None:
         """To be asked inside `writing`.
 
         Raises:

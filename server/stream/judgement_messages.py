@@ -7,7 +7,7 @@ from pydantic import Field
 from server.stream.message import Message, finite
 from server.stream.place_messages import AbsentMessage, absent_message
 from tracker.navigation import Absent, Deviation
-from tracker.navigation.certainty import Certain, Chance, Judged, Spread
+from tracker.navigation.certainty import Certain, Judged, Probability, Spread
 from tracker.navigation.clearance import Closest, DrillClearance, MeasuredAgainst, NotEntered
 from tracker.navigation.directions import Wall
 from tracker.plan.screw import GertzbeinRobbins
@@ -74,7 +74,7 @@ class ClearanceMessage(Message):
     """How far the tip is past the planned depth; below 0 before it."""
 
 
-class ChanceMessage(Message):
+class ProbabilityMessage(Message):
     """Probabilities, 0 to 1, that any part of the drill is through the wall."""
 
     now_ratio: float
@@ -117,7 +117,7 @@ class JudgementMessage(Message):
 
     kind: Literal["judgement"] = "judgement"
     clearance: ClearanceMessage
-    chance: ChanceMessage
+    probability: ProbabilityMessage
     spread: SpreadMessage
     certain: CertainMessage
 
@@ -147,7 +147,7 @@ def judgement_message(judged: Judged | Absent) -> JudgementMessage | AbsentMessa
         return absent_message(judged)
     return JudgementMessage(
         clearance=_clearance(judged.clearance),
-        chance=_chance(judged.now, judged.soon, judged.at_end, judged.past_planned_ratio),
+        probability=_probability(judged.now, judged.soon, judged.at_end, judged.past_planned_ratio),
         spread=_spread(judged.spread),
         certain=_certain(judged.certain),
     )
@@ -175,8 +175,10 @@ def _closest(closest: Closest) -> NearestMessage | NotEnteredMessage:
     )
 
 
-def _chance(now: Chance, soon: Chance, at_end: Chance, past_planned_ratio: float) -> ChanceMessage:
-    return ChanceMessage(
+def _probability(
+    now: Probability, soon: Probability, at_end: Probability, past_planned_ratio: float
+) -> ProbabilityMessage:
+    return ProbabilityMessage(
         now_ratio=now.through_ratio,
         soon_ratio=soon.through_ratio,
         at_end_ratio=at_end.through_ratio,

@@ -9,7 +9,7 @@ from server.security import person_of
 from server.stream.connection import line_of
 from server.stream.errors import TooManyViewers
 from server.stream.fitting.texts import Texts
-from server.stream.socket import REFUSED, Misbehaviour, converse, turn_away
+from server.stream.socket import REJECTED, Misbehaviour, converse, turn_away
 from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 
@@ -44,4 +44,4 @@ async def _tell(
 
 
 def _hear_nothing(_text: str) -> None:
-    raise Misbehaviour(REFUSED, "this socket only sends; open /ws/view to ask for images")
+    raise Misbehaviour(REJECTED, "this socket only sends; open /ws/view to ask for images")

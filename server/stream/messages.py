@@ -10,11 +10,11 @@ from server.live import (
     CameraStatus,
     ImageClock,
     Instant,
+    Problem,
     ProcessState,
     ProcessStatus,
     SourceState,
     SourceStatus,
-    Trouble,
 )
 from server.stream.alarm_messages import AlarmsMessage, alarms_message
 from server.stream.assessment_messages import HeadlineMessage, TextMessage, headline_message, text_message
@@ -23,7 +23,7 @@ from server.stream.snapshot_messages import SnapshotMessage, snapshot_message
 from server.texts import flicker_note, headline_of
 
 
-class TroubleMessage(Message):
+class ProblemMessage(Message):
     """Errors have this shape everywhere."""
 
     code: str
@@ -70,7 +70,7 @@ class SourceMessage(Message):
 
     name: str
     state: SourceState
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
     images: int
     skipped_images: int
     rate_hz: float
@@ -83,7 +83,7 @@ class ProcessMessage(Message):
 
     state: ProcessState
     restarts: int
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
 
 
 class LiveMessage(Message):
@@ -127,7 +127,7 @@ def source_message(source: SourceStatus) -> SourceMessage:
     return SourceMessage(
         name=source.name,
         state=source.state,
-        trouble=trouble_message(source.trouble),
+        problem=problem_message(source.problem),
         images=source.images,
         skipped_images=source.skipped_images,
         rate_hz=source.rate_hz,
@@ -167,14 +167,14 @@ def _mode_message(mode: CameraMode | None) -> CameraModeMessage | None:
 def process_message(process: ProcessStatus) -> ProcessMessage:
     """The message of the tracking process."""
     return ProcessMessage(
-        state=process.state, restarts=process.restarts, trouble=trouble_message(process.trouble)
+        state=process.state, restarts=process.restarts, problem=problem_message(process.problem)
     )
 
 
-def trouble_message(trouble: Trouble | None) -> TroubleMessage | None:
+def problem_message(problem: Problem | None) -> ProblemMessage | None:
     """The message of something that is wrong, if anything is."""
-    if trouble is None:
+    if problem is None:
         return None
-    return TroubleMessage(
-        code=trouble.code, message=trouble.message, remedy=trouble.remedy, context=trouble.context
+    return ProblemMessage(
+        code=problem.code, message=problem.message, remedy=problem.remedy, context=problem.context
     )

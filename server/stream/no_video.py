@@ -30,8 +30,8 @@ def reasons_for_no_video(instant: Instant | None, *, now_s: float) -> tuple[str,
     if instant is None:
         return (PROCESS_WORDS[ProcessState.STARTING],)
     for part in (instant.process, instant.source):
-        if part.trouble is not None:
-            return f"{_upper_first(part.trouble.message)}.", part.trouble.remedy
+        if part.problem is not None:
+            return f"{_upper_first(part.problem.message)}.", part.problem.remedy
     if instant.process.state in PROCESS_WORDS:
         return (PROCESS_WORDS[instant.process.state],)
     if instant.snapshot is not None and instant.source.state is SourceState.RUNNING:

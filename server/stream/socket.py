@@ -14,7 +14,7 @@ from server.stream.viewers import Stalled, Viewers
 LARGEST_MESSAGE_BYTES = 1024
 MESSAGES_A_SECOND = 240
 
-REFUSED, TOO_LARGE, TRY_LATER = 1008, 1009, 1013
+REJECTED, TOO_LARGE, TRY_LATER = 1008, 1009, 1013
 # A farewell holds no more than 123 bytes.
 LONGEST_REASON = 120
 
@@ -77,12 +77,12 @@ async def _listen(websocket: WebSocket, hear: Callable[[str], None]) -> None:
             raise WebSocketDisconnect(message.get("code", 1005))
         text = message.get("text")
         if text is None:
-            raise Misbehaviour(REFUSED, "only text messages are understood")
+            raise Misbehaviour(REJECTED, "only text messages are understood")
         if len(text) > LARGEST_MESSAGE_BYTES:
             raise Misbehaviour(TOO_LARGE, f"messages may have at most {LARGEST_MESSAGE_BYTES} characters")
         if loop.time() - second >= 1.0:
             second, in_second = loop.time(), 0
         in_second += 1
         if in_second > MESSAGES_A_SECOND:
-            raise Misbehaviour(REFUSED, f"at most {MESSAGES_A_SECOND} messages a second are taken")
+            raise Misbehaviour(REJECTED, f"at most {MESSAGES_A_SECOND} messages a second are taken")
         hear(text)

@@ -32,7 +32,7 @@ from server.stream.errors import TooManyViewers
 from server.stream.fitting.pictures import Pictures
 from server.stream.fitting.sizes import Choice, Size
 from server.stream.fitting.texts import Texts
-from server.stream.socket import REFUSED, Misbehaviour, converse, turn_away
+from server.stream.socket import REJECTED, Misbehaviour, converse, turn_away
 from server.stream.viewers import Viewer, ViewerKind, Viewers
 
 HEADER_LENGTH = struct.Struct("<I")
@@ -84,7 +84,7 @@ class Granting:
         except (ValueError, RecursionError):
             said = None
         if not isinstance(said, dict):
-            raise Misbehaviour(REFUSED, UNDERSTOOD)
+            raise Misbehaviour(REJECTED, UNDERSTOOD)
         if list(said) == ["size"] and said["size"] in list(Choice):
             self._viewer.pace.choose(Choice(said["size"]))
         elif list(said) == ["largest"] and said["largest"] in list(Size):
@@ -93,7 +93,7 @@ class Granting:
             self.at_s, self.showing_s = time.monotonic(), showing_ms / 1000.0
             self.granted.set()
         else:
-            raise Misbehaviour(REFUSED, UNDERSTOOD)
+            raise Misbehaviour(REJECTED, UNDERSTOOD)
 
     def line_free_at_s(self, *, drained_at_s: float) -> float:
         """When the line had carried the last image; monotonic.

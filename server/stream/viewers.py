@@ -84,7 +84,7 @@ class Viewers:
         Raises:
             TooManyViewers: as many watch as are allowed, or as one person may; then no place is taken.
         """
-        self._refuse(kind, person)
+        self._reject(kind, person)
         viewer = Viewer(kind, person=person, pace=Pace(choice))
         self._watching.append(viewer)
         try:
@@ -96,7 +96,7 @@ class Viewers:
             self._watching.remove(viewer)
             self._dropped_by_gone[kind] += viewer.dropped
 
-    def _refuse(self, kind: ViewerKind, person: Person) -> None:
+    def _reject(self, kind: ViewerKind, person: Person) -> None:
         ways = {kind} if kind in APART else set(ViewerKind) - APART
         same = [one for one in self._watching if one.kind in ways]
         own = sum(one.person.id == person.id for one in same)
@@ -107,7 +107,7 @@ class Viewers:
         elif person != ANYBODY and own >= MAX_A_PERSON:
             error = TooManyViewers(own, MAX_A_PERSON, person.name)
         if error is not None:
-            _log.warning("viewer_refused", kind=kind, by=person.name, watching=len(same), own=own, most=most)
+            _log.warning("viewer_rejected", kind=kind, by=person.name, watching=len(same), own=own, most=most)
             raise error
 
     async def send(self, sending: Awaitable[None], line: Line | None) -> None:

@@ -93,7 +93,7 @@ class Room:
         Raises:
             Unfair: not for this role; too often.
         """
-        self._refuse(seat, now_s)
+        self._reject(seat, now_s)
         if shown is not None and _is_on(shown, [at_px]) and _was_shown(moment, shown):
             pointer = Pointer(
                 seat=seat.number, person=seat.person, at_px=at_px, moment=moment, moved_at_s=now_s
@@ -106,7 +106,7 @@ class Room:
         Raises:
             Unfair: not for this role; too often.
         """
-        self._refuse(seat, now_s)
+        self._reject(seat, now_s)
         self.marks.lift(seat.number)
 
     def draw(
@@ -125,7 +125,7 @@ class Room:
         Raises:
             Unfair: not for this role; too often; an arrow or circle of more or less than two points.
         """
-        self._refuse(seat, now_s)
+        self._reject(seat, now_s)
         if shape is not Shape.PEN and len(points_px) != 2:
             raise Unfair(f"a drawing of the shape {shape.value} has two points, not {len(points_px)}")
         if shown is None or not _is_on(shown, points_px) or not _was_shown(moment, shown):
@@ -150,7 +150,7 @@ class Room:
         Raises:
             Unfair: not for this role; too often; too long.
         """
-        self._refuse(seat, now_s)
+        self._reject(seat, now_s)
         if shown is None or not _is_on(shown, points_px):
             return
         if not self.marks.extend(_key(seat, key), points_px):
@@ -162,7 +162,7 @@ class Room:
         Raises:
             Unfair: not for this role; too often.
         """
-        self._refuse(seat, now_s)
+        self._reject(seat, now_s)
         return self.marks.undo(seat.person.id)
 
     def clear(self, seat: Seat, *, everybodys: bool, now_s: float) -> int:
@@ -171,12 +171,12 @@ class Room:
         Raises:
             Unfair: not for this role; too often.
         """
-        self._refuse(seat, now_s)
+        self._reject(seat, now_s)
         if everybodys and seat.person.role is not Role.OPERATOR:
             raise Unfair("only the operator clears what others drew")
         return self.marks.clear(None if everybodys else seat.person.id)
 
-    def _refuse(self, seat: Seat, now_s: float) -> None:
+    def _reject(self, seat: Seat, now_s: float) -> None:
         if seat.person.role not in MAY_MARK:
             raise Unfair(f"a {seat.person.role.value} only watches")
         if not seat.budget.spend(now_s):

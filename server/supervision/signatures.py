@@ -134,7 +134,7 @@ class SignatureDesk:
             raise SetupOrderError(
                 f"{what.name}_MISSING", f"there is no {what.value} to be signed", "Make it first, then sign."
             )
-        self._refuse(what, document, document_id, person)
+        self._reject(what, document, document_id, person)
         self._store.current(case_id, document.kind, document.name)
         if any(kept.signer_id == person.id for _, kept in signatures_of(self._store, document)):
             return self.overview()
@@ -190,7 +190,7 @@ class SignatureDesk:
         self._store.withdraw(document, by=person.name, reason="the signature was taken back")
         return self.overview()
 
-    def _refuse(self, what: Signed, document: Document, document_id: str, person: Person) -> None:
+    def _reject(self, what: Signed, document: Document, document_id: str, person: Person) -> None:
         if document.id != document_id:
             raise SetupOrderError(
                 "SIGNED_VERSION_OLD",

@@ -145,7 +145,7 @@ def _is_shown(door: Door, begun: Mapping[str, object]) -> bool:
 def _is_done(door: Door, begun: Mapping[str, object]) -> bool:
     job = door.mapping("GET", f"/api/jobs/{begun['id']}")
     if job["state"] == "failed":
-        raise RuntimeError(f"the CT was not read: {job['trouble']}")
+        raise RuntimeError(f"the CT was not read: {job['problem']}")
     return job["state"] == "done"
 
 

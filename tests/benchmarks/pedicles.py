@@ -17,7 +17,7 @@ def measure_pedicles(phantoms: int = PHANTOMS) -> Measured:
     """Both pedicles of each phantom against their truth."""
     fine: list[Off] = []
     thick: list[Off] = []
-    refused: list[str] = []
+    rejected: list[str] = []
     for seed in range(1, phantoms + 1):
         made = random_phantom(seed)
         volume = scan(made.hu_at, random_grid(made, seed))
@@ -29,13 +29,13 @@ def measure_pedicles(phantoms: int = PHANTOMS) -> Measured:
             try:
                 off = off_by(measure_pedicle(volume, seed_mm, side), truth, volume)
             except NavigationError as error:
-                refused.append(error.code)
+                rejected.append(error.code)
                 continue
             (fine if volume.spacing_mm[2] < FINE_MM else thick).append(off)
     rows = [_row(f"slices under {FINE_MM} mm", fine), _row(f"slices of {FINE_MM} to 3 mm", thick)]
     note = (
         "Median / worst size of the error; widths and heights in voxels of the slice (0.35 to 0.9 mm), "
-        f"also where slices are thicker. Refused: {len(refused)} {', '.join(sorted(set(refused)))}".strip()
+        f"also where slices are thicker. Refused: {len(rejected)} {', '.join(sorted(set(rejected)))}".strip()
         + "."
     )
     columns = [

@@ -42,7 +42,7 @@ class Runs:
     errors: list[float]
     stated: list[float]
     inside: int
-    refused: int
+    rejected: int
 
     @property
     def count(self) -> int:
@@ -102,18 +102,18 @@ def spins(*, runs: int, wobble_deg: float, arc_deg: float, outliers: int = 0) ->
 
 
 def _runs(one: Callable[[int], tuple[float, float, float]], *, runs: int, freedom: int) -> Runs:
-    errors, stated, inside, refused = [], [], 0, 0
+    errors, stated, inside, rejected = [], [], 0, 0
     most = float(stats.chi2.ppf(0.95, freedom))
     for seed in range(runs):
         try:
             error, sd, squared = one(seed)
         except CalibrationError:
-            refused += 1
+            rejected += 1
             continue
         errors.append(error)
         stated.append(sd)
         inside += squared <= most
-    return Runs(errors=errors, stated=stated, inside=inside, refused=refused)
+    return Runs(errors=errors, stated=stated, inside=inside, rejected=rejected)
 
 
 def _table(title: str, what: str, runs_of: Mapping[str, Runs]) -> Table:
@@ -124,11 +124,11 @@ def _table(title: str, what: str, runs_of: Mapping[str, Runs]) -> Table:
             [
                 name,
                 str(runs.count),
-                str(runs.refused),
+                str(runs.rejected),
                 pair(runs.errors, 95.0, 3),
                 f"{percentile(runs.stated, 50.0):.3f}",
                 f"{runs.inside / max(runs.count, 1):.3f} ({low:.2f}-{high:.2f})",
             ]
         )
-    columns = [what, "runs", "refused", "error", "stated sd, worst way", "inside the stated 95 %"]
+    columns = [what, "runs", "rejected", "error", "stated sd, worst way", "inside the stated 95 %"]
     return Table(title=title, columns=columns, rows=rows)

@@ -33,7 +33,7 @@ from server.alarms import AlarmDesk
 from server.app import AppParts, create_app
 from server.config import Config
 from server.jobs import Jobs
-from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.live import Instant, LiveHub, Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.logs import LogSettings
 from server.overlay import draw_overlay, encode_jpeg
 from server.procedure.steps import Steps
@@ -60,7 +60,7 @@ PLACES_IN_BONE = {
     "breach": (29.0, 3.75, 0.0, 0.0, 0.0, 1.0),
 }
 IN_BONE = {*PLACES_IN_BONE, "hidden", "wander"}
-UNPLUGGED = Trouble(
+UNPLUGGED = Problem(
     code="CAMERA_LOST",
     message="the camera has given no image for 2.0 s, allowed 1.0 s",
     remedy="Check the camera's cable; it is tried again by itself.",
@@ -150,7 +150,7 @@ def instant_at(sequence: int, mode: str, ground: npt.NDArray[np.uint8], alarms: 
     process = ProcessStatus(state=ProcessState.RUNNING)
     if mode == "lost":
         away = SourceStatus(
-            name="/dev/video0", state=SourceState.RECONNECTING, trouble=UNPLUGGED, images=sequence
+            name="/dev/video0", state=SourceState.RECONNECTING, problem=UNPLUGGED, images=sequence
         )
         picture = alarms.look(None, away, process)
         return Instant(sequence=sequence, source=away, process=process, alarms=picture)

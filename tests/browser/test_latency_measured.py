@@ -68,13 +68,13 @@ def measured(page: Page, filming: RealServer) -> dict[str, Any]:
         code = page.get_by_test_id("latency-code")
         expect(code).to_be_visible()
         expect(code).to_have_count(0, timeout=MEASURED_WITHIN_MS)
-        refusals = page.get_by_test_id("latency").get_by_role("alert")
-        if refusals.count() == 0:
+        rejections = page.get_by_test_id("latency").get_by_role("alert")
+        if rejections.count() == 0:
             result: dict[str, Any] = filming.ask("GET", "/api/latency", 200)["result"]
             assert result != before
             return result
-        expect(refusals).to_contain_text("LATENCY_IMAGES_SKIPPED")
-    pytest.fail(f"{TRIES} times in a row: {refusals.inner_text()}")
+        expect(rejections).to_contain_text("LATENCY_IMAGES_SKIPPED")
+    pytest.fail(f"{TRIES} times in a row: {rejections.inner_text()}")
 
 
 @pytest.mark.skipif(
@@ -139,7 +139,7 @@ def test_a_camera_under_a_hand_is_told_in_numbers(
     expect(read).to_contain_text("hold the camera still", timeout=PATIENCE_MS)
     camera.covered = True
     expect(page.get_by_test_id("latency-code")).to_have_count(0, timeout=MEASURED_WITHIN_MS)
-    refusal = page.get_by_test_id("latency").get_by_role("alert")
-    expect(refusal).to_contain_text("The code was read in")
-    expect(refusal).to_contain_text("Point the camera at the screen, darken the room")
+    rejection = page.get_by_test_id("latency").get_by_role("alert")
+    expect(rejection).to_contain_text("The code was read in")
+    expect(rejection).to_contain_text("Point the camera at the screen, darken the room")
     assert filming.ask("GET", "/api/latency", 200)["result"] == kept

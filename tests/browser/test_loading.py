@@ -98,9 +98,9 @@ MOMENTS, MOMENT_MS = 10, 300
 class Loading:
     """A page whose answers and live messages wait until they are let go, in a time that the test makes."""
 
-    def __init__(self, watched: Watched, *, refuses: bool = False) -> None:
+    def __init__(self, watched: Watched, *, rejects: bool = False) -> None:
         self.page = watched.page
-        self._refuses = refuses
+        self._rejects = rejects
         self._held: dict[str, list[Route]] = {"session": [], "rest": [], "live": []}
         self._lines: list[WebSocketRoute] = []
         self._open: set[str] = set()
@@ -169,7 +169,7 @@ class Loading:
     def _line(self, line: WebSocketRoute) -> None:
         if "live" in self._open:
             line.connect_to_server()
-        elif self._refuses:
+        elif self._rejects:
             line.close()
         else:
             self._lines.append(line)
@@ -182,12 +182,12 @@ def supervised() -> Iterator[Supervised]:
     server.process.communicate(timeout=30)
 
 
-def begun(watch: Watch, server: Supervised, person: str, path: str, *, refuses: bool = False) -> Loading:
+def begun(watch: Watch, server: Supervised, person: str, path: str, *, rejects: bool = False) -> Loading:
     # This server's CT has no slices, and the browser writes each refusal into its console.
     watched = watch(server, 1180, 820, strict=path != "operator/plan")
     address = f"http://127.0.0.1:{server.port}"
     watched.page.context.add_cookies([{"name": "person", "value": person, "url": address}])
-    loading = Loading(watched, refuses=refuses)
+    loading = Loading(watched, rejects=rejects)
     loading.go(f"{address}/{path}")
     return loading
 
@@ -247,7 +247,7 @@ def test_nothing_false_is_seen_while_a_page_loads(
 def test_server_that_is_not_reached_is_told_after_ten_seconds_and_not_before(
     supervised: Supervised, watch: Watch, person: str, path: str
 ) -> None:
-    loading = begun(watch, supervised, person, path, refuses=True)
+    loading = begun(watch, supervised, person, path, rejects=True)
     page = loading.page
     loading.release("session", "rest")
     loading.shows(path)

@@ -118,7 +118,7 @@ def test_images_of_a_browsers_camera_arrive_in_their_size_and_in_order(
     second.screenshot(path=SCREENSHOTS / "phone_lying_idle.png")
     touch_start(second)
     expect(second.get_by_test_id("phone-trouble")).to_contain_text("PHONE_TAKEN")
-    second.screenshot(path=SCREENSHOTS / "phone_lying_refused.png")
+    second.screenshot(path=SCREENSHOTS / "phone_lying_rejected.png")
     assert source.read() is not None
 
     # Loaded anew, the first one gets its place back.

@@ -51,10 +51,10 @@ class Kill:
 class Theatre:
     """A server that is killed and started again in one folder, and the people who use it."""
 
-    def __init__(self, folder: Path, *, reference: bool, chance: random.Random, empty: bool) -> None:
+    def __init__(self, folder: Path, *, reference: bool, rng: random.Random, empty: bool) -> None:
         self._folder, self._settings = folder, settings_of(reference=reference)
         self._config = Config.model_validate(self._settings)
-        self._reference, self._chance = reference, chance
+        self._reference, self._probability = reference, rng
         self._promised, self._numbers = Promised(), count(1)
         self._ending = ExitStack()
         folder.mkdir(parents=True)
@@ -117,7 +117,7 @@ class Theatre:
         self._server = WatchedServer(port=port, process=process, door=door, promised=self._promised)
         self._hear()
         team = Team(server=self._server, config=self._config)
-        self._people = People(team, self._server, self._chance, self._numbers)
+        self._people = People(team, self._server, self._probability, self._numbers)
 
     def _hear(self) -> None:
         self._listener = Listener(port=self._server.port).start()
@@ -177,15 +177,15 @@ class Theatre:
 
 def kills(times: int, *, seed: int, empty: bool, each: int, longest_s: float) -> Iterator[Kill]:
     """So many kills, in as many procedures as that needs."""
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
         for first in range(0, times, each):
             odd = first // each % 2 == 0
-            theatre = Theatre(Path(folder) / f"{first}", reference=odd, chance=chance, empty=empty)
+            theatre = Theatre(Path(folder) / f"{first}", reference=odd, rng=rng, empty=empty)
             try:
                 for _ in range(min(each, times - first)):
-                    after_s = chance.uniform(0.2, longest_s)
-                    yield theatre.kill_once(chance.choice(TARGETS), after_s=after_s)
+                    after_s = rng.uniform(0.2, longest_s)
+                    yield theatre.kill_once(rng.choice(TARGETS), after_s=after_s)
             finally:
                 theatre.end()
 

@@ -43,7 +43,7 @@ class RealServer:
         assert answer.status_code == status, f"{method} {path}: {answer.status_code} {answer.text[:600]}"
         return answer.json() if answer.content else None
 
-    def refused(self, method: str, path: str, code: str, **sent: Any) -> Any:  # noqa: ANN401  JSON
+    def rejected(self, method: str, path: str, code: str, **sent: Any) -> Any:  # noqa: ANN401  JSON
         """The refusal of a step out of its turn: its code, a sentence with what happened, what to do."""
         told = self.ask(method, path, 409, **sent)
         assert told["code"] == code, told
@@ -67,7 +67,7 @@ class RealServer:
             return now if now["state"] in {"done", "failed", "cancelled"} else None
 
         told = self.until(str(job["title"]), over)
-        assert told["state"] == "done", told["trouble"]
+        assert told["state"] == "done", told["problem"]
         return told["result"]
 
     @contextmanager

@@ -202,7 +202,7 @@ class Team:
     def waits_for(self, step: str, code: str) -> None:
         """The server says that this is to be done now, and refuses to register before it."""
         assert self.server.ask("GET", "/api/procedure", 200)["next_step"] == step
-        self.server.refused("POST", POINTS, code, json=DRILL)
+        self.server.rejected("POST", POINTS, code, json=DRILL)
 
     def open_case(self, name: str) -> None:
         """A new case, empty and open."""

@@ -54,7 +54,7 @@ def test_a_camera_from_sent_images_is_the_true_one_and_is_used_at_once(server: S
     assert len(told["views"]) == len(images)
     assert told["missing"] == []
     job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
-    assert job["state"] == "done", job["trouble"]
+    assert job["state"] == "done", job["problem"]
     report = job["result"]
     assert report["rms_px"] < 0.1
     assert sum(view["used"] for view in report["views"]) == len(images)
@@ -88,9 +88,9 @@ def check_accuracy(server: Server, image: np.ndarray) -> None:
     assert server.ask("POST", "/api/camera/accuracy", 422, json=asked)["code"] == "BOARD_NOT_FOUND"
     other = cv2.resize(image, (480, 270))
     server.show(at_s=0.5, image=other)
-    refused = server.ask("POST", "/api/camera/accuracy", 409, json=asked)
-    assert refused["code"] == "CAMERA_SIZE_MISMATCH"
-    assert "480x270" in refused["message"]
+    rejected = server.ask("POST", "/api/camera/accuracy", 409, json=asked)
+    assert rejected["code"] == "CAMERA_SIZE_MISMATCH"
+    assert "480x270" in rejected["message"]
     server.show(at_s=1.0, image=image)
     check = server.ask("POST", "/api/camera/accuracy", 201, json=asked)["content"]
     assert check["passed"]
@@ -103,8 +103,8 @@ def test_a_board_can_be_printed(server: Server, file: str, begins: bytes) -> Non
     answer = server.door.post("/api/camera/board", json={"board": {**DOTS, "pitch_mm": 10.0}, "file": file})
     assert answer.status_code == 200
     assert answer.content.lstrip().startswith(begins)
-    refused = server.ask("POST", "/api/camera/board", 422, json={"board": {**DOTS, "pitch_mm": 40.0}})
-    assert refused["code"] == "BOARD_TOO_LARGE"
+    rejected = server.ask("POST", "/api/camera/board", 422, json={"board": {**DOTS, "pitch_mm": 40.0}})
+    assert rejected["code"] == "BOARD_TOO_LARGE"
 
 
 def test_the_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_use(server: Server) -> None:
@@ -121,7 +121,7 @@ def test_the_controls_of_the_camera_are_kept_with_its_calibration_and_come_into_
     for image in images[1:8]:
         server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
     job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
-    assert job["state"] == "done", job["trouble"]
+    assert job["state"] == "done", job["problem"]
     kept = server.ask("GET", "/api/camera/calibration", 200)
     assert kept["content"]["camera"]["controls"] == {"focus": 45, "gain": 20}
     assert server.adopted[-1].camera_controls == controls
@@ -136,7 +136,7 @@ def test_another_calibration_of_the_same_mode_keeps_the_readout(server: Server) 
         for image in images[:8]:
             server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
         job = server.done(server.ask("POST", "/api/camera/calibration", 202, json={"made_by": "ito"}))
-        assert job["state"] == "done", job["trouble"]
+        assert job["state"] == "done", job["problem"]
 
     calibrate()
     server.ask("PUT", "/api/camera/readout", 200, json={"readout_ms": 16.5, "made_by": "ito"})
@@ -199,9 +199,9 @@ def test_views_that_say_too_little_are_refused_and_nothing_is_kept(
         server.ask("POST", "/api/camera/collection/images", 201, content=png(image))
     answer = server.door.post("/api/camera/calibration", json={"made_by": "ito"})
     asked_for = answer.status_code == 202
-    trouble = server.done(answer.json())["trouble"] if asked_for else answer.json()
-    assert trouble["code"] == code, trouble
-    assert trouble["remedy"]
+    problem = server.done(answer.json())["problem"] if asked_for else answer.json()
+    assert problem["code"] == code, problem
+    assert problem["remedy"]
     assert server.ask("GET", f"/api/cases/{case_id}/documents", 200)["documents"] == []
 
 
@@ -226,13 +226,13 @@ def test_an_image_that_cannot_be_used_is_refused(server: Server, content: bytes,
 
 def test_without_an_open_case_nothing_is_computed(server: Server) -> None:
     server.ask("POST", "/api/camera/collection", 201, json={"board": DOTS})
-    refused = server.ask("POST", "/api/camera/calibration", 409, json={"made_by": "ito"})
-    assert refused["code"] == "NO_CASE_OPEN"
+    rejected = server.ask("POST", "/api/camera/calibration", 409, json={"made_by": "ito"})
+    assert rejected["code"] == "NO_CASE_OPEN"
     assert server.ask("GET", "/api/jobs", 200) == {"jobs": []}
 
 
 def test_a_board_that_cannot_be_is_refused_with_what_is_allowed(server: Server) -> None:
     board = {**DOTS, "fiducials": [900]}
-    refused = server.ask("POST", "/api/camera/collection", 422, json={"board": board})
-    assert refused["code"] == "BOARD_INVALID"
-    assert "0 to 139" in refused["message"]
+    rejected = server.ask("POST", "/api/camera/collection", 422, json={"board": board})
+    assert rejected["code"] == "BOARD_INVALID"
+    assert "0 to 139" in rejected["message"]

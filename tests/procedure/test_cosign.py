@@ -107,18 +107,18 @@ def test_a_changed_plan_is_unsigned_at_once(guarded: Callable[..., Server]) -> N
     now = signable(server, "plan")
     assert (now["is_cosigned"], now["signatures"], now["was_signed"]) == (False, [], True)
     # What was looked at is not what would be signed.
-    refused = sign(server, "plan", "s2", 409, document_id=looked_at)
-    assert refused["code"] == "SIGNED_VERSION_OLD"
-    assert "version 2" in refused["message"]
+    rejected = sign(server, "plan", "s2", 409, document_id=looked_at)
+    assert rejected["code"] == "SIGNED_VERSION_OLD"
+    assert "version 2" in rejected["message"]
 
 
 def test_who_made_it_cannot_co_sign_it(guarded: Callable[..., Server]) -> None:
     server = guarded()
     case_id = planned(server)
     change_plan(server, case_id, made_by=" ITO ")
-    refused = sign(server, "plan", "o1", 409)
-    assert refused["code"] == "SIGNED_BY_MAKER"
-    assert refused["remedy"]
+    rejected = sign(server, "plan", "o1", 409)
+    assert rejected["code"] == "SIGNED_BY_MAKER"
+    assert rejected["remedy"]
     sign(server, "plan", "s1")
 
 
@@ -199,9 +199,9 @@ def test_who_took_an_archive_in_cannot_co_sign_what_they_may_have_written_into_i
     assert {one["imported"]["by"] for one in documents} == {"ito"}
     assert all(one["made_by"].endswith(", says the archive") for one in documents)
     for person in ("o1", "s2"):
-        refused = sign(server, "plan", person, 409)
-        assert refused["code"] == "SIGNED_BY_MAKER"
-        assert "made by Dr Kim, says the archive, and taken in by ito" in refused["message"]
+        rejected = sign(server, "plan", person, 409)
+        assert rejected["code"] == "SIGNED_BY_MAKER"
+        assert "made by Dr Kim, says the archive, and taken in by ito" in rejected["message"]
     sign(server, "plan", "s1")
     assert signable(server, "plan")["is_cosigned"]
 
@@ -268,9 +268,9 @@ def test_only_navigation_waits_for_a_signature() -> None:
     lack = Lack(said="plan 'main' version 3 is not signed by a second person", remedy="Sign it.")
     state = judged("case", findings, lacks={StepName.PLAN: lack})
     assert [one.step for one in state.steps if not one.allowed] == [StepName.NAVIGATE]
-    state.refuse_before(StepName.CHECK)
+    state.reject_before(StepName.CHECK)
     with pytest.raises(SetupOrderError) as caught:
-        state.refuse_before(StepName.NAVIGATE)
+        state.reject_before(StepName.NAVIGATE)
     assert (caught.value.code, caught.value.remedy) == ("PLAN_NOT_COSIGNED", "Sign it.")
     missing = {**findings, StepName.TOOL: Finding(state=StepState.MISSING, said="no tool", remedy="Pivot.")}
     assert (

@@ -42,7 +42,7 @@ def picture(server: Server, path: str) -> np.ndarray:
 def test_a_ct_is_sent_and_looked_at(server: Server, content: Any) -> None:  # noqa: ANN401
     opened(server)
     job = sent(server, content())
-    assert job["state"] == "done", job["trouble"]
+    assert job["state"] == "done", job["problem"]
     ct = server.ask("GET", "/api/ct", 200)
     truth = scanned()
     assert ct["size_ijk"] == list(truth.shape_ijk)
@@ -100,9 +100,9 @@ def test_one_of_several_series_is_chosen(server: Server) -> None:
     assert server.store.files(case_id) == ()
     upload = f"/api/ct/uploads/{begun['upload_id']}"
     wrong = server.done(server.ask("POST", f"{upload}/series/1.2.3.4", 202))
-    assert wrong["trouble"]["code"] == "CT_SERIES_UNKNOWN"
+    assert wrong["problem"]["code"] == "CT_SERIES_UNKNOWN"
     right = server.done(server.ask("POST", f"{upload}/series/1.2.3.9", 202))
-    assert right["state"] == "done", right["trouble"]
+    assert right["state"] == "done", right["problem"]
     assert server.ask("GET", "/api/ct", 200)["size_ijk"][2] == 20
     assert leftovers(server) == []
     server.ask("POST", f"{upload}/series/1.2.3.9", 404)

@@ -46,11 +46,11 @@ def test_a_full_disk_is_an_alarm_and_navigation_goes_on(small_disk: Path) -> Non
         nearly = server.until("the alarm", lambda: alarms(server).get("DISK_NEARLY_FULL"))
         assert nearly["measure"]["value"] < nearly["measure"]["limit"] == MIN_MB
         numbers_of_new_images(server)
-        refused = until_refused(server)
-        assert refused["code"] == "STORE_FULL"
-        assert "MB are free" in refused["message"]
-        assert refused["context"]["free_mb"] < 1.0
-        assert refused["remedy"].startswith("Make room")
+        rejected = until_rejected(server)
+        assert rejected["code"] == "STORE_FULL"
+        assert "MB are free" in rejected["message"]
+        assert rejected["context"]["free_mb"] < 1.0
+        assert rejected["remedy"].startswith("Make room")
         # A wish to hold is heard in theatre though it cannot be written, and whoever asked is told so.
         assert server.ask("POST", "/api/alarms/hold", 507, json=HOLD)["code"] == "STORE_FULL"
         told = alarms(server)
@@ -73,14 +73,14 @@ def fill(file: Path) -> None:
             pass
 
 
-def until_refused(server: RealServer) -> Any:  # noqa: ANN401  JSON
+def until_rejected(server: RealServer) -> Any:  # noqa: ANN401  JSON
     """What is told once the last free page of the database is used up."""
 
-    def refusal() -> Any:  # noqa: ANN401  JSON
+    def rejection() -> Any:  # noqa: ANN401  JSON
         answer = server.door.post("/api/cases", json={"name": "x" * 200})
         return None if answer.status_code == 201 else (answer.status_code, answer.json())
 
-    status, told = server.until("a refusal", refusal)
+    status, told = server.until("a refusal", rejection)
     assert status == 507
     return told
 

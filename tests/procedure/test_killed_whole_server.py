@@ -12,10 +12,10 @@ from tests.procedure.killed import TARGETS, Theatre
 def test_killed_in_a_procedure_it_comes_back_into_case_and_step_and_waits_for_a_person(
     tmp_path: Path,
 ) -> None:
-    chance = random.Random(5)
-    theatre = Theatre(tmp_path / "theatre", reference=True, chance=chance, empty=False)
+    rng = random.Random(5)
+    theatre = Theatre(tmp_path / "theatre", reference=True, rng=rng, empty=False)
     try:
-        told = {target: theatre.kill_once(target, after_s=chance.uniform(0.2, 2.0)) for target in TARGETS}
+        told = {target: theatre.kill_once(target, after_s=rng.uniform(0.2, 2.0)) for target in TARGETS}
     finally:
         theatre.end()
     assert {target: one.broken for target, one in told.items()} == {target: [] for target in TARGETS}

@@ -82,7 +82,7 @@ def test_a_latency_is_measured_kept_and_told_to_everybody(server: Server) -> Non
     assert (plan["min_code_ms"], plan["max_code_ms"]) == (100.0, 150.0)
     said = film(server, list(range(CODES)))
     told = server.ask("GET", MEASUREMENT, 200)
-    assert (told["running"], told["read_images"], told["trouble"]) == (True, CODES, None)
+    assert (told["running"], told["read_images"], told["problem"]) == (True, CODES, None)
     result = server.ask("POST", CONCLUSION, 201, json=said)
     report = result["report"]
     assert (report["samples"], report["median_ms"], report["p99_ms"]) == (CODES - 1, LATENCY_MS, LATENCY_MS)
@@ -125,10 +125,10 @@ def test_a_camera_that_looks_elsewhere_is_refused_in_numbers_and_leaves_what_was
         last = show(server, number, black + np.uint8(number)).image_number
         until_looked_after(server, before)
         said["shown"].append({**said["shown"][-1], "image_number": last})
-    refused = server.ask("POST", CONCLUSION, 409, json=said)
-    assert refused["code"] == "LATENCY_CODE_NOT_READ"
-    assert refused["message"] == "the code was read in 5 of 29 images, needed 13"
-    assert refused["remedy"].startswith("Point the camera at the screen, darken the room")
+    rejected = server.ask("POST", CONCLUSION, 409, json=said)
+    assert rejected["code"] == "LATENCY_CODE_NOT_READ"
+    assert rejected["message"] == "the code was read in 5 of 29 images, needed 13"
+    assert rejected["remedy"].startswith("Point the camera at the screen, darken the room")
     assert server.ask("GET", "/api/latency", 200) == {"measuring": False, "result": kept}
     assert server.ask("POST", CONCLUSION, 409, json=said)["code"] == "COLLECTION_MISSING"
 
@@ -176,7 +176,7 @@ def test_a_closed_case_ends_it(server: Server, end: str) -> None:
         server.ask("POST", f"/api/cases/{other['id']}/open", 200)
     show(server, 4, np.zeros((360, 640, 3), np.uint8))
     server.until(lambda: not server.ask("GET", MEASUREMENT, 200)["running"])
-    assert server.ask("GET", MEASUREMENT, 200)["trouble"]["code"] == "LATENCY_CASE_CHANGED"
+    assert server.ask("GET", MEASUREMENT, 200)["problem"]["code"] == "LATENCY_CASE_CHANGED"
     assert server.ask("POST", CONCLUSION, 409, json=said)["code"] == "LATENCY_CASE_CHANGED"
 
 
@@ -194,10 +194,10 @@ def test_a_page_that_left_ends_it(server: Server) -> None:
     now_s[0] = 110.0
     show(server, 3, np.zeros((360, 640, 3), np.uint8))
     server.until(lambda: not measurement._follower.running)
-    trouble = measurement.status().trouble
-    assert trouble is not None
-    assert trouble.code == "LATENCY_PAGE_LEFT"
-    assert trouble.message == "the page that shows the codes was silent for 10.0 s, allowed 5 s"
+    problem = measurement.status().problem
+    assert problem is not None
+    assert problem.code == "LATENCY_PAGE_LEFT"
+    assert problem.message == "the page that shows the codes was silent for 10.0 s, allowed 5 s"
     measurement.stop()
 
 

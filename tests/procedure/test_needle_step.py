@@ -189,7 +189,7 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     asked = {"view": VIEW, "landmarks": STANDING_ON}
     proposals = server.ask("POST", f"{NEEDLES}/proposal", 200, json=asked)["proposals"]
     best = proposals[0]
-    assert best["chance_ratio"] == max(one["chance_ratio"] for one in proposals)
+    assert best["probability_ratio"] == max(one["probability_ratio"] for one in proposals)
     assert [one["name"] for one in best["laid"]["needles"]] == STANDING_ON
     assert all(abs(one["offset_mm"]) < 3.0 for one in best["laid"]["needles"])
     for found, true in zip(best["marked"], marked(STANDING_ON), strict=True):
@@ -208,8 +208,8 @@ def test_needles_that_the_software_finds_are_proposed_and_kept_when_a_person_has
     assert kept["tilt_sd_deg"] == pytest.approx(proposed["tilt_sd_deg"], rel=0.05)
     assert registered(server) is not None
     swapped = [best["marked"][number] for number in (1, 0, 2)]
-    refused = server.ask("POST", f"{NEEDLES}/conclusion", 409, json={**asked, "marked": swapped, **BY})
-    assert refused["code"] == "NEEDLES_SWAPPED"
+    rejected = server.ask("POST", f"{NEEDLES}/conclusion", 409, json={**asked, "marked": swapped, **BY})
+    assert rejected["code"] == "NEEDLES_SWAPPED"
 
 
 def test_what_needles_cannot_do_is_refused_with_a_remedy(server: Server) -> None:
@@ -217,9 +217,9 @@ def test_what_needles_cannot_do_is_refused_with_a_remedy(server: Server) -> None
     patient = Patient(server=server)
 
     def code(path: str, status: int, **sent: Any) -> str:  # noqa: ANN401  JSON
-        refused = server.ask("POST", f"{NEEDLES}/{path}", status, json={"view": VIEW, **sent})
-        assert refused["remedy"]
-        return str(refused["code"])
+        rejected = server.ask("POST", f"{NEEDLES}/{path}", status, json={"view": VIEW, **sent})
+        assert rejected["remedy"]
+        return str(rejected["code"])
 
     assert code("overlay", 503, landmarks=STANDING_ON) == "NO_PICTURE"
     patient.show(None, image=IMAGE)

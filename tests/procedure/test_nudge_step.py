@@ -21,8 +21,8 @@ def now(server: Server) -> Registration:
 def test_a_nudge_moves_the_vertebra_and_undone_it_is_as_it_was(server: Server) -> None:
     case_id = ready(server)
     patient = Patient(server=server)
-    refused = server.ask("GET", NUDGES, 409)
-    assert refused["code"] == "REGISTER_MISSING"
+    rejected = server.ask("GET", NUDGES, 409)
+    assert rejected["code"] == "REGISTER_MISSING"
     patient.register()
     patient.check()
     made = now(server)

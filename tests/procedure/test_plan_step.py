@@ -17,7 +17,7 @@ VOXEL_MM = 1.0
 def measured(server: Server, side: str) -> Any:  # noqa: ANN401  JSON
     click = {**BY, "seed_lps_mm": phantom().seed_lps_mm(side, (1.0, 0.5, -0.5)).tolist()}
     job = server.done(server.ask("POST", f"/api/plan/vertebrae/L3/pedicles/{side}", 202, json=click))
-    assert job["state"] == "done", job["trouble"]
+    assert job["state"] == "done", job["problem"]
     return job["result"]["pedicle"]
 
 
@@ -118,38 +118,38 @@ def test_a_channel_by_hand_and_what_is_refused(server: Server) -> None:
     first = server.ask("POST", "/api/plan/vertebrae", 201, json={**BY, "name": "L3", "expected_version": 0})
     hand = {"entry_lps_mm": [15, 14, 2], "target_lps_mm": [8, -30, 3], "diameter_mm": 6.0}
 
-    def refused(method: str, path: str, status: int, code: str, **sent: Any) -> None:  # noqa: ANN401
+    def rejected(method: str, path: str, status: int, code: str, **sent: Any) -> None:  # noqa: ANN401
         assert server.ask(method, f"/api/plan{path}", status, **sent)["code"] == code
 
-    refused("POST", "/vertebrae", 409, "PLAN_INVALID", json={**BY, "name": "L3"})
-    refused("POST", "/vertebrae", 422, "REQUEST_INVALID", json={**BY, "name": "  "})
-    refused("POST", "/vertebrae", 409, "VERSION_CONFLICT", json={**BY, "name": "L4", "expected_version": 0})
+    rejected("POST", "/vertebrae", 409, "PLAN_INVALID", json={**BY, "name": "L3"})
+    rejected("POST", "/vertebrae", 422, "REQUEST_INVALID", json={**BY, "name": "  "})
+    rejected("POST", "/vertebrae", 409, "VERSION_CONFLICT", json={**BY, "name": "L4", "expected_version": 0})
     lay = "/vertebrae/L3/channels/left"
-    refused("PUT", lay, 409, "PEDICLE_MISSING", json=BY)
-    refused("PUT", "/vertebrae/L9/channels/left", 409, "VERTEBRA_UNKNOWN", json={**BY, "by_hand": hand})
-    refused(
+    rejected("PUT", lay, 409, "PEDICLE_MISSING", json=BY)
+    rejected("PUT", "/vertebrae/L9/channels/left", 409, "VERTEBRA_UNKNOWN", json={**BY, "by_hand": hand})
+    rejected(
         "PUT", lay, 409, "CHANNEL_OUTSIDE_CT", json={**BY, "by_hand": {**hand, "target_lps_mm": [0, -500, 0]}}
     )
-    refused(
+    rejected(
         "PUT", lay, 409, "CHANNEL_INVALID", json={**BY, "by_hand": {**hand, "target_lps_mm": [15, 14, 2]}}
     )
-    refused("PUT", "/vertebrae/L3/channels/middle", 422, "REQUEST_INVALID", json=BY)
-    refused("GET", "/proposals/slice?vertebra=L3", 409, "NO_PEDICLE_MEASURED")
-    refused("GET", "/vertebrae/L3/reference.png", 409, "REFERENCE_MISSING")
-    refused("POST", "/active-channel", 409, "CHANNEL_MISSING", json={**BY, "vertebra": "L3", "side": "left"})
+    rejected("PUT", "/vertebrae/L3/channels/middle", 422, "REQUEST_INVALID", json=BY)
+    rejected("GET", "/proposals/slice?vertebra=L3", 409, "NO_PEDICLE_MEASURED")
+    rejected("GET", "/vertebrae/L3/reference.png", 409, "REFERENCE_MISSING")
+    rejected("POST", "/active-channel", 409, "CHANNEL_MISSING", json={**BY, "vertebra": "L3", "side": "left"})
     air = server.ask(
         "POST", "/api/plan/vertebrae/L3/pedicles/left", 202, json={**BY, "seed_lps_mm": [0, 500, 0]}
     )
-    assert server.done(air)["trouble"]["code"] == "SEED_OUTSIDE_CT"
+    assert server.done(air)["problem"]["code"] == "SEED_OUTSIDE_CT"
     assert server.ask("GET", "/api/plan", 200)["heading"] == first["heading"]
 
     laid = server.ask("PUT", f"/api/plan{lay}", 200, json={**BY, "by_hand": hand, "expected_version": 1})
     assert laid["plan"]["vertebrae"][0]["channels"][0]["by_hand"]
-    refused("PUT", f"{lay}/screw", 422, "SCREW_INCOMPLETE", json={**BY, "diameter_mm": 6.0})
-    refused(
+    rejected("PUT", f"{lay}/screw", 422, "SCREW_INCOMPLETE", json={**BY, "diameter_mm": 6.0})
+    rejected(
         "PUT", f"{lay}/screw", 409, "SCREW_NOT_IN_CATALOGUE", json={**BY, "diameter_mm": 6.1, "length_mm": 40}
     )
-    refused("PUT", f"{lay}/screw", 409, "PEDICLE_MISSING", json={**BY, "diameter_mm": 6, "length_mm": 40})
+    rejected("PUT", f"{lay}/screw", 409, "PEDICLE_MISSING", json={**BY, "diameter_mm": 6, "length_mm": 40})
     server.ask("DELETE", f"/api/plan{lay}", 200, params=BY)
     assert server.ask("DELETE", "/api/plan/vertebrae/L3", 200, params=BY)["plan"]["vertebrae"] == []
 
@@ -173,16 +173,16 @@ def test_landmarks_are_set_go_out_and_come_back_and_odd_ones_are_refused(server:
     back = server.ask("POST", "/api/plan/import", 201, content=json.dumps(file), params=BY)
     assert back["plan"]["vertebrae"][0]["landmarks"] == landmarks
 
-    def refused(status: int, code: str, **asked: Any) -> None:  # noqa: ANN401
+    def rejected(status: int, code: str, **asked: Any) -> None:  # noqa: ANN401
         answer = server.ask("PUT", where, status, json={**BY, "landmarks": landmarks, **asked})
         assert answer["code"] == code
 
-    refused(409, "VERSION_CONFLICT", expected_version=2)
-    refused(409, "LANDMARK_TWICE", landmarks=[landmarks[0], landmarks[0]])
-    refused(409, "LANDMARK_OUTSIDE_CT", landmarks=[{"name": "tip", "point_lps_mm": [0, 0, 900]}])
-    refused(409, "PLAN_INVALID", landmarks=[{"name": "tip\u202e", "point_lps_mm": [0, 0, 0]}])
+    rejected(409, "VERSION_CONFLICT", expected_version=2)
+    rejected(409, "LANDMARK_TWICE", landmarks=[landmarks[0], landmarks[0]])
+    rejected(409, "LANDMARK_OUTSIDE_CT", landmarks=[{"name": "tip", "point_lps_mm": [0, 0, 900]}])
+    rejected(409, "PLAN_INVALID", landmarks=[{"name": "tip\u202e", "point_lps_mm": [0, 0, 0]}])
     for odd in ([{"name": " ", "point_lps_mm": [0, 0, 0]}], [{"name": "tip", "point_lps_mm": [0, 0]}]):
-        refused(422, "REQUEST_INVALID", landmarks=odd)
+        rejected(422, "REQUEST_INVALID", landmarks=odd)
     assert server.ask("GET", "/api/plan", 200)["heading"] == back["heading"]
 
 

@@ -66,10 +66,10 @@ def test_a_step_waits_for_all_that_it_stands_on(five: Five, next_step: str, allo
     assert [one.step for one in state.steps if one.allowed] == allowed.split()
     for one in state.steps:
         if one.allowed:
-            state.refuse_before(one.step)
+            state.reject_before(one.step)
             continue
         with pytest.raises(SetupOrderError) as caught:
-            state.refuse_before(one.step)
+            state.reject_before(one.step)
         waits_for = StepName(str(caught.value.context["waits_for"]))
         assert ORDER.index(waits_for) < ORDER.index(one.step)
         assert state.status(waits_for).finding.said in caught.value.message
@@ -91,7 +91,7 @@ def test_without_a_case_nothing_may_be_done() -> None:
     for one in state.steps:
         assert not one.allowed
         with pytest.raises(SetupOrderError) as caught:
-            state.refuse_before(one.step)
+            state.reject_before(one.step)
         assert caught.value.code == "NO_CASE_OPEN"
 
 

@@ -68,8 +68,8 @@ def test_it_is_not_known_until_somebody_says_so_and_is_used_at_once(calibrated: 
 def test_without_a_calibration_there_is_nothing_to_keep_it_with(server: Server) -> None:
     assert server.ask("PUT", READOUT, 409, json={"readout_ms": 16.5, **BY})["code"] == "NO_CASE_OPEN"
     open_a_case(server)
-    refused = server.ask("POST", f"{READOUT}/collection", 409, json={"board": DOTS})
-    assert refused["code"] == "DOCUMENT_MISSING"
+    rejected = server.ask("POST", f"{READOUT}/collection", 409, json={"board": DOTS})
+    assert rejected["code"] == "DOCUMENT_MISSING"
     assert server.ask("GET", f"{READOUT}/collection", 409)["code"] == "COLLECTION_MISSING"
 
 
@@ -86,8 +86,8 @@ def _burst(server: Server, *, readout_s: float, sideways_mm: float = 25.0) -> No
         at_s = 1.0 + number / 30.0
         server.show(at_s=at_s, image=_bgr(image_at(motion, at_s, readout_s=readout_s)))
         server.until(_has(server, "taken_images", number + 1))
-    refused = server.ask("POST", f"{READOUT}/measurement", 409, json=BY)
-    assert refused["code"] == "COLLECTION_UNREADY"
+    rejected = server.ask("POST", f"{READOUT}/measurement", 409, json=BY)
+    assert rejected["code"] == "COLLECTION_UNREADY"
     for number in range(readout_collection.BURST_IMAGES):
         server.show(at_s=5.0 + number / 30.0, image=None)
         server.until(_has(server, "read_images", number + 1))
@@ -104,7 +104,7 @@ def test_a_shaken_board_measures_it_and_it_is_kept_with_its_spread(
     monkeypatch.setattr(readout_collection, "BURST_IMAGES", 17)
     _burst(calibrated, readout_s=0.02)
     job = calibrated.done(calibrated.ask("POST", f"{READOUT}/measurement", 202, json=BY))
-    assert job["state"] == "done", job["trouble"]
+    assert job["state"] == "done", job["problem"]
     told = calibrated.ask("GET", READOUT, 200)
     assert told["found_by"] == "measured"
     assert not told["collecting"]
@@ -118,7 +118,7 @@ def test_what_does_not_determine_it_is_refused_and_nothing_is_kept(
     monkeypatch.setattr(readout_collection, "BURST_IMAGES", 3)
     _burst(calibrated, readout_s=0.0)
     job = calibrated.done(calibrated.ask("POST", f"{READOUT}/measurement", 202, json=BY))
-    assert job["trouble"]["code"] == "READOUT_TOO_FEW_IMAGES"
+    assert job["problem"]["code"] == "READOUT_TOO_FEW_IMAGES"
     assert calibrated.ask("GET", READOUT, 200)["readout_ms"] is None
 
 
@@ -132,6 +132,6 @@ def test_a_burst_with_a_pause_in_it_is_ended(calibrated: Server) -> None:
     for at_s in (1.0, 2.0):
         calibrated.show(at_s=at_s, image=_bgr(image_at(motion, at_s, readout_s=0.0)))
         calibrated.until(_has(calibrated, "taken_images", 1))
-    calibrated.until(lambda: calibrated.ask("GET", f"{READOUT}/collection", 200)["trouble"] is not None)
-    trouble = calibrated.ask("GET", f"{READOUT}/collection", 200)["trouble"]
-    assert trouble["code"] == "READOUT_INTERRUPTED"
+    calibrated.until(lambda: calibrated.ask("GET", f"{READOUT}/collection", 200)["problem"] is not None)
+    problem = calibrated.ask("GET", f"{READOUT}/collection", 200)["problem"]
+    assert problem["code"] == "READOUT_INTERRUPTED"

@@ -97,9 +97,9 @@ def test_a_mistaken_landmark_is_refused_with_its_numbers_and_may_be_left_out(ser
         patient.touch(one)
     for one in (USED[3], SPARE):
         patient.touch(one, off_mm=(0.0, 0.0, 8.0) if one == SPARE else (0.0, 0.0, 0.0))
-    refused = server.ask("POST", f"{POINTS}/conclusion", 409, json=BY)
-    assert refused["code"] == "POINTS_FIT_TOO_LARGE"
-    assert refused["context"]["allowed_mm"] == 1.5
+    rejected = server.ask("POST", f"{POINTS}/conclusion", 409, json=BY)
+    assert rejected["code"] == "POINTS_FIT_TOO_LARGE"
+    assert rejected["context"]["allowed_mm"] == 1.5
     told = server.ask("GET", POINTS, 200)["missing"]
     assert [one["code"] for one in told] == ["POINTS_FIT_TOO_LARGE", "POINT_STRAYS"]
     assert told[1]["context"]["landmark"] == SPARE
@@ -128,23 +128,23 @@ def test_a_capture_is_refused_where_the_tip_moves_or_is_not_seen(server: Server)
 
     def looked_at(index: int) -> bool:
         capture = server.ask("GET", POINTS, 200)["capture"]
-        return bool(capture["images"] > index or capture["state"] == "refused")
+        return bool(capture["images"] > index or capture["state"] == "rejected")
 
     server.ask("POST", f"{POINTS}/captures", 202, json=start)
     patient.show(patient.tip_on(USED[0]))
     server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["images"] == 1)
     patient.show(None)
-    server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["state"] == "refused")
+    server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["state"] == "rejected")
     told = server.ask("GET", POINTS, 200)
-    assert told["capture"]["trouble"]["code"] == "CAPTURE_UNSEEN"
-    assert told["capture"]["trouble"]["remedy"]
+    assert told["capture"]["problem"]["code"] == "CAPTURE_UNSEEN"
+    assert told["capture"]["problem"]["remedy"]
 
     server.ask("POST", f"{POINTS}/captures", 202, json=start)
     for index in range(4):
         patient.show(patient.tip_on(USED[0], off_mm=(0.0, 1.2 * index, 0.0)))
         server.until(partial(looked_at, index))
     told = server.ask("GET", POINTS, 200)
-    assert told["capture"]["trouble"]["code"] == "CAPTURE_MOVED"
+    assert told["capture"]["problem"]["code"] == "CAPTURE_MOVED"
     assert not any(one["touched"] for one in told["landmarks"])
 
 
@@ -198,8 +198,8 @@ def test_a_session_does_not_outlive_what_it_was_begun_on(server: Server) -> None
     for one in USED:
         patient.touch(one)
     server.store.put(case_id, DocumentKind.TOOL, "drill", tool_content(), made_by="test")
-    refused = server.ask("POST", f"{POINTS}/conclusion", 409, json=BY)
-    assert refused["code"] == "REGISTRATION_GROUND_CHANGED"
+    rejected = server.ask("POST", f"{POINTS}/conclusion", 409, json=BY)
+    assert rejected["code"] == "REGISTRATION_GROUND_CHANGED"
 
 
 def test_each_vertebra_has_a_registration_of_its_own_and_both_sides_share_it(server: Server) -> None:
@@ -259,9 +259,9 @@ def test_beside_a_reference_patient_and_camera_may_move_and_the_server_start_aga
     unseen = server.ask("POST", "/api/registration/check", 201, json={**DRILL, "landmark": SPARE})
     assert unseen["capture"]["state"] == "looking"
     patient.show(patient.tip_on(SPARE), beside={})
-    server.until(lambda: server.ask("GET", "/api/registration/check", 200)["capture"]["state"] == "refused")
-    trouble = server.ask("GET", "/api/registration/check", 200)["capture"]["trouble"]
-    assert trouble["code"] == "CAPTURE_UNSEEN"
+    server.until(lambda: server.ask("GET", "/api/registration/check", 200)["capture"]["state"] == "rejected")
+    problem = server.ask("GET", "/api/registration/check", 200)["capture"]["problem"]
+    assert problem["code"] == "CAPTURE_UNSEEN"
 
     turns.close()
     again = turns.enter_context(serving(tmp_path, REFERENCE))

@@ -100,8 +100,8 @@ def test_a_capture_ends_when_the_camera_stops(server: Server) -> None:
     server.ask("POST", f"{POINTS}/captures", 202, json={"landmark": USED[0]})
     hold(server, patient, POINTS, USED[0], 3)
     sign_of_life(server, SourceState.RECONNECTING)
-    server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["state"] == "refused")
-    assert server.ask("GET", POINTS, 200)["capture"]["trouble"]["code"] == "NO_PICTURE"
+    server.until(lambda: server.ask("GET", POINTS, 200)["capture"]["state"] == "rejected")
+    assert server.ask("GET", POINTS, 200)["capture"]["problem"]["code"] == "NO_PICTURE"
 
 
 @pytest.mark.parametrize(
@@ -119,10 +119,10 @@ def test_lost_images_refuse_a_capture_with_the_rate(
     hold(server, patient, POINTS, USED[0], 6)
     patient.at_s += gap_s - 1.0 / rate_hz
     patient.hold(POINTS, USED[0])
-    trouble = server.ask("GET", POINTS, 200)["capture"]["trouble"]
-    assert trouble["code"] == "CAPTURE_INTERRUPTED"
-    assert said in trouble["message"]
-    assert f"at {rate_hz:.1f} images/s" in trouble["message"]
+    problem = server.ask("GET", POINTS, 200)["capture"]["problem"]
+    assert problem["code"] == "CAPTURE_INTERRUPTED"
+    assert said in problem["message"]
+    assert f"at {rate_hz:.1f} images/s" in problem["message"]
 
 
 def test_a_check_before_a_camera_that_is_too_slow_is_refused_with_its_rate(server: Server) -> None:
@@ -132,10 +132,10 @@ def test_a_check_before_a_camera_that_is_too_slow_is_refused_with_its_rate(serve
     patient.rate_hz = 1.2
     server.ask("POST", CHECK, 201, json={**DRILL, "landmark": SPARE})
     patient.hold(CHECK, SPARE)
-    refused = server.ask("POST", f"{CHECK}/conclusion", 409, json={"made_by": "ito"})
-    assert refused["code"] == "CAPTURE_RATE_TOO_LOW"
-    assert "at 1.2 images/s, allowed 8 s" in refused["message"]
-    assert "camera.rate_hz" in refused["remedy"]
+    rejected = server.ask("POST", f"{CHECK}/conclusion", 409, json={"made_by": "ito"})
+    assert rejected["code"] == "CAPTURE_RATE_TOO_LOW"
+    assert "at 1.2 images/s, allowed 8 s" in rejected["message"]
+    assert "camera.rate_hz" in rejected["remedy"]
 
 
 def test_a_check_that_is_kept_too_early_says_how_long_to_hold_on(server: Server) -> None:
@@ -145,10 +145,10 @@ def test_a_check_that_is_kept_too_early_says_how_long_to_hold_on(server: Server)
     patient.rate_hz = 5.0
     server.ask("POST", CHECK, 201, json={**DRILL, "landmark": SPARE})
     hold(server, patient, CHECK, SPARE, 4)
-    refused = server.ask("POST", f"{CHECK}/conclusion", 409, json={"made_by": "ito"})
-    assert refused["code"] == "CHECK_NOT_CAPTURED"
-    assert refused["message"] == "the tip was seen in 4 images at 5.0 images/s, needed 12"
-    assert refused["remedy"] == "Hold the tip still on the landmark for another 1.6 s, until it is taken."
+    rejected = server.ask("POST", f"{CHECK}/conclusion", 409, json={"made_by": "ito"})
+    assert rejected["code"] == "CHECK_NOT_CAPTURED"
+    assert rejected["message"] == "the tip was seen in 4 images at 5.0 images/s, needed 12"
+    assert rejected["remedy"] == "Hold the tip still on the landmark for another 1.6 s, until it is taken."
 
 
 def test_a_tool_is_calibrated_with_a_slow_camera(server: Server) -> None:

@@ -114,8 +114,8 @@ def test_a_tool_that_was_hardly_tilted_is_refused_with_its_numbers(server: Serve
     calibrated(server)
     told = gather(server, Scene.OPERATION, "pivot", images=60)
     assert told["missing"]
-    refused = server.ask("POST", "/api/tools/collection/conclusion", 409, json={"made_by": "ito", **SHAPE})
-    assert refused["remedy"]
+    rejected = server.ask("POST", "/api/tools/collection/conclusion", 409, json={"made_by": "ito", **SHAPE})
+    assert rejected["remedy"]
     assert server.adopted[-1].tools == {}
 
 
@@ -123,7 +123,7 @@ def test_without_millimetres_no_pose_is_taken(server: Server) -> None:
     open_a_case(server)
     told = gather(server, Scene.PIVOT, "pivot", images=3)
     assert not told["running"]
-    assert told["trouble"]["code"] == "CAMERA_NOT_CALIBRATED"
+    assert told["problem"]["code"] == "CAMERA_NOT_CALIBRATED"
 
 
 @pytest.mark.parametrize(
@@ -152,8 +152,8 @@ def test_what_cannot_be_begun_is_refused(
 def test_shape_is_asked_for_where_nobody_knows_it(server: Server) -> None:
     calibrated(server)
     gather(server, Scene.PIVOT, "pivot")
-    refused = server.ask("POST", "/api/tools/collection/conclusion", 422, json={"made_by": "ito"})
-    assert refused["code"] == "TOOL_SHAPE_UNKNOWN"
+    rejected = server.ask("POST", "/api/tools/collection/conclusion", 422, json={"made_by": "ito"})
+    assert rejected["code"] == "TOOL_SHAPE_UNKNOWN"
 
 
 def test_when_the_camera_is_gone_no_pose_seems_to_be_taken_any_more(server: Server) -> None:
@@ -164,4 +164,4 @@ def test_when_the_camera_is_gone_no_pose_seems_to_be_taken_any_more(server: Serv
     server.hub.publish(Instant(sequence=server.number + 1, source=gone, process=running))
     server.until(lambda: server.ask("GET", "/api/tools/collection", 200)["newest"] == "no_picture")
     told = server.ask("GET", "/api/tools/collection", 200)
-    assert (told["running"], told["trouble"]) == (True, None), "it goes on when the camera is back"
+    assert (told["running"], told["problem"]) == (True, None), "it goes on when the camera is back"

@@ -15,7 +15,7 @@ def test_the_surface_of_the_case_becomes_the_wall(server: Server) -> None:
     server.ask("POST", "/api/plan/active-channel", 200, json={**BY, "vertebra": "L3", "side": "left"})
     measuring = next(one for one in server.ask("GET", "/api/jobs", 200)["jobs"] if one["title"] == WORK)
     done = server.done(measuring)
-    assert done["state"] == "done", done["trouble"]
+    assert done["state"] == "done", done["problem"]
     assert done["result"]["in_use"]
     assert done["result"]["against"] == "bone", done["result"]
     guide = server.adopted[-1].guide

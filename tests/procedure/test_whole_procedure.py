@@ -43,7 +43,7 @@ def test_from_an_empty_case_to_drilling(tmp_path: Path) -> None:
         team.waits_for("plan", "PLAN_MISSING")
         channel = team.choose("L3", "left")
         assert team.steps() == dict(zip(STEPS, ["done"] * 3 + ["missing"] * 3, strict=True))
-        server.refused(
+        server.rejected(
             "POST", CHECK, "REGISTER_MISSING", json={**DRILL, "landmark": "left mammillary process"}
         )
 
@@ -89,7 +89,7 @@ def register(team: Team) -> None:
     """Landmarks are touched until they say well enough where the vertebra is; too few are refused."""
     told = team.touch(2)
     assert [one["code"] for one in told["missing"]] == ["POINTS_TOO_FEW"]
-    team.server.refused("POST", f"{POINTS}/conclusion", "POINTS_TOO_FEW", json=BY)
+    team.server.rejected("POST", f"{POINTS}/conclusion", "POINTS_TOO_FEW", json=BY)
     told = team.touch_more(3)
     assert told["missing"] == []
     assert told["fre_rms_mm"] < CONFIG.registration.max_fre_mm

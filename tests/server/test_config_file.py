@@ -23,7 +23,7 @@ def settings(folder: Path, content: object) -> Path:
     return file
 
 
-def refused(folder: Path, content: object) -> ConfigError:
+def rejected(folder: Path, content: object) -> ConfigError:
     with pytest.raises(ConfigError) as caught:
         load_config(settings(folder, content), environment={})
     assert "settings.yaml" in caught.value.message
@@ -127,13 +127,13 @@ TOOL = {
 def test_a_mistake_is_told_with_file_key_value_and_what_is_allowed(
     tmp_path: Path, content: object, words: list[str]
 ) -> None:
-    error = refused(tmp_path, content)
+    error = rejected(tmp_path, content)
     for word in words:
         assert word in error.message
 
 
 def test_all_mistakes_are_told_at_once(tmp_path: Path) -> None:
-    error = refused(tmp_path, {"server": {"port": -1, "hots": ""}, "video": {"jpeg_quality": 101}})
+    error = rejected(tmp_path, {"server": {"port": -1, "hots": ""}, "video": {"jpeg_quality": 101}})
     mistakes = error.context["mistakes"]
     assert isinstance(mistakes, list)
     assert [mistake["key"] for mistake in mistakes] == ["server.port", "server.hots", "video.jpeg_quality"]

@@ -37,10 +37,10 @@ def test_the_room_of_a_ct_is_its_own_before_the_first_voxel(tmp_path: Path) -> N
 def test_a_disk_that_is_full_all_the_same_is_told_and_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(*_asked: object) -> None:
+    def reject(*_asked: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr(os, "posix_fallocate", refuse, raising=False)
+    monkeypatch.setattr(os, "posix_fallocate", reject, raising=False)
     with pytest.raises(DiskFull) as full, voxels_to_fill(VOLUME, tmp_path / "voxels.npy"):
         pytest.fail("it is not begun")
     assert full.value.code == "STORE_FULL"

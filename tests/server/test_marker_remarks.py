@@ -41,8 +41,8 @@ def test_what_may_be_taken_for_itself_is_told_with_its_likeness(
     with structlog.testing.capture_logs() as said:
         warn_of_markers([marker])
     assert [line["code"] for line in said] == codes
-    for line, likeness in zip(said, [one for one in marker.own_likeness if one > 0.9], strict=True):
-        assert f"correlation {likeness:.2f}" in line["event"]
+    for line, correlation in zip(said, [one for one in marker.own_correlation if one > 0.9], strict=True):
+        assert f"correlation {correlation:.2f}" in line["event"]
         assert "coaxial marker design" in line["remedy"]
 
 

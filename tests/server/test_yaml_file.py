@@ -34,6 +34,6 @@ def test_what_cannot_be_read_is_told(tmp_path: Path, content: bytes | None) -> N
             load(path)
         assert told.value.code == f"{kind.upper()}_FILE_UNREADABLE"
         assert f"the {kind} file {path} " in told.value.message
-    with pytest.raises(ConfigError) as refused:
+    with pytest.raises(ConfigError) as rejected:
         load_config(path)
-    assert str(path) in refused.value.message
+    assert str(path) in rejected.value.message

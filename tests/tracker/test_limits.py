@@ -54,7 +54,7 @@ COVERED_MIN = Level(0.92, 0.92)
 TYPICAL_SD2 = Level(0.9, 1.7)
 COVERED_IN = (("A", "base"), ("A", "noise8"), ("A", "motion4"), ("B", "base"), ("B", "noise8"))
 # A share of so few images is that far off by chance, two standard deviations of 0.95.
-COVERED_CHANCE = 0.045
+COVERED_PROBABILITY = 0.045
 
 
 @pytest.fixture(scope="module")
@@ -113,7 +113,9 @@ def test_errors_lie_inside_their_stated_ellipsoid_as_often_as_stated(
     number: int, searchers: Searchers
 ) -> None:
     found = [one for rig, name in COVERED_IN for one in right(run_of(rig, name, searchers))]
-    assert float(np.mean([one.covered[number] for one in found])) >= COVERED_MIN.asserted - COVERED_CHANCE
+    assert (
+        float(np.mean([one.covered[number] for one in found])) >= COVERED_MIN.asserted - COVERED_PROBABILITY
+    )
     assert float(np.median([one.stated_sd2[number] for one in found])) >= TYPICAL_SD2.asserted
 
 

@@ -80,7 +80,7 @@ def accuracy_on_plane(
         CalibrationError: ACCURACY_PLANE_UNKNOWN.
     """
     on_plane, seen = _checked_fit(camera, fit_mm, fit_px)
-    _refuse_outside(camera, displacements.first_px, displacements.second_px)
+    _reject_outside(camera, displacements.first_px, displacements.second_px)
     shared = int(
         (
             _same(on_plane, displacements.points_mm, SAME_MM) | _same(seen, displacements.points_px, SAME_PX)
@@ -205,11 +205,11 @@ def _checked_fit(
         raise InvalidInput(
             "ACCURACY_INVALID", "a coordinate is not finite", "Give numbers for all coordinates."
         )
-    _refuse_outside(camera, seen)
+    _reject_outside(camera, seen)
     return on_plane, seen
 
 
-def _refuse_outside(camera: CameraModel, *points_px: Array) -> None:
+def _reject_outside(camera: CameraModel, *points_px: Array) -> None:
     width, height = camera.size_wh_px
     for px in points_px:
         outside = (px < -0.5).any(axis=1) | (px > np.array([width, height]) - 0.5).any(axis=1)

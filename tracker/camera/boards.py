@@ -58,8 +58,8 @@ class DotBoard:
     fiducials: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
-        _refuse_counts(self.columns, self.rows, self.columns * self.rows)
-        _refuse_length("pitch_mm", self.pitch_mm)
+        _reject_counts(self.columns, self.rows, self.columns * self.rows)
+        _reject_length("pitch_mm", self.pitch_mm)
         object.__setattr__(self, "layout", DotLayout(self.layout))
         object.__setattr__(self, "fiducials", tuple(sorted({int(i) for i in self.fiducials})))
         count = self.columns * self.rows
@@ -107,8 +107,8 @@ class CheckerBoard:
     square_mm: float
 
     def __post_init__(self) -> None:
-        _refuse_counts(self.columns, self.rows, self.columns * self.rows)
-        _refuse_length("square_mm", self.square_mm)
+        _reject_counts(self.columns, self.rows, self.columns * self.rows)
+        _reject_length("square_mm", self.square_mm)
 
     @property
     def object_points_mm(self) -> Array:
@@ -146,9 +146,9 @@ class CharucoBoard:
     layout: CharucoLayout | None = None
 
     def __post_init__(self) -> None:
-        _refuse_counts(self.columns, self.rows, (self.columns - 1) * (self.rows - 1))
-        _refuse_length("square_mm", self.square_mm)
-        _refuse_length("marker_mm", self.marker_mm)
+        _reject_counts(self.columns, self.rows, (self.columns - 1) * (self.rows - 1))
+        _reject_length("square_mm", self.square_mm)
+        _reject_length("marker_mm", self.marker_mm)
         if self.marker_mm >= self.square_mm:
             raise _invalid(f"a marker of {self.marker_mm:g} mm in a square of {self.square_mm:g} mm")
         if self.dictionary not in dictionaries():
@@ -199,12 +199,12 @@ def _points(x: Array, y: Array) -> Array:
     return points
 
 
-def _refuse_counts(columns: int, rows: int, points: int) -> None:
+def _reject_counts(columns: int, rows: int, points: int) -> None:
     if min(columns, rows) < 2 or not MIN_POINTS <= points <= MAX_POINTS:
         raise _invalid(f"{columns} x {rows}, which is {points} points, allowed {MIN_POINTS} to {MAX_POINTS}")
 
 
-def _refuse_length(name: str, length_mm: float) -> None:
+def _reject_length(name: str, length_mm: float) -> None:
     if not (np.isfinite(length_mm) and 0.0 < length_mm <= 10_000.0):
         raise _invalid(f"{name} {length_mm:g}, allowed above 0 to 10000")
 

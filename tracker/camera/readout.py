@@ -125,9 +125,9 @@ def estimate_readout(views: Sequence[TimedView], camera: CameraModel) -> Readout
         )
     images = list(burst.values())
     estimate = _estimate(images, readout_s)
-    _refuse_motion(images, estimate)
-    _refuse_unsure(estimate)
-    _refuse_impossible(estimate, min(b.at_s - a.at_s for a, b in pairwise(used)))
+    _reject_motion(images, estimate)
+    _reject_unsure(estimate)
+    _reject_impossible(estimate, min(b.at_s - a.at_s for a, b in pairwise(used)))
     return estimate
 
 
@@ -263,7 +263,7 @@ def _ways(images: Sequence[_Image]) -> tuple[list[_Image], list[_Image]]:
     return forth, back
 
 
-def _refuse_motion(images: Sequence[_Image], estimate: ReadoutEstimate) -> None:
+def _reject_motion(images: Sequence[_Image], estimate: ReadoutEstimate) -> None:
     found, context = _found(estimate), _context(estimate)
     if estimate.speed_px_s < MIN_SPEED_PX_S:
         raise CalibrationError(
@@ -283,7 +283,7 @@ def _refuse_motion(images: Sequence[_Image], estimate: ReadoutEstimate) -> None:
         )
 
 
-def _refuse_unsure(estimate: ReadoutEstimate) -> None:
+def _reject_unsure(estimate: ReadoutEstimate) -> None:
     if estimate.sd_ms <= MAX_SD_MS:
         return
     raise CalibrationError(
@@ -306,7 +306,7 @@ def _context(estimate: ReadoutEstimate) -> dict[str, object]:
     }
 
 
-def _refuse_impossible(estimate: ReadoutEstimate, period_s: float) -> None:
+def _reject_impossible(estimate: ReadoutEstimate, period_s: float) -> None:
     reach_ms = 3.0 * estimate.sd_ms
     if -reach_ms <= estimate.readout_ms <= 1000.0 * period_s + reach_ms:
         return

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracker.design.background import Advance, Background, searched
+from tracker.design.correlation import background_correlation, own_correlation, turned_rows
 from tracker.design.judgement import Judgement, without_search
-from tracker.design.likeness import background_likeness, own_likeness, turned_rows
 from tracker.design.places import joined
 from tracker.design.shape import Shape, picture_of
 from tracker.marker import MarkerModel, ScoreSettings
@@ -71,8 +71,8 @@ def _min_alike(shapes: Sequence[Shape], background: Background | None) -> list[S
     """Those that look least like themselves turned or mirrored, and like the background."""
     squares = [picture_of(shape, GLANCE_PX) for shape in shapes]
     places = joined([]) if background is None else background.places
-    theirs = background_likeness(np.stack([turned_rows(square) for square in squares]), places)
-    worst = np.maximum([own_likeness(square) for square in squares], theirs)
+    theirs = background_correlation(np.stack([turned_rows(square) for square in squares]), places)
+    worst = np.maximum([own_correlation(square) for square in squares], theirs)
     return [shapes[int(k)] for k in np.argsort(worst, kind="stable")[:SCORED]]
 
 

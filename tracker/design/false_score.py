@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from tracker.design.likeness import TURNS, likeliest_places, turned_rows
+from tracker.design.correlation import TURNS, likeliest_places, turned_rows
 from tracker.design.places import Places, flattened
 from tracker.edges import GreyImage, edgels_of, gradient_of
 from tracker.geometry import Array
@@ -53,7 +53,7 @@ class ImitatingPlace:
     image_index: int
     corners_px: Array
     score: FalseScore
-    likeness: float
+    correlation: float
 
 
 def score_at(
@@ -125,13 +125,13 @@ def imitating_places(
 ) -> list[ImitatingPlace]:
     """The places of a background that look most like the marker, the best score first."""
     found = []
-    for index, turn, likeness in likeliest_places(turned_rows(model.square), places, count=SCORED_PLACES):
+    for index, turn, correlation in likeliest_places(turned_rows(model.square), places, count=SCORED_PLACES):
         image_index = int(places.image_index[index])
         corners = np.roll(places.corners_px[index], turn, axis=0)
         image = images[image_index]
         score = score_at(image, corners, model, settings, threshold=gradient_of(image).threshold)
         found.append(
-            ImitatingPlace(image_index=image_index, corners_px=corners, score=score, likeness=likeness)
+            ImitatingPlace(image_index=image_index, corners_px=corners, score=score, correlation=correlation)
         )
     return sorted(found, key=_rank, reverse=True)
 

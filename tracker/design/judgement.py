@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 
 from tracker.design.background import Advance, Background, Searched, searched
+from tracker.design.correlation import own_correlation
 from tracker.design.false_score import FalseScore, ImitatingPlace, imitating_places, own_false_scores
-from tracker.design.likeness import own_likeness
 from tracker.design.precision import Precision, precision_of
 from tracker.marker import MarkerModel, ScoreSettings
 
@@ -16,7 +16,7 @@ class Judgement:
     Attributes:
         turned: the best score of its edges over its own quarter turns, 27 px wide.
         mirrored: the same over its mirror image at all turns.
-        own_likeness: the best correlation with any of those, -1..1.
+        own_correlation: the best correlation with any of those, -1..1.
         nearest: the places of the background that come closest, the closest first; empty without one.
         search: what the tracker's search says in the images of the background.
         images: how many images those are; 0 where no background was given.
@@ -25,7 +25,7 @@ class Judgement:
 
     turned: FalseScore
     mirrored: FalseScore
-    own_likeness: float
+    own_correlation: float
     nearest: tuple[ImitatingPlace, ...]
     search: Searched
     images: int
@@ -74,7 +74,7 @@ def without_search(model: MarkerModel, background: Background | None, settings: 
     return Judgement(
         turned=turned,
         mirrored=mirrored,
-        own_likeness=own_likeness(model.square),
+        own_correlation=own_correlation(model.square),
         nearest=tuple(nearest),
         search=NOT_SEARCHED,
         images=0 if background is None else len(background.images),

@@ -10,7 +10,7 @@ from tracker.marker.explanation import (
     pictures_of,
 )
 from tracker.marker.looks import Templates, templates_of
-from tracker.marker.model import MarkerModel, refuse_alike
+from tracker.marker.model import MarkerModel, reject_alike
 from tracker.marker.score import (
     Agreement,
     ScoreSettings,
@@ -38,7 +38,7 @@ __all__ = [
     "model_agreement",
     "pictures_of",
     "reach_px",
-    "refuse_alike",
+    "reject_alike",
     "target_coverage_ratio",
     "templates_of",
     "thorough_rounds",

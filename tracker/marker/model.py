@@ -70,7 +70,7 @@ class MarkerModel:
                 {"name": name, "side_mm": float(side_mm)},
             )
         square = _working_image(grey.astype(np.uint8))
-        _refuse_symmetry(square, name)
+        _reject_symmetry(square, name)
         return cls(
             name=name,
             side_mm=float(side_mm),
@@ -86,7 +86,7 @@ class MarkerModel:
         return np.array([[-h, h, 0.0], [h, h, 0.0], [h, -h, 0.0], [-h, -h, 0.0]])
 
     @property
-    def own_likeness(self) -> tuple[float, float]:
+    def own_correlation(self) -> tuple[float, float]:
         """How like itself it is after quarter turns, and as its mirror image however turned, -1..1."""
         small = _small(self.square)
         mirrored = small[:, ::-1]
@@ -132,7 +132,7 @@ def _working_image(grey: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
     return np.asarray(cv2.resize(grey, (size, size), interpolation=mode), dtype=np.uint8)
 
 
-def refuse_alike(models: Sequence[MarkerModel]) -> None:
+def reject_alike(models: Sequence[MarkerModel]) -> None:
     """Refuse models of which one, however it is turned, looks like another.
 
     Raises:
@@ -171,7 +171,7 @@ def _turned(small: Array) -> list[float]:
     return [_correlation(small, np.rot90(small, turns)) for turns in (1, 2, 3)]
 
 
-def _refuse_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
+def _reject_symmetry(square: npt.NDArray[np.uint8], name: str) -> None:
     for turns, alike in enumerate(_turned(_small(square)), start=1):
         if alike > MAX_SYMMETRY:
             raise InvalidInput(

@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from tracker.edges import GreyImage, chains_of, edgels_of, gradient_of, joined_segments, segments_of
 from tracker.geometry import Array
-from tracker.marker.explanation import likeness_part_by_part
+from tracker.marker.explanation import correlation_part_by_part
 from tracker.marker.levels import MIN_LEVEL_PX, WINDOW_PX, Level, Levels, first_level, softened
 from tracker.marker.looks import (
     STEPS,
@@ -42,7 +42,7 @@ from tracker.regions import (
 )
 
 # At a closer look a marker in sight has 0.8 to 1.
-MIN_LIKENESS = 0.76
+MIN_CORRELATION = 0.76
 # Two outlines nearer than this at all corners are one.
 SAME_OUTLINE_SIDE_RATIO = 0.06
 MIN_PIECE_PX = 4.0
@@ -59,7 +59,7 @@ MAX_CLOSER_OF_FOUR = 8
 # A peek ranks the true one of these first in nearly all images.
 MAX_SMEARED = 40
 # Where one outline is as like as this, those that are so far behind are not it.
-SURE_LIKENESS, FAR_BEHIND = 0.94, 0.08
+SURE_CORRELATION, FAR_BEHIND = 0.94, 0.08
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,7 +100,7 @@ class Candidate:
     """
 
     corners_px: Array
-    likeness: float
+    correlation: float
 
 
 def candidate_rounds(image: GreyImage, templates: Templates) -> Iterator[list[list[Candidate]]]:
@@ -135,12 +135,12 @@ def _rounds(
         return
     levels = Levels(first_level(image))
     given = [np.empty((0, 4, 2), np.float32) for _ in templates.each]
-    for level, quads, likeness, is_peek in looks(image, levels, templates):
+    for level, quads, correlation, is_peek in looks(image, levels, templates):
         fresh: list[list[Candidate]] = []
         for m, template in enumerate(templates.each):
             # What another model was the likelier for may still be this one: a peek tells little.
             most = len(quads) if is_peek else MAX_CLOSER_OF_FOUR
-            turned = _top(level.full_px(quads), likeness[:, m], most, is_sure=not is_peek)
+            turned = _top(level.full_px(quads), correlation[:, m], most, is_sure=not is_peek)
             if is_peek:
                 turned = _worth_all_steps(levels, turned, template, effort.closer)
             closer, alike = _closer(levels, turned, template)
@@ -150,7 +150,7 @@ def _rounds(
                 np.argsort(-alike, kind="stable"),
                 given[m],
                 effort.part_by_part,
-                MIN_LIKENESS,
+                MIN_CORRELATION,
                 SAME_OUTLINE_SIDE_RATIO,
             )
             candidates = [_candidate(closer[k], alike[k]) for k in best]
@@ -160,8 +160,8 @@ def _rounds(
         yield fresh
 
 
-def _candidate(corners_px: npt.NDArray[np.float32], likeness: np.float32) -> Candidate:
-    return Candidate(corners_px=corners_px.astype(np.float64), likeness=float(likeness))
+def _candidate(corners_px: npt.NDArray[np.float32], correlation: np.float32) -> Candidate:
+    return Candidate(corners_px=corners_px.astype(np.float64), correlation=float(correlation))
 
 
 def _by_two_looks(image: GreyImage, candidates: list[Candidate], template: Template) -> list[Candidate]:
@@ -175,7 +175,7 @@ def _by_two_looks(image: GreyImage, candidates: list[Candidate], template: Templ
 
     def part_by_part(one: Candidate) -> float:
         side_px = float(_sides_px(one.corners_px[None])[0])
-        return likeness_part_by_part(image, template.pictures, one.corners_px, side_px=side_px)
+        return correlation_part_by_part(image, template.pictures, one.corners_px, side_px=side_px)
 
     return [first, *sorted(others, key=part_by_part, reverse=True)]
 
@@ -185,7 +185,7 @@ class Look(NamedTuple):
 
     level: Level
     quads: Quads
-    likeness: npt.NDArray[np.float32]
+    correlation: npt.NDArray[np.float32]
     is_peek: bool
 
 
@@ -220,7 +220,7 @@ def _thorough_looks(_image: GreyImage, levels: Levels, templates: Templates) -> 
     ):
         look = _at_corners(seen, segments, templates, THOROUGH.peeked_of(len(templates)))
         within = _are_within(look.quads, seen.image)
-        yield look._replace(quads=look.quads[within], likeness=look.likeness[within])
+        yield look._replace(quads=look.quads[within], correlation=look.correlation[within])
 
 
 def _are_within(quads: Quads, image: GreyImage) -> npt.NDArray[np.bool_]:
@@ -263,14 +263,14 @@ def _smeared(level: Level, segments: npt.NDArray[np.float32], templates: Templat
     return Look(level, *likely(level.soft, quads, templates, most=MAX_SMEARED, smeared=True), is_peek=True)
 
 
-def _top(quads: Quads, likeness: npt.NDArray[np.float32], most: int, *, is_sure: bool) -> Quads:
+def _top(quads: Quads, correlation: npt.NDArray[np.float32], most: int, *, is_sure: bool) -> Quads:
     """The likeliest outlines and turns (q, 4), each with the model's own first corner first.
 
     `is_sure`: whether a likeness tells enough to let go what is far behind the likeliest.
     """
-    flat = likeness.ravel()
+    flat = correlation.ravel()
     best = np.argpartition(-flat, most)[:most] if len(flat) > most else np.arange(len(flat))
-    if is_sure and len(best) and flat[best].max() > SURE_LIKENESS:
+    if is_sure and len(best) and flat[best].max() > SURE_CORRELATION:
         best = best[flat[best] > flat[best].max() - FAR_BEHIND]
     q, turn = np.divmod(best, 4)
     corner = (np.arange(4) - turn[:, None]) % 4

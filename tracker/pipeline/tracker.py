@@ -15,7 +15,7 @@ from tracker.marker import (
     ScoreSettings,
     candidate_rounds,
     pictures_of,
-    refuse_alike,
+    reject_alike,
     templates_of,
 )
 from tracker.pipeline.fitter import Fitter
@@ -66,8 +66,8 @@ class Tracker:
         clock: Callable[[], float] | None = None,
         readout_s: float = 0.0,
     ) -> None:
-        refuse_alike(models)
-        _refuse_readout(readout_s)
+        reject_alike(models)
+        _reject_readout(readout_s)
         self.readout_s = readout_s
         self._readout = Readout(camera=camera, seconds=readout_s) if readout_s > 0.0 else None
         self.camera = camera
@@ -199,7 +199,7 @@ class Tracker:
         return Search(pixels, models, self._templates[which], fitter=self._fitter)
 
 
-def _refuse_readout(readout_s: float) -> None:
+def _reject_readout(readout_s: float) -> None:
     if not 0.0 <= readout_s <= LONGEST_READOUT_S:
         raise InvalidInput(
             "READOUT_INVALID",

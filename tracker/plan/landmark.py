@@ -41,7 +41,7 @@ class Landmark:
         object.__setattr__(self, "point_lps_mm", point)
 
 
-def refuse_twins(landmarks: Sequence[Landmark]) -> None:
+def reject_twins(landmarks: Sequence[Landmark]) -> None:
     """Refuse landmarks that cannot be told apart by their names; capitals and spaces tell nothing apart.
 
     Raises:
@@ -59,7 +59,7 @@ def refuse_twins(landmarks: Sequence[Landmark]) -> None:
         )
 
 
-def refuse_landmarks_outside(landmarks: Sequence[Landmark], volume: Volume) -> None:
+def reject_landmarks_outside(landmarks: Sequence[Landmark], volume: Volume) -> None:
     """A landmark that does not lie in the CT was set on another one.
 
     Raises:

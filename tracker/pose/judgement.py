@@ -22,15 +22,15 @@ from tracker.pose.whole import Pixels, with_whole_shape
 
 # In empty scenes other squares reach 0.86 in plain light, and once in hundreds of images 0.9 to 0.93 where
 # they are small or wide. The marker itself has 0.97 there, or it is asked for an explanation.
-PLAIN_SIDES_PX, PLAIN_LIKENESS = (20.0, 24.0, 30.0, 40.0), (0.95, 0.92, 0.92, 0.95)
+PLAIN_SIDES_PX, PLAIN_CORRELATION = (20.0, 24.0, 30.0, 40.0), (0.95, 0.92, 0.92, 0.95)
 # Where edges are weak, pixels may speak; not where nothing looks like the model before it is fitted.
 WORTH_EXPLAINING = 0.45
 # Farther than this the pose by edges is not within reach of the fit to all pixels.
 EDGES_OFF_PX = 0.6
 # On bent paper a part of the shape may be beside where it is expected. What is found anew is believed so far
 # only where it is large and nearly whole; what was there before, and is not contradicted, sooner.
-WIDE_PX, WHOLE_COVERAGE_RATIO, KNOWN_LIKENESS = 36.0, 0.85, 0.85
-NEAR_LIKENESS, NEAR_INNER_LIKENESS = 0.93, 0.9
+WIDE_PX, WHOLE_COVERAGE_RATIO, KNOWN_CORRELATION = 36.0, 0.85, 0.85
+NEAR_CORRELATION, NEAR_INNER_CORRELATION = 0.93, 0.9
 # Under glare, what has hardly moved and has no edges but the marker's is kept.
 KEPT_TARGET_COVERAGE_RATIO, KEPT_OFF_PX, KEPT_OFF_SIDE_RATIO = 0.9, 3.0, 0.1
 
@@ -86,7 +86,7 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
         return unseen
     if target < settings.accept_target_score_ratio:
         return unseen if weak else replace(unseen, reason=UnseenReason.TARGET_SCORE_TOO_LOW)
-    plain, most = _plain_likeness(scene, found)
+    plain, most = _plain_correlation(scene, found)
     if weak and most < WORTH_EXPLAINING:
         return unseen
     by_edges = Seen(
@@ -119,10 +119,10 @@ def judged(scene: Scene, found: Occurrence) -> Sighting:
 
 def _min_plain(corners_px: Array) -> float:
     """What is enough in plain light, of a square at these corners (4, 2)."""
-    return float(np.interp(side_px_of(corners_px), PLAIN_SIDES_PX, PLAIN_LIKENESS))
+    return float(np.interp(side_px_of(corners_px), PLAIN_SIDES_PX, PLAIN_CORRELATION))
 
 
-def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
+def _plain_correlation(scene: Scene, found: Occurrence) -> tuple[float, float]:
     """How like the model the inside is in plain light: if nothing contradicts, else -1; and in any case."""
     alike, most = -1.0, -1.0
     # Bent paper lies beside its flat pose. Another shape contradicts wherever its corners are taken to be.
@@ -130,9 +130,9 @@ def _plain_likeness(scene: Scene, found: Occurrence) -> tuple[float, float]:
         look = contradiction_of(
             scene.window, scene.model.square, corners - scene.corner_px, side_px=side_px_of(corners)
         )
-        most = max(most, look.likeness)
+        most = max(most, look.correlation)
         if not look.is_other_shape:
-            alike = max(alike, look.likeness)
+            alike = max(alike, look.correlation)
         if alike >= _min_plain(corners):
             break
     return alike, most
@@ -161,13 +161,13 @@ def _explained(
         return moved, explanation.covers if explanation.is_covered else None
     if plain <= 0.0:
         return None
-    alike, inner = explanation.likeness, explanation.inner_likeness
+    alike, inner = explanation.correlation, explanation.inner_correlation
     if scene.expected is not None:
-        return (seen, None) if min(alike, inner) >= KNOWN_LIKENESS else None
+        return (seen, None) if min(alike, inner) >= KNOWN_CORRELATION else None
     wide = side_px_of(seen.corners_px) > WIDE_PX and seen.model_coverage_ratio > WHOLE_COVERAGE_RATIO
     # Bent paper needs no highlights, and they take what is another shape away with them.
     is_bent = wide and not explanation.under_highlights
-    return (seen, None) if is_bent and alike >= NEAR_LIKENESS and inner >= NEAR_INNER_LIKENESS else None
+    return (seen, None) if is_bent and alike >= NEAR_CORRELATION and inner >= NEAR_INNER_CORRELATION else None
 
 
 def _is_kept(scene: Scene, found: Occurrence) -> bool:

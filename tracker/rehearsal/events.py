@@ -48,11 +48,11 @@ class Event:
         for key, most in (("at_s", MAX_S), ("size_mm", MAX_MM), ("size_deg", MAX_DEG)):
             value = float(getattr(self, key))
             if not 0.0 <= value <= most:
-                raise refused(f"events.{key}", value, f"a number from 0 to {most:g}")
+                raise rejected(f"events.{key}", value, f"a number from 0 to {most:g}")
         for key in ("lasts_s", "every_s"):
             value = float(getattr(self, key))
             if not value > 0.0:
-                raise refused(f"events.{key}", value, "a number above 0")
+                raise rejected(f"events.{key}", value, "a number above 0")
 
     def is_on(self, at_s: float) -> bool:
         """Whether it is there at this time."""
@@ -71,7 +71,7 @@ class Event:
         return begun_s + self.lasts_s
 
 
-def refused(key: str, value: object, allowed: str) -> InvalidInput:
+def rejected(key: str, value: object, allowed: str) -> InvalidInput:
     """The error for a setting of the rehearsal."""
     return InvalidInput(
         "REHEARSAL_SETTING_INVALID",

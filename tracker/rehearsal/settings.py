@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tracker.rehearsal.events import Event, refused
+from tracker.rehearsal.events import Event, rejected
 
 HARDEST = 10.0
 SIDE_PX = (160, 4096)
@@ -76,12 +76,12 @@ class TheatreSettings:
 
     def __post_init__(self) -> None:
         if not 0 <= self.seed < 2**32:
-            raise refused("seed", self.seed, f"a whole number from 0 to {2**32 - 1}")
+            raise rejected("seed", self.seed, f"a whole number from 0 to {2**32 - 1}")
         if not all(SIDE_PX[0] <= side <= SIDE_PX[1] for side in self.size_wh_px):
-            raise refused("size_wh_px", self.size_wh_px, f"sides from {SIDE_PX[0]} to {SIDE_PX[1]} px")
+            raise rejected("size_wh_px", self.size_wh_px, f"sides from {SIDE_PX[0]} to {SIDE_PX[1]} px")
         if not MIN_REST_S <= self.rest_s <= LONGEST_REST_S:
-            raise refused("rest_s", self.rest_s, f"seconds from {MIN_REST_S:g} to {LONGEST_REST_S:g}")
+            raise rejected("rest_s", self.rest_s, f"seconds from {MIN_REST_S:g} to {LONGEST_REST_S:g}")
         for name in ("noise", "blur", "clutter", "light"):
             value = float(getattr(self, name))
             if not (math.isfinite(value) and 0.0 <= value <= HARDEST):
-                raise refused(name, value, f"a number from 0 (none) to {HARDEST:g} (very hard)")
+                raise rejected(name, value, f"a number from 0 (none) to {HARDEST:g} (very hard)")

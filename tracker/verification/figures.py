@@ -102,7 +102,7 @@ class RegistrationFigures:
     way: Way
     anchored_to: AnchoredTo
     theatres: int
-    refused: Mapping[str, int]
+    rejected: Mapping[str, int]
     check_passed: int
     check_median_mm: float
 
@@ -183,7 +183,7 @@ def _registration(key: tuple[Way, AnchoredTo], rows: Sequence[RegistrationRow]) 
         way=key[0],
         anchored_to=key[1],
         theatres=len(rows),
-        refused=Counter(row.refused for row in rows if row.refused),
+        rejected=Counter(row.rejected for row in rows if row.rejected),
         check_passed=sum(row.check_passed for row in rows),
         check_median_mm=float(np.median(distances)) if distances else np.nan,
     )

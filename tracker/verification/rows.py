@@ -76,7 +76,7 @@ class RegistrationRow:
     seed: int
     way: Way
     anchored_to: AnchoredTo
-    refused: str
+    rejected: str
     check_mm: float
     check_passed: bool
 

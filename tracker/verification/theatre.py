@@ -49,12 +49,12 @@ def verify_theatre(seed: int, settings: VerificationSettings | None = None) -> T
     tool = calibrated_tool(theatre.tool, settings, random)
     plan = _plan(theatre, settings, random)
     touched = touches(eyes, settings, Scene.LANDMARKS)
-    registered, refused = _registered(eyes, touched, plan, tool, settings, random)
+    registered, rejected = _registered(eyes, touched, plan, tool, settings, random)
     eyes.register()
     check = touches(eyes, settings, Scene.CHECK)
     place = _check_landmark(theatre, settings, random)
     registrations = [
-        _row(seed, key, refused.get(key, ""), registered, check, place, tool, plan)
+        _row(seed, key, rejected.get(key, ""), registered, check, place, tool, plan)
         for key in ((way, anchor) for way in Way for anchor in ANCHORS)
     ]
     guide = _guide()
@@ -104,13 +104,13 @@ def _registered(
     """What each way gives, and the codes of what was refused."""
     channel = eyes.theatre.channels[0]
     found: Registrations = {}
-    refused: dict[tuple[Way, AnchoredTo], str] = {}
+    rejected: dict[tuple[Way, AnchoredTo], str] = {}
 
     def attempt(way: Way, anchor: AnchoredTo, make: Callable[[], Registration]) -> None:
         try:
             found[way, anchor] = make()
-        except NavigationError as refusal:
-            refused[way, anchor] = refusal.code
+        except NavigationError as rejection:
+            rejected[way, anchor] = rejection.code
 
     for anchor in ANCHORS:
         attempt(Way.POINTS, anchor, partial(by_points, touched, plan, tool, anchor, channel))
@@ -124,12 +124,12 @@ def _registered(
 
         attempt(way, AnchoredTo.CAMERA, needles)
         random.bit_generator.state = state
-        if (way, AnchoredTo.CAMERA) in refused:
-            refused[way, AnchoredTo.REFERENCE] = refused[way, AnchoredTo.CAMERA]
+        if (way, AnchoredTo.CAMERA) in rejected:
+            rejected[way, AnchoredTo.REFERENCE] = rejected[way, AnchoredTo.CAMERA]
             continue
         made = found[way, AnchoredTo.CAMERA]
         attempt(way, AnchoredTo.REFERENCE, partial(_beside_reference, made, eyes))
-    return found, refused
+    return found, rejected
 
 
 def _beside_reference(made: Registration, eyes: Eyes) -> Registration:
@@ -139,7 +139,7 @@ def _beside_reference(made: Registration, eyes: Eyes) -> Registration:
 def _row(
     seed: int,
     key: tuple[Way, AnchoredTo],
-    refused: str,
+    rejected: str,
     registered: Registrations,
     check: Touches,
     place: Landmark,
@@ -158,7 +158,7 @@ def _row(
         seed=seed,
         way=key[0],
         anchored_to=key[1],
-        refused=refused,
+        rejected=rejected,
         check_mm=distance_mm,
         check_passed=passed,
     )

@@ -68,7 +68,7 @@ def calibrate_camera(order: CalibrationOrder, *, as_json: bool) -> int:
     max_rms_px = config.calibration.max_rms_px if order.max_rms_px is None else order.max_rms_px
     boards = boards_of(order.board)
     files = files_of(order.images)
-    _refuse_writing_over(order.output, files)
+    _reject_writing_over(order.output, files)
     with shown_steps() as steps:
         looked = looked_at(files, boards, steps)
     views, owners = flattened(looked)
@@ -214,7 +214,7 @@ def _write(
     return tuple(written)
 
 
-def _refuse_writing_over(output: Path | None, files: Sequence[Path]) -> None:
+def _reject_writing_over(output: Path | None, files: Sequence[Path]) -> None:
     if output is not None and any(output.exists() and file.samefile(output) for file in files):
         raise InvalidInput(
             "OUTPUT_IS_INPUT",

@@ -12,7 +12,7 @@ from server.imaging.dicom.frame import Frame
 from server.imaging.dicom.hounsfield import hounsfield
 from server.imaging.dicom.pixels import stored_images
 from server.imaging.dicom.series import check_one_patient, choose, describe, frames_by_series
-from server.imaging.plausible import refuse_beyond, said_of_values
+from server.imaging.plausible import reject_beyond, said_of_values
 from server.imaging.voxels import Voxels, voxels_to_fill
 from tracker.errors import InvalidInput
 from tracker.plan import Volume
@@ -43,7 +43,7 @@ def read_dicom(
     )
     with voxels_to_fill((len(stack.slices), rows, columns), into) as voxels:
         beyond = _fill(voxels, frames, stack, progress, first)
-        refuse_beyond(beyond, voxels.hu.size)
+        reject_beyond(beyond, voxels.hu.size)
     description = next(one for one in describe(found) if one.series == frames[0].shared.series)
     warnings = [*said_of(frames, stack, beyond), *said_of_values(voxels.hu)]
     if len(found) > 1:

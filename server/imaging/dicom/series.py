@@ -106,7 +106,7 @@ def describe(series: dict[str, list[Frame]]) -> tuple[SeriesDescription, ...]:
                 thickness_mm=first.thickness_mm,
                 kernel=first.kernel,
                 compression=UID(first.compression).name,
-                trouble=_trouble(frames),
+                problem=_problem(frames),
             )
         )
     return tuple(described)
@@ -124,7 +124,7 @@ def _without_names(words: str, owners: list[Owner]) -> str:
     return "" if any(part in words.casefold() for part in parts) else words
 
 
-def _trouble(frames: list[Frame]) -> str:
+def _problem(frames: list[Frame]) -> str:
     modality = frames[0].shared.modality
     if modality != "CT":
         return f"it is {modality or 'of unknown kind'}, not CT"
@@ -168,9 +168,9 @@ def choose(series: dict[str, list[Frame]], asked: str | None) -> list[Frame]:
         "CT_SERIES_UNCLEAR",
         f"there are {len(found)} CT series, of {', '.join(str(len(frames)) for frames in found)} slices",
         "Name the one to plan on: "
-        + ", ".join(one.series for one in describe(series) if not one.trouble)
+        + ", ".join(one.series for one in describe(series) if not one.problem)
         + ".",
-        {"series": {one.series: one.words for one in describe(series) if not one.trouble}},
+        {"series": {one.series: one.words for one in describe(series) if not one.problem}},
     )
 
 

@@ -17,7 +17,7 @@ from server.imaging.nifti.header import (
     read_nifti_header,
     unpacked,
 )
-from server.imaging.plausible import refuse_beyond, said_of_values
+from server.imaging.plausible import reject_beyond, said_of_values
 from server.imaging.voxels import MAX_HU, MIN_HU, NOTHING_HU, Voxels, voxels_to_fill
 from tracker.errors import InvalidInput
 from tracker.plan import Volume
@@ -68,7 +68,7 @@ def read_nifti(entry: Entry, *, progress: Progress, first: FirstSlice, into: Pat
         except BAD_NIFTI:
             raise damaged(entry, f"it does not hold its {columns} x {rows} x {slices} voxels") from None
         _check_missing(missing, voxels.hu.size)
-        refuse_beyond(beyond, voxels.hu.size)
+        reject_beyond(beyond, voxels.hu.size)
     warnings = [*header.place.warnings, *said_of_values(voxels.hu)]
     if missing:
         warnings.append(f"{missing} voxels are no numbers (NaN) and were set to {NOTHING_HU} HU.")

@@ -72,7 +72,7 @@ class CtStep:
         self._lock = threading.Lock()
         self._uploads: dict[str, _Upload] = {}
 
-    def refuse_without_case(self) -> None:
+    def reject_without_case(self) -> None:
         """To be asked before much is sent.
 
         Raises:

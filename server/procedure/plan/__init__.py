@@ -2,7 +2,7 @@
 
 from server.procedure.plan.active import ACTIVE_CHANNEL, ActiveChannel, kept_channel
 from server.procedure.plan.exchange import plan_in, plan_out
-from server.procedure.plan.kept import KeptPlan, PlanShelf
+from server.procedure.plan.kept import KeptPlan, PlanRepository
 from server.procedure.plan.picture import reference_picture, reference_slice
 from server.procedure.plan.step import Author, PlanStep, Proposal
 
@@ -11,7 +11,7 @@ __all__ = [
     "ActiveChannel",
     "Author",
     "KeptPlan",
-    "PlanShelf",
+    "PlanRepository",
     "PlanStep",
     "Proposal",
     "kept_channel",

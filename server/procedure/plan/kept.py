@@ -39,7 +39,7 @@ class KeptPlan:
     active: ActiveChannel | None
 
 
-class PlanShelf:
+class PlanRepository:
     """Where the plan of the open case lies; safe to use from any thread.
 
     Args:

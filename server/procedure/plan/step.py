@@ -10,7 +10,7 @@ from server.config import PlanConfig
 from server.jobs import Job, Jobs
 from server.planning.pedicle import measure_in_ct
 from server.procedure.ct import OpenedCt
-from server.procedure.plan.kept import KeptPlan, PlanShelf
+from server.procedure.plan.kept import KeptPlan, PlanRepository
 from server.store import CaseStore
 from tracker.errors import PlanError
 from tracker.plan import (
@@ -24,7 +24,7 @@ from tracker.plan import (
     propose_screw,
     propose_slice,
 )
-from tracker.plan.document import changes, measure_from_mapping, refuse_odd
+from tracker.plan.document import changes, measure_from_mapping, reject_odd
 from tracker.plan.pedicle import Side
 from tracker.plan.slices import reach_mm
 
@@ -65,7 +65,7 @@ class PlanStep:
     """
 
     def __init__(self, *, store: CaseStore, jobs: Jobs, opened: OpenedCt, config: PlanConfig) -> None:
-        self.shelf = PlanShelf(store, opened)
+        self.repository = PlanRepository(store, opened)
         self._jobs = jobs
         self._opened = opened
         self._front_margin_mm = config.front_margin_mm
@@ -82,14 +82,14 @@ class PlanStep:
             StoreConflict: VERSION_CONFLICT.
             PlanError: what cannot be a plan on this CT.
         """
-        refuse_odd(plan)
+        reject_odd(plan)
         ct = self._opened.current()
         whole = changes.settled(plan, volume=ct.volume)
-        return self.shelf.put(whole, ct, made_by=by.made_by, expected_version=by.expected_version)
+        return self.repository.put(whole, ct, made_by=by.made_by, expected_version=by.expected_version)
 
     def add_vertebra(self, name: str, by: Author) -> KeptPlan:
         """One vertebra more; PlanError PLAN_INVALID if there is one of this name."""
-        return self._change(by, lambda plan, _: _refused_odd(changes.with_vertebra(plan, name)))
+        return self._change(by, lambda plan, _: _rejected_odd(changes.with_vertebra(plan, name)))
 
     def remove_vertebra(self, name: str, by: Author) -> KeptPlan:
         """One vertebra less; PlanError VERTEBRA_UNKNOWN."""
@@ -103,7 +103,7 @@ class PlanStep:
             OutOfDateError: PLAN_OUT_OF_DATE.
             PlanError: VERTEBRA_UNKNOWN.
         """
-        plan, _, ct = self.shelf.to_change()
+        plan, _, ct = self.repository.to_change()
         changes.vertebra_named(plan, name)
         measured_on = ct.document.id
 
@@ -159,7 +159,7 @@ class PlanStep:
             )
         return self._change(
             by,
-            lambda plan, volume: _refused_odd(
+            lambda plan, volume: _rejected_odd(
                 changes.with_channel(
                     plan, name, side, channel, volume=volume, front_margin_mm=self._front_margin_mm
                 )
@@ -177,7 +177,7 @@ class PlanStep:
             SetupOrderError: NO_CASE_OPEN, PLAN_MISSING.
             PlanError: CHANNEL_MISSING, PEDICLE_MISSING, NO_SCREW_FITS.
         """
-        return self._proposed(self.shelf.latest().plan, name, side)
+        return self._proposed(self.repository.latest().plan, name, side)
 
     def choose_screw(
         self, name: str, side: Side, size_mm: tuple[float, float] | None, by: Author
@@ -188,7 +188,7 @@ class PlanStep:
             PlanError: SCREW_NOT_IN_CATALOGUE, NO_SCREW_FITS, CHANNEL_MISSING, PEDICLE_MISSING.
         """
         if size_mm is not None:
-            self._refuse_strange(size_mm)
+            self._reject_strange(size_mm)
         return self._change(
             by,
             lambda plan, volume: changes.with_screw(
@@ -205,7 +205,7 @@ class PlanStep:
     def propose_slice(self, name: str) -> Proposal:
         """The slice nearest to the isthmuses of a vertebra; PlanError NO_PEDICLE_MEASURED."""
         volume = self._opened.current().volume
-        vertebra = changes.vertebra_named(self.shelf.latest().plan, name)
+        vertebra = changes.vertebra_named(self.repository.latest().plan, name)
         measures = [record.used for record in vertebra.pedicles]
         index = propose_slice(volume, measures)
         centre = volume.lps_from_index((np.array(volume.shape_ijk) - 1.0) / 2.0 * [1, 1, 0] + [0, 0, index])
@@ -250,11 +250,13 @@ class PlanStep:
         """These landmarks in place of the old ones; PlanError LANDMARK_TWICE or LANDMARK_OUTSIDE_CT."""
         return self._change(
             by,
-            lambda plan, volume: _refused_odd(changes.with_landmarks(plan, name, landmarks, volume=volume)),
+            lambda plan, volume: _rejected_odd(changes.with_landmarks(plan, name, landmarks, volume=volume)),
         )
 
     def _change(self, by: Author, change: Change) -> KeptPlan:
-        return self.shelf.change(by.made_by, by.expected_version, lambda plan, ct: change(plan, ct.volume))
+        return self.repository.change(
+            by.made_by, by.expected_version, lambda plan, ct: change(plan, ct.volume)
+        )
 
     def _proposed(self, plan: PlanDocument, name: str, side: Side) -> tuple[float, float]:
         vertebra = changes.vertebra_named(plan, name)
@@ -266,7 +268,7 @@ class PlanStep:
             front_margin_mm=self._front_margin_mm,
         )
 
-    def _refuse_strange(self, size_mm: tuple[float, float]) -> None:
+    def _reject_strange(self, size_mm: tuple[float, float]) -> None:
         catalogue = self.catalogue
         if size_mm[0] not in catalogue.diameters_mm or size_mm[1] not in catalogue.lengths_mm:
             raise PlanError(
@@ -278,8 +280,8 @@ class PlanStep:
             )
 
 
-def _refused_odd(plan: PlanDocument) -> PlanDocument:
-    refuse_odd(plan)
+def _rejected_odd(plan: PlanDocument) -> PlanDocument:
+    reject_odd(plan)
     return plan
 
 

@@ -4,8 +4,8 @@ from server.procedure.registration.check import CheckSession, CheckStatus, Check
 from server.procedure.registration.ground import Ground, GroundFinder
 from server.procedure.registration.nudging import NudgesStatus, NudgeStep
 from server.procedure.registration.points import PointsStep, TargetError, target_errors, touched_points
+from server.procedure.registration.repository import RegistrationRepository, ShelvedRegistration
 from server.procedure.registration.session import PointsSession, PointsStatus, residuals_mm
-from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
 from server.procedure.registration.steps import RegistrationSteps
 from server.procedure.registration.sweep import SweepStep
 from server.procedure.registration.touching import TouchState, TouchStatus
@@ -21,7 +21,7 @@ __all__ = [
     "PointsSession",
     "PointsStatus",
     "PointsStep",
-    "RegistrationShelf",
+    "RegistrationRepository",
     "RegistrationSteps",
     "ShelvedRegistration",
     "SweepStep",

@@ -8,7 +8,7 @@ from server.procedure.held import Held
 from server.procedure.registered import KeptCheck, check_name
 from server.procedure.registration.gates import capture_settings
 from server.procedure.registration.ground import Ground, GroundFinder
-from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
+from server.procedure.registration.repository import RegistrationRepository, ShelvedRegistration
 from server.procedure.registration.touching import Touch, TouchStatus
 from server.procedure.state import Procedure, StepName
 from server.store import CaseStore, Document, DocumentKind, OutOfDateError
@@ -128,14 +128,14 @@ class CheckStep:
         hub: LiveHub,
         store: CaseStore,
         grounds: GroundFinder,
-        shelf: RegistrationShelf,
+        repository: RegistrationRepository,
         procedure: Procedure,
         gate: RegistrationConfig,
     ) -> None:
         self._hub = hub
         self._store = store
         self._grounds = grounds
-        self._shelf = shelf
+        self._repository = repository
         self._procedure = procedure
         self._gate = gate
         self._held: Held[CheckSession] = Held(
@@ -152,8 +152,8 @@ class CheckStep:
             RegistrationError: LANDMARK_WAS_USED.
         """
         ground = self._grounds.find(vertebra=None, tool=tool, step=StepName.CHECK)
-        shelved = self._shelf.current(ground.vertebra.name)
-        _refuse_used(shelved, ground.landmark(landmark))
+        shelved = self._repository.current(ground.vertebra.name)
+        _reject_used(shelved, ground.landmark(landmark))
         return self._held.begin(
             lambda: CheckSession(
                 self._hub,
@@ -194,11 +194,11 @@ class CheckStep:
         session = self.session
         status = session.status
         if status.outcome is None:
-            trouble = status.capture.trouble
-            if trouble is not None:
-                raise RegistrationError(trouble.code, trouble.message, trouble.remedy, trouble.context)
+            problem = status.capture.problem
+            if problem is not None:
+                raise RegistrationError(problem.code, problem.message, problem.remedy, problem.context)
             raise _not_captured(status.capture)
-        document = self._shelf.current(status.vertebra).document
+        document = self._repository.current(status.vertebra).document
         if document.id != session.shelved.document.id:
             raise OutOfDateError(
                 "REGISTRATION_CHANGED",
@@ -241,7 +241,7 @@ def used_mm(shelved: ShelvedRegistration) -> dict[str, list[float]]:
     }
 
 
-def _refuse_used(shelved: ShelvedRegistration, landmark: Landmark) -> None:
+def _reject_used(shelved: ShelvedRegistration, landmark: Landmark) -> None:
     """Before the tip is held on it: as if it were found exactly where it belongs."""
     registration = shelved.kept.registration
     check_landmark(

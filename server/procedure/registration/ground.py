@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from server.live import LiveHub
 from server.procedure.camera import MAIN_CAMERA
 from server.procedure.opened import opened_case
-from server.procedure.plan import PlanShelf
+from server.procedure.plan import PlanRepository
 from server.procedure.state import Brought, Procedure, StepName
 from server.store import CaseStore, Current, Document, DocumentKind, OutOfDateError
 from tracker.errors import InvalidInput, PlanError
@@ -66,7 +66,7 @@ class GroundFinder:
     """
 
     def __init__(
-        self, store: CaseStore, *, hub: LiveHub, plans: PlanShelf, procedure: Procedure, brought: Brought
+        self, store: CaseStore, *, hub: LiveHub, plans: PlanRepository, procedure: Procedure, brought: Brought
     ) -> None:
         self._store = store
         self._hub = hub
@@ -87,13 +87,13 @@ class GroundFinder:
             PlanError: VERTEBRA_UNKNOWN.
             InvalidInput: TOOL_UNKNOWN.
         """
-        self._procedure.state().refuse_before(step)
+        self._procedure.state().reject_before(step)
         case = opened_case(self._store)
         kept = self._plans.latest_that_holds()
         name = vertebra or self._procedure.active_vertebra(case.id) or ""
         planned = vertebra_named(kept.plan, name)
         if tool is not None:
-            self._refuse_unknown(tool)
+            self._reject_unknown(tool)
         camera = self._current(case.id, DocumentKind.CAMERA, MAIN_CAMERA)
         of_tool = None if tool is None else self._current(case.id, DocumentKind.TOOL, tool)
         return Ground(
@@ -104,7 +104,7 @@ class GroundFinder:
             documents=tuple(one.id for one in (kept.document, camera, of_tool) if one is not None),
         )
 
-    def refuse_changed(self, ground: Ground) -> None:
+    def reject_changed(self, ground: Ground) -> None:
         """Refuse to keep what was begun on something that was changed meanwhile.
 
         Raises:
@@ -120,7 +120,7 @@ class GroundFinder:
                 {"began_on": list(ground.documents), "now": list(now.documents)},
             )
 
-    def _refuse_unknown(self, tool: str) -> None:
+    def _reject_unknown(self, tool: str) -> None:
         newest = self._hub.newest
         known = {} if newest is None or newest.snapshot is None else newest.snapshot.setup.tools
         if newest is not None and newest.snapshot is not None and tool not in known:

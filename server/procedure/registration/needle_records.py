@@ -98,11 +98,11 @@ class ProposedSlice:
     Attributes:
         laid: the fit, if this is which needle is which.
         found: the needles in the image, in the plan's order.
-        chance_ratio: 0..1, how likely this one is among those that are proposed.
+        probability_ratio: 0..1, how likely this one is among those that are proposed.
         lead: by how much the likeliest other one is worse, as a difference of chi squared.
     """
 
     laid: LaidSlice
     found: tuple[NeedleSeen, ...]
-    chance_ratio: float
+    probability_ratio: float
     lead: float

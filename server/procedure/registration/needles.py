@@ -9,7 +9,7 @@ from server.live import LiveHub
 from server.procedure.registered import Value
 from server.procedure.registration.ground import Ground, GroundFinder
 from server.procedure.registration.needle_records import LaidSlice, NeedleOrder, NeedleScene, ProposedSlice
-from server.procedure.registration.shelf import RegistrationShelf
+from server.procedure.registration.repository import RegistrationRepository
 from server.store import Document
 from tracker.errors import CalibrationError, InvalidInput, PlanError, RegistrationError
 from tracker.geometry import Camera, Rigid, Vertebra
@@ -44,10 +44,10 @@ class NeedleStep:
         shelf: where it is kept.
     """
 
-    def __init__(self, *, hub: LiveHub, grounds: GroundFinder, shelf: RegistrationShelf) -> None:
+    def __init__(self, *, hub: LiveHub, grounds: GroundFinder, repository: RegistrationRepository) -> None:
         self._hub = hub
         self._grounds = grounds
-        self._shelf = shelf
+        self._repository = repository
 
     def scene(self, order: NeedleOrder, touched: tuple[TouchedPoint, ...] = ()) -> NeedleScene:
         """The newest image with the needles that are planned to be in it.
@@ -108,7 +108,9 @@ class NeedleStep:
         for one in proposals:
             seen = tuple(needle.seen for needle in one.needles)
             laid = _fitted(scene, one.fit, seen)
-            out.append(ProposedSlice(laid=laid, found=seen, chance_ratio=one.chance_ratio, lead=one.lead))
+            out.append(
+                ProposedSlice(laid=laid, found=seen, probability_ratio=one.probability_ratio, lead=one.lead)
+            )
         return tuple(out)
 
     def mark(
@@ -180,7 +182,7 @@ class NeedleStep:
             raise RegistrationError(
                 "NEEDLES_NOT_FITTED", "the slice was laid, and nothing was fitted", "Take the overlay first."
             )
-        self._grounds.refuse_changed(scene.ground)
+        self._grounds.reject_changed(scene.ground)
         registration = fit.registration
         if scene.ground.reference:
             beside = scene.snapshot.sightings.get(scene.ground.reference)
@@ -192,7 +194,7 @@ class NeedleStep:
                     {"reference": scene.ground.reference},
                 )
             registration = fixed_to_reference(registration, beside)
-        return self._shelf.put(
+        return self._repository.put(
             scene.ground,
             registration,
             numbers=numbers_of(laid, fit),

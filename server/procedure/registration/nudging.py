@@ -10,7 +10,7 @@ from server.clock import utc_now, utc_text
 from server.config import RegistrationConfig
 from server.procedure.registered import KeptNudge, KeptNudges, KeptRegistration
 from server.procedure.registration.ground import GroundFinder
-from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
+from server.procedure.registration.repository import RegistrationRepository, ShelvedRegistration
 from server.store import Document
 from tracker.geometry import Array
 from tracker.registration.nudge import Nudge, NudgedRegistration, NudgeLimits
@@ -49,12 +49,12 @@ class NudgeStep:
         self,
         *,
         grounds: GroundFinder,
-        shelf: RegistrationShelf,
+        repository: RegistrationRepository,
         gate: RegistrationConfig,
         clock: Callable[[], datetime] = utc_now,
     ) -> None:
         self._grounds = grounds
-        self._shelf = shelf
+        self._repository = repository
         self._limits = NudgeLimits(max_mm=gate.max_nudge_mm, max_deg=gate.max_nudge_deg)
         self._clock = clock
 
@@ -65,7 +65,7 @@ class NudgeStep:
             SetupOrderError: NO_CASE_OPEN, REGISTER_MISSING.
             OutOfDateError: DOCUMENT_OUT_OF_DATE.
         """
-        shelved = self._shelf.current()
+        shelved = self._repository.current()
         nudged, kept = self._nudged(shelved)
         return NudgesStatus(
             shelved=shelved,
@@ -84,7 +84,7 @@ class NudgeStep:
             RegistrationError: NUDGE_TOO_FAR.
             StoreConflict: VERSION_CONFLICT, somebody else nudged it in the same moment.
         """
-        shelved = self._shelf.current()
+        shelved = self._repository.current()
         nudged, kept = self._nudged(shelved)
         after = nudged.nudged(nudge)
         at = utc_text(self._clock())
@@ -98,7 +98,7 @@ class NudgeStep:
             RegistrationError: NUDGE_NONE.
             SetupOrderError, OutOfDateError, StoreConflict: as `apply`.
         """
-        shelved = self._shelf.current()
+        shelved = self._repository.current()
         nudged, kept = self._nudged(shelved)
         return self._put(shelved, nudged.undone(), kept[:-1], made_by=made_by)
 
@@ -152,4 +152,4 @@ class NudgeStep:
             nudges=list(nudges),
         )
         with_nudges = changed.model_copy(update={"nudged": kept if nudges else None})
-        return self._shelf.put_again(shelved, with_nudges, made_by=made_by)
+        return self._repository.put_again(shelved, with_nudges, made_by=made_by)

@@ -11,8 +11,8 @@ from server.procedure.held import Held
 from server.procedure.registered import Value
 from server.procedure.registration.gates import capture_settings
 from server.procedure.registration.ground import Ground, GroundFinder
+from server.procedure.registration.repository import RegistrationRepository
 from server.procedure.registration.session import PointsSession, PointsStatus, residuals_mm
-from server.procedure.registration.shelf import RegistrationShelf
 from server.store import Document
 from tracker.errors import RegistrationError
 from tracker.registration.needles import TouchedPoint
@@ -52,11 +52,16 @@ class PointsStep:
     """
 
     def __init__(
-        self, *, hub: LiveHub, grounds: GroundFinder, shelf: RegistrationShelf, gate: RegistrationConfig
+        self,
+        *,
+        hub: LiveHub,
+        grounds: GroundFinder,
+        repository: RegistrationRepository,
+        gate: RegistrationConfig,
     ) -> None:
         self._hub = hub
         self._grounds = grounds
-        self._shelf = shelf
+        self._repository = repository
         self.gate = gate
         self._captures = capture_settings(gate)
         self._held: Held[PointsSession] = Held(
@@ -114,10 +119,10 @@ class PointsStep:
                 ),
             )
         if status.fit is None:
-            trouble = status.trouble
-            if trouble is None:
+            problem = status.problem
+            if problem is None:
                 raise RuntimeError("neither a fit nor a trouble")
-            return (RegistrationError(trouble.code, trouble.message, trouble.remedy, trouble.context),)
+            return (RegistrationError(problem.code, problem.message, problem.remedy, problem.context),)
         gate = PointGate(max_fre_mm=self.gate.max_fre_mm, max_tre_mm=self.gate.max_tre_mm)
         return (
             *status.fit.failures(gate, list(status.ground.entries_mm)),
@@ -133,12 +138,12 @@ class PointsStep:
             RegistrationError: what the points lack, or the gate that is not passed.
         """
         session = self.session
-        self._grounds.refuse_changed(session.ground)
+        self._grounds.reject_changed(session.ground)
         status = session.status
         failures = self.failures(status)
         if failures or status.fit is None:
             raise failures[0]
-        document = self._shelf.put(
+        document = self._repository.put(
             session.ground,
             status.fit.registration(session.ground.anchored_to),
             numbers=self.numbers(status, status.fit),

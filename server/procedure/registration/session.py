@@ -4,7 +4,7 @@ import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from server.live import LiveHub, Trouble
+from server.live import LiveHub, Problem
 from server.procedure.registration.ground import Ground
 from server.procedure.registration.touching import Touch, TouchState, TouchStatus
 from tracker.errors import RegistrationError
@@ -48,7 +48,7 @@ class PointsStatus:
     landmarks: tuple[TouchedLandmark, ...]
     capture: TouchStatus | None
     fit: PointRegistration | None
-    trouble: Trouble | None
+    problem: Problem | None
     from_s: float | None
 
     @property
@@ -99,7 +99,7 @@ class PointsSession:
         self.ground.landmark(landmark)
         with self._lock:
             self._take_over()
-            self._refuse_untouched(landmark)
+            self._reject_untouched(landmark)
             (self._left_out.discard if used else self._left_out.add)(landmark)
 
     def forget(self, landmark: str) -> None:
@@ -112,7 +112,7 @@ class PointsSession:
         self.ground.landmark(landmark)
         with self._lock:
             self._take_over()
-            self._refuse_untouched(landmark)
+            self._reject_untouched(landmark)
             del self._touched[landmark]
             self._from_s.pop(landmark, None)
             self._left_out.discard(landmark)
@@ -137,17 +137,17 @@ class PointsSession:
             )
             for one in self.ground.vertebra.landmarks
         )
-        fit, trouble = None, None
+        fit, problem = None, None
         try:
             fit = fit_of(landmarks, self.ground.tool)
         except RegistrationError as error:
-            trouble = Trouble.from_error(error)
+            problem = Problem.from_error(error)
         return PointsStatus(
             ground=self.ground,
             landmarks=landmarks,
             capture=capture,
             fit=fit,
-            trouble=trouble,
+            problem=problem,
             from_s=from_s,
         )
 
@@ -169,7 +169,7 @@ class PointsSession:
             if status.from_s is not None:
                 self._from_s[status.landmark] = status.from_s
 
-    def _refuse_untouched(self, landmark: str) -> None:
+    def _reject_untouched(self, landmark: str) -> None:
         if landmark not in self._touched:
             raise RegistrationError(
                 "LANDMARK_NOT_TOUCHED",

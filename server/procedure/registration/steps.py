@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 from server.config import RegistrationConfig
 from server.live import LiveHub
-from server.procedure.plan import PlanShelf
+from server.procedure.plan import PlanRepository
 from server.procedure.registration.check import CheckStep
 from server.procedure.registration.ground import GroundFinder
 from server.procedure.registration.needles import NeedleStep
 from server.procedure.registration.nudging import NudgeStep
 from server.procedure.registration.points import PointsStep
-from server.procedure.registration.shelf import RegistrationShelf
+from server.procedure.registration.repository import RegistrationRepository
 from server.procedure.registration.sweep import SweepStep
 from server.procedure.registration.watch import MoveWatch
 from server.procedure.state import Brought, Procedure
@@ -32,7 +32,7 @@ class RegistrationSteps:
         watch: withdraws a registration when camera or reference were moved.
     """
 
-    shelf: RegistrationShelf
+    repository: RegistrationRepository
     points: PointsStep
     check: CheckStep
     needles: NeedleStep
@@ -46,7 +46,7 @@ class RegistrationSteps:
         *,
         hub: LiveHub,
         store: CaseStore,
-        plans: PlanShelf,
+        plans: PlanRepository,
         surfaces: SurfaceStep,
         procedure: Procedure,
         brought: Brought,
@@ -54,18 +54,23 @@ class RegistrationSteps:
     ) -> "RegistrationSteps":
         """The steps; from here on a move of camera or reference withdraws what was registered before."""
         grounds = GroundFinder(store, hub=hub, plans=plans, procedure=procedure, brought=brought)
-        shelf = RegistrationShelf(store, procedure=procedure, brought=brought)
+        repository = RegistrationRepository(store, procedure=procedure, brought=brought)
         return cls(
-            shelf=shelf,
-            points=PointsStep(hub=hub, grounds=grounds, shelf=shelf, gate=gate),
+            repository=repository,
+            points=PointsStep(hub=hub, grounds=grounds, repository=repository, gate=gate),
             check=CheckStep(
-                hub=hub, store=store, grounds=grounds, shelf=shelf, procedure=procedure, gate=gate
+                hub=hub, store=store, grounds=grounds, repository=repository, procedure=procedure, gate=gate
             ),
-            needles=NeedleStep(hub=hub, grounds=grounds, shelf=shelf),
+            needles=NeedleStep(hub=hub, grounds=grounds, repository=repository),
             sweep=SweepStep(
-                hub=hub, grounds=grounds, shelf=shelf, procedure=procedure, surfaces=surfaces, gate=gate
+                hub=hub,
+                grounds=grounds,
+                repository=repository,
+                procedure=procedure,
+                surfaces=surfaces,
+                gate=gate,
             ),
-            nudge=NudgeStep(grounds=grounds, shelf=shelf, gate=gate),
+            nudge=NudgeStep(grounds=grounds, repository=repository, gate=gate),
             watch=MoveWatch(hub, store=store, procedure=procedure, after_s=gate.moved_after_s),
         )
 

@@ -7,12 +7,12 @@ import numpy as np
 
 from server.config import RegistrationConfig
 from server.imaging.meshes import read_mesh
-from server.live import Instant, LiveHub, Trouble
+from server.live import Instant, LiveHub, Problem
 from server.procedure.following import Follower
 from server.procedure.held import Held
 from server.procedure.registered import KeptRegistration, Value
 from server.procedure.registration.ground import Ground, GroundFinder
-from server.procedure.registration.shelf import RegistrationShelf, ShelvedRegistration
+from server.procedure.registration.repository import RegistrationRepository, ShelvedRegistration
 from server.procedure.registration.touching import tip_of
 from server.procedure.state import Procedure, StepName
 from server.procedure.surface import SurfaceStep
@@ -55,7 +55,7 @@ class SweepStatus:
     unseen: int
     reach_mm: tuple[float, float, float]
     from_s: float | None
-    trouble: Trouble | None
+    problem: Problem | None
 
 
 class SweepSession:
@@ -96,7 +96,7 @@ class SweepSession:
                 unseen=self._unseen,
                 reach_mm=_reach_mm(points),
                 from_s=self._from_s,
-                trouble=self._follower.trouble,
+                problem=self._follower.problem,
             )
 
     def stop(self) -> None:
@@ -136,14 +136,14 @@ class SweepStep:
         *,
         hub: LiveHub,
         grounds: GroundFinder,
-        shelf: RegistrationShelf,
+        repository: RegistrationRepository,
         procedure: Procedure,
         surfaces: SurfaceStep,
         gate: RegistrationConfig,
     ) -> None:
         self._hub = hub
         self._grounds = grounds
-        self._shelf = shelf
+        self._repository = repository
         self._procedure = procedure
         self._surfaces = surfaces
         self._gate = SurfaceGate(max_rms_mm=gate.max_surface_rms_mm, max_tre_mm=gate.max_tre_mm)
@@ -160,7 +160,7 @@ class SweepStep:
             RegistrationError: SWEEP_ANCHOR_DIFFERS.
         """
         ground = self._grounds.find(vertebra=None, tool=tool, step=StepName.CHECK)
-        start = self._shelf.current(ground.vertebra.name)
+        start = self._repository.current(ground.vertebra.name)
         self._surfaces.latest()
         if start.kept.anchored_to is not ground.anchored_to:
             raise RegistrationError(
@@ -219,11 +219,11 @@ class SweepStep:
             StoreConflict: VERSION_CONFLICT, the registration was changed since the sweep began.
         """
         status = self.session.status
-        self._grounds.refuse_changed(status.ground)
+        self._grounds.reject_changed(status.ground)
         found, failures, surface_id = self.fit()
         if failures:
             raise failures[0]
-        document = self._shelf.put(
+        document = self._repository.put(
             status.ground,
             found.registration(status.ground.anchored_to),
             numbers=self.numbers(status, found),

@@ -4,7 +4,7 @@ import threading
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from server.live import Instant, LiveHub, Trouble
+from server.live import Instant, LiveHub, Problem
 from server.procedure.following import Follower
 from tracker.errors import CalibrationError, InvalidInput, RegistrationError
 from tracker.navigation import Absent, AbsentReason, NavigationSnapshot
@@ -32,7 +32,7 @@ class TouchState(StrEnum):
 
     LOOKING = "looking"
     TAKEN = "taken"
-    REFUSED = "refused"
+    REJECTED = "rejected"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,7 +59,7 @@ class TouchStatus:
     left_s: float | None
     from_s: float | None
     touched: CapturedLandmark | None
-    trouble: Trouble | None
+    problem: Problem | None
 
 
 class Touch:
@@ -92,18 +92,18 @@ class Touch:
     def status(self) -> TouchStatus:
         """How far it has come."""
         with self._lock:
-            trouble = self._follower.trouble
+            problem = self._follower.problem
             state = TouchState.LOOKING if self._touched is None else TouchState.TAKEN
             return TouchStatus(
                 landmark=self.landmark,
-                state=TouchState.REFUSED if trouble is not None else state,
+                state=TouchState.REJECTED if problem is not None else state,
                 images=self._images,
                 wanted=self._gate.min_images,
                 rate_hz=self._collector.rate_hz,
                 left_s=self._collector.left_s,
                 from_s=self._from_s,
                 touched=self._touched,
-                trouble=trouble,
+                problem=problem,
             )
 
     def stop(self) -> None:

@@ -61,7 +61,7 @@ class ProcedureState:
         """The first step that lacks a co-signature, for which numbers are withheld."""
         return next((one.step for one in self.steps if one.lacks is not None), None)
 
-    def refuse_before(self, step: StepName) -> None:
+    def reject_before(self, step: StepName) -> None:
         """Refuse a step while one that it stands on is missing, failed, out of date, or not co-signed.
 
         Raises:
@@ -73,7 +73,7 @@ class ProcedureState:
         blocking = _blocking(step, {one.step: one.finding for one in self.steps}, self.check_required)
         if blocking is None:
             if step is StepName.NAVIGATE and self.unsigned is not None:
-                self._refuse_unsigned(self.unsigned)
+                self._reject_unsigned(self.unsigned)
             return
         finding = self.status(blocking).finding
         raise SetupOrderError(
@@ -83,7 +83,7 @@ class ProcedureState:
             {"step": step.value, "waits_for": blocking.value, "state": finding.state.value},
         )
 
-    def _refuse_unsigned(self, step: StepName) -> None:
+    def _reject_unsigned(self, step: StepName) -> None:
         lacks = self.status(step).lacks
         if lacks is None:
             return

@@ -32,7 +32,7 @@ AUDIT_FILE, HEAD_FILE, RESERVE_FILE = "audit.jsonl", "audit-head.json", "audit-r
 # Room for some hundred lines on a full disk: whoever makes room there is in the log, too.
 RESERVE_BYTES = 128 * 1024
 MAX_WAITING = 2000
-REFUSED_A_MINUTE = 60
+REJECTED_A_MINUTE = 60
 log = structlog.get_logger(__name__)
 
 
@@ -58,7 +58,7 @@ class AuditLog:
         self._head = Head()
         self._is_well = True
         self._checked = Checked()
-        self._refused_in: tuple[str, int] = ("", 0)
+        self._rejected_in: tuple[str, int] = ("", 0)
         with told(folder):
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             self._begin()
@@ -86,15 +86,15 @@ class AuditLog:
             with told(self.folder):
                 self._write_waiting()
 
-    def refused(self, entry: Entry) -> None:
+    def rejected(self, entry: Entry) -> None:
         """Write that something was refused; no more than so many a minute, so that nobody fills the disk."""
         minute = self._now()[:16]
         with self._turn:
-            in_minute = self._refused_in[1] + 1 if self._refused_in[0] == minute else 1
-            self._refused_in = (minute, in_minute)
-        if in_minute > REFUSED_A_MINUTE:
+            in_minute = self._rejected_in[1] + 1 if self._rejected_in[0] == minute else 1
+            self._rejected_in = (minute, in_minute)
+        if in_minute > REJECTED_A_MINUTE:
             return
-        if in_minute == REFUSED_A_MINUTE:
+        if in_minute == REJECTED_A_MINUTE:
             entry = Entry(who=SERVER, what="more was refused in this minute than is written down")
         try:
             self.append(entry)

@@ -17,10 +17,10 @@ from server.security.people.often import Often
 from server.security.people.records import Invitation, InvitationState, Session
 from server.security.people.tokens import Token, new_id
 from server.security.person import SERVER, Person, Role
-from server.security.refusals import (
-    InvitationRefused,
+from server.security.rejections import (
+    InvitationRejected,
     PersonUnknown,
-    SessionRefused,
+    SessionRejected,
     TooManyTries,
 )
 from server.store import StoreError, told
@@ -33,10 +33,10 @@ OPERATOR_LINK_LASTS = timedelta(hours=24)
 MAX_BY_ONE_LINK = 20
 # Each sign-in is a line of the audit log: a full hall twice in an hour, and no program that fills the disk.
 SIGN_INS_BY_ONE_LINK, SIGN_INS_WITHIN_S = 40, 3600.0
-REFUSED_BY_STATE = {
-    InvitationState.USED: InvitationRefused.used,
-    InvitationState.EXPIRED: InvitationRefused.expired,
-    InvitationState.REVOKED: InvitationRefused.revoked,
+REJECTED_BY_STATE = {
+    InvitationState.USED: InvitationRejected.used,
+    InvitationState.EXPIRED: InvitationRejected.expired,
+    InvitationState.REVOKED: InvitationRejected.revoked,
 }
 
 
@@ -105,16 +105,16 @@ class PeopleDesk:
         because somebody guesses behind the same router.
 
         Raises:
-            SessionRefused: SESSION_EXPIRED.
+            SessionRejected: SESSION_EXPIRED.
             TooManyTries: the token is wrong, and so were too many before.
         """
         token = Token.read(shown)
         session = None if token is None else self._sessions.get(token.id)
         if token is None or session is None or not token.opens(session.token_sum):
             self._count_guess(address)
-            raise SessionRefused.expired()
+            raise SessionRejected.expired()
         if not session.holds(self._clock()):
-            raise SessionRefused.expired()
+            raise SessionRejected.expired()
         return session
 
     def holds(self, session_id: str) -> bool:
@@ -140,7 +140,7 @@ class PeopleDesk:
         """Make an invitation; its token is known here and now, and never again.
 
         Raises:
-            PeopleRefused: TOO_MANY_PEOPLE.
+            PeopleRejected: TOO_MANY_PEOPLE.
             StoreError: it cannot be kept.
         """
         token = Token.new()
@@ -170,8 +170,8 @@ class PeopleDesk:
         behind the same router would keep the surgeon out.
 
         Raises:
-            InvitationRefused: it lets nobody in, or no longer, or no more.
-            PeopleRefused: TOO_MANY_PEOPLE.
+            InvitationRejected: it lets nobody in, or no longer, or no more.
+            PeopleRejected: TOO_MANY_PEOPLE.
             TooManyTries: the token is wrong, and so were too many before; or it let in too often of late.
             StoreError: the session cannot be kept, and is no operator's.
         """
@@ -180,14 +180,14 @@ class PeopleDesk:
             invitation = None if found is None else self._invitations.get(found.id)
             if found is None or invitation is None or not found.opens(invitation.token_sum):
                 self._count_guess(address)
-                raise InvitationRefused.unknown()
+                raise InvitationRejected.unknown()
             now = self._clock()
             state = invitation.state(now)
             if state is not InvitationState.OPEN:
-                raise REFUSED_BY_STATE[state]()
+                raise REJECTED_BY_STATE[state]()
             by_it = sum(one.invitation_id == invitation.id for one in self.sessions())
             if by_it >= MAX_BY_ONE_LINK:
-                raise InvitationRefused.full(by_it)
+                raise InvitationRejected.full(by_it)
             wait_s = self._sign_ins.wait_s(invitation.id, self._seconds())
             if wait_s > 0.0:
                 raise TooManyTries.signing_in(SIGN_INS_BY_ONE_LINK, SIGN_INS_WITHIN_S, wait_s)
@@ -286,7 +286,7 @@ class PeopleDesk:
         people = People(invitations=self._invitations, sessions=self._sessions)
         kept = people.with_these(invitation, session, now=self._clock())
         if room_needed:
-            kept.refuse_crowd()
+            kept.reject_crowd()
         with told(self._folder):
             write_people(self._file, kept.invitations.values(), kept.sessions.values())
         self._invitations, self._sessions = kept.invitations, kept.sessions

@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 from typing import Self
 
 from server.security.people.records import Invitation, InvitationState, Session
-from server.security.refusals import PeopleRefused
+from server.security.rejections import PeopleRejected
 
 # What has ended is remembered for so long, to tell people why they do not get in.
 REMEMBERED = timedelta(days=2)
@@ -21,15 +21,15 @@ class People:
     invitations: Mapping[str, Invitation]
     sessions: Mapping[str, Session]
 
-    def refuse_crowd(self) -> None:
+    def reject_crowd(self) -> None:
         """To be asked before one more is let in.
 
         Raises:
-            PeopleRefused: TOO_MANY_PEOPLE.
+            PeopleRejected: TOO_MANY_PEOPLE.
         """
         count = len(self.invitations) + len(self.sessions)
         if count > MAX_KEPT:
-            raise PeopleRefused.too_many(count, MAX_KEPT)
+            raise PeopleRejected.too_many(count, MAX_KEPT)
 
     def with_these(self, invitation: Invitation | None, session: Session | None, *, now: datetime) -> Self:
         """With these two; what ended two days ago, and first of all where there are too many, is forgotten.

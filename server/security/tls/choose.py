@@ -34,7 +34,7 @@ class Tls:
     self_made: bool
 
 
-def refuse_unsafe(config: Config) -> None:
+def reject_unsafe(config: Config) -> None:
     """To be asked before anything is started.
 
     Raises:

@@ -94,7 +94,7 @@ class DocumentForm(Form):
     withdrawn: WithdrawalForm | None
 
 
-def refused(why: str, **context: object) -> InvalidInput:
+def rejected(why: str, **context: object) -> InvalidInput:
     """The error for an archive that cannot be taken in."""
     return InvalidInput(
         "ARCHIVE_INVALID",

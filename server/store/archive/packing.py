@@ -99,7 +99,7 @@ def _write_all(
     with ledger.reading() as session:
         case = case_of(case_row(session, case_id))
         files = all_files(ledger, session, case_id)
-        ledger.home.refuse_without_room(sum(file.size_bytes for file in files))
+        ledger.home.reject_without_room(sum(file.size_bytes for file in files))
         writer.write(CASE, iter([_case_text(case, files, with_identity=with_identity)]))
         lines = (
             _document_line(document)

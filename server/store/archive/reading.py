@@ -28,7 +28,7 @@ from server.store.archive.form import (
     Form,
     ManifestForm,
     PartForm,
-    refused,
+    rejected,
 )
 from server.store.files import CHUNK_BYTES
 from tracker.errors import InvalidInput
@@ -45,7 +45,7 @@ class Parts:
         self._archive = archive
         self.manifest = _manifest(archive, entries)
         self._parts = {part.path: part for part in self.manifest.parts}
-        _refuse_disagreement(entries, self._parts)
+        _reject_disagreement(entries, self._parts)
 
     @property
     def total_bytes(self) -> int:
@@ -55,7 +55,7 @@ class Parts:
     def part(self, path: str) -> PartForm:
         """One part, as the manifest tells it."""
         if path not in self._parts:
-            raise refused(f"its part {path} is missing", part=path)
+            raise rejected(f"its part {path} is missing", part=path)
         return self._parts[path]
 
     def pieces(self, path: str) -> Iterator[bytes]:
@@ -66,16 +66,16 @@ class Parts:
             while piece := stream.read(min(CHUNK_BYTES, left + 1)):
                 left -= len(piece)
                 if left < 0:
-                    raise refused(f"its part {path} is longer than its {part.size_bytes} bytes", part=path)
+                    raise rejected(f"its part {path} is longer than its {part.size_bytes} bytes", part=path)
                 digest.update(piece)
                 yield piece
         if left or digest.hexdigest() != part.sha256:
-            raise refused(f"its part {path} is damaged (its SHA-256 differs)", part=path)
+            raise rejected(f"its part {path} is damaged (its SHA-256 differs)", part=path)
 
     def text(self, path: str) -> bytes:
         """A small part, whole."""
         if self.part(path).size_bytes > LARGEST_DOCUMENTS_BYTES:
-            raise refused(f"its part {path} is larger than {LARGEST_DOCUMENTS_BYTES // 2**20} MB", part=path)
+            raise rejected(f"its part {path} is larger than {LARGEST_DOCUMENTS_BYTES // 2**20} MB", part=path)
         return b"".join(self.pieces(path))
 
 
@@ -97,14 +97,14 @@ def opened(path: Path) -> Iterator[Parts]:
         OverflowError,
         EOFError,
     ) as error:
-        raise refused(f"it is no sound zip file ({str(error)[:120] or type(error).__name__})") from error
+        raise rejected(f"it is no sound zip file ({str(error)[:120] or type(error).__name__})") from error
     except OSError as error:
         # Its table of contents points to a place that no file has.
         if error.errno != errno.EINVAL:
             raise
-        raise refused("it is no sound zip file (a part lies outside of it)") from error
+        raise rejected("it is no sound zip file (a part lies outside of it)") from error
     except ValueError as error:
-        raise refused(f"it cannot be read ({str(error)[:120]})") from error
+        raise rejected(f"it cannot be read ({str(error)[:120]})") from error
 
 
 def shaped(form: type[Shape], text: bytes, *, where: str) -> Shape:
@@ -114,23 +114,23 @@ def shaped(form: type[Shape], text: bytes, *, where: str) -> Shape:
     except ValidationError as error:
         first = error.errors(include_input=False, include_url=False)[0]
         key = ".".join(str(step) for step in first["loc"])
-        raise refused(f"{where}: {key}: {first['msg']}", where=where, key=key) from error
+        raise rejected(f"{where}: {key}: {first['msg']}", where=where, key=key) from error
 
 
 def _entries(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
     infos = archive.infolist()
     if len(infos) > MAX_PARTS + 1:
-        raise refused(f"it has {len(infos)} parts, allowed are {MAX_PARTS}", parts=len(infos))
+        raise rejected(f"it has {len(infos)} parts, allowed are {MAX_PARTS}", parts=len(infos))
     for info in infos:
         known = info.filename == MANIFEST or PART.fullmatch(info.filename)
         if not known or info.flag_bits & 1 or stat.S_IFMT(info.external_attr >> 16) == SYMLINK:
-            raise refused(f"its part '{info.filename[:80]}' does not belong into a case")
+            raise rejected(f"its part '{info.filename[:80]}' does not belong into a case")
     entries = {info.filename: info for info in infos}
     if len(entries) != len(infos):
-        raise refused("it has two parts of one name")
+        raise rejected("it has two parts of one name")
     total = sum(info.file_size for info in infos)
     if total > LARGEST_WHOLE_BYTES:
-        raise refused(
+        raise rejected(
             f"it unpacks to {total / 2**30:.1f} GB, allowed are {LARGEST_WHOLE_BYTES // 2**30} GB",
             unpacked_bytes=total,
         )
@@ -139,21 +139,21 @@ def _entries(archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
 
 def _manifest(archive: zipfile.ZipFile, entries: dict[str, zipfile.ZipInfo]) -> ManifestForm:
     if MANIFEST not in entries:
-        raise refused(f"its part {MANIFEST} is missing, so it is no case", part=MANIFEST)
+        raise rejected(f"its part {MANIFEST} is missing, so it is no case", part=MANIFEST)
     with archive.open(MANIFEST) as stream:
         text = stream.read(LARGEST_MANIFEST_BYTES + 1)
     if len(text) > LARGEST_MANIFEST_BYTES:
-        raise refused(f"its part {MANIFEST} is larger than {LARGEST_MANIFEST_BYTES // 2**20} MB")
-    _refuse_newer(text)
+        raise rejected(f"its part {MANIFEST} is larger than {LARGEST_MANIFEST_BYTES // 2**20} MB")
+    _reject_newer(text)
     return shaped(ManifestForm, text, where=MANIFEST)
 
 
-def _refuse_newer(text: bytes) -> None:
+def _reject_newer(text: bytes) -> None:
     """A newer form is no damage: it is told as what it is, before its unknown keys are."""
     try:
         told = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise refused(f"its part {MANIFEST} is no JSON") from error
+        raise rejected(f"its part {MANIFEST} is no JSON") from error
     version = told.get("version") if isinstance(told, dict) else None
     if isinstance(told, dict) and told.get("format") == FORMAT and type(version) is int and version > VERSION:
         raise InvalidInput(
@@ -164,18 +164,18 @@ def _refuse_newer(text: bytes) -> None:
         )
 
 
-def _refuse_disagreement(entries: dict[str, zipfile.ZipInfo], parts: dict[str, PartForm]) -> None:
+def _reject_disagreement(entries: dict[str, zipfile.ZipInfo], parts: dict[str, PartForm]) -> None:
     for needed in (CASE, DOCUMENTS):
         if needed not in parts:
-            raise refused(f"its part {needed} is missing", part=needed)
+            raise rejected(f"its part {needed} is missing", part=needed)
     extra = sorted(entries.keys() - parts.keys() - {MANIFEST})
     if extra:
-        raise refused(f"its part {extra[0]} is not in its manifest", part=extra[0])
+        raise rejected(f"its part {extra[0]} is not in its manifest", part=extra[0])
     for path, part in parts.items():
         if path not in entries:
-            raise refused(f"its part {path[:80]} is missing", part=path[:80])
+            raise rejected(f"its part {path[:80]} is missing", part=path[:80])
         if entries[path].file_size != part.size_bytes:
-            raise refused(
+            raise rejected(
                 f"its part {path} has {entries[path].file_size} bytes, its manifest says {part.size_bytes}",
                 part=path,
             )

@@ -12,7 +12,7 @@ from server.store.archive.form import (
     CaseForm,
     DocumentForm,
     WithdrawalForm,
-    refused,
+    rejected,
 )
 from server.store.archive.reading import Parts, opened, shaped
 from server.store.cases import add_case, case_of
@@ -51,7 +51,7 @@ def unpack(ledger: Ledger, archive: Path, *, by: str) -> Case:
     """
     with told(ledger.home.folder), opened(archive) as parts:
         case, documents = _judged(parts)
-        ledger.home.refuse_without_room(parts.total_bytes)
+        ledger.home.reject_without_room(parts.total_bytes)
         with ledger.writing() as session:
             arriving = add_case(session, name=case.name, now=ledger.now, state=ARRIVING, copied_from=case.id)
         try:
@@ -71,25 +71,25 @@ def _judged(parts: Parts) -> tuple[CaseForm, list[DocumentForm]]:
     files = [file.id for file in case.files]
     expected = {f"{FILES}{file}" for file in files} | {CASE, DOCUMENTS}
     if len(set(files)) != len(files) or {part.path for part in parts.manifest.parts} != expected:
-        raise refused(f"its files are not those that {CASE} names")
+        raise rejected(f"its files are not those that {CASE} names")
     lines = parts.text(DOCUMENTS).split(b"\n")
     if lines.pop() != b"":
-        raise refused(f"{DOCUMENTS} ends in the middle of a line")
+        raise rejected(f"{DOCUMENTS} ends in the middle of a line")
     documents = [
         shaped(DocumentForm, line, where=f"{DOCUMENTS}, line {number}")
         for number, line in enumerate(lines, 1)
     ]
     try:
         checked_name(case.name, of="name of the case")
-        _refuse_misfits(documents, set(files))
+        _reject_misfits(documents, set(files))
     except InvalidInput as error:
         if error.code == "ARCHIVE_INVALID":
             raise
-        raise refused(error.message) from error
+        raise rejected(error.message) from error
     return case, documents
 
 
-def _refuse_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
+def _reject_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
     """Each document stands on those before it, has its own version, and files that are there."""
     earlier: dict[str, DocumentKind] = {}
     newest: dict[tuple[DocumentKind, str], int] = {}
@@ -97,18 +97,20 @@ def _refuse_misfits(documents: Iterable[DocumentForm], files: set[str]) -> None:
         text_of(document.content)
         for name in (document.name, document.made_by):
             if checked_name(name, of="name of a document") != name:
-                raise refused(f"the name of the document {document.id} is not in its plain form")
+                raise rejected(f"the name of the document {document.id} is not in its plain form")
         if document.id in earlier:
-            raise refused(f"it has two documents {document.id}")
+            raise rejected(f"it has two documents {document.id}")
         if newest.get((document.kind, document.name), 0) + 1 != document.version:
             before = document.version - 1
-            raise refused(f"the document {document.id} has version {before + 1}, but not version {before}")
+            raise rejected(f"the document {document.id} has version {before + 1}, but not version {before}")
         for basis in document.stands_on:
             if earlier.get(basis, DocumentKind.PATIENT) is DocumentKind.PATIENT:
-                raise refused(f"the document {document.id} stands on {basis}, which is not before it")
+                raise rejected(f"the document {document.id} stands on {basis}, which is not before it")
         repeated = any(len(set(ids)) != len(ids) for ids in (document.stands_on, document.files))
         if repeated or not files.issuperset(document.files):
-            raise refused(f"the document {document.id} has files or bases that are not there, or there twice")
+            raise rejected(
+                f"the document {document.id} has files or bases that are not there, or there twice"
+            )
         earlier[document.id] = document.kind
         newest[document.kind, document.name] = document.version
 

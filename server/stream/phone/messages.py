@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from server.capture.phone import Focus, PhoneCamera
 from server.live import SourceState
 from server.stream.message import Message
-from server.stream.messages import TroubleMessage
+from server.stream.messages import ProblemMessage
 
 MAX_WIDTH_PX, MAX_HEIGHT_PX = 7680, 4320
 MIN_SIDE_PX = 16
@@ -106,7 +106,7 @@ class NoteMessage(Message):
     """By how much `delay_ms` may be too long."""
     source_state: SourceState | None
     """Of the camera as the server has it; null while it is not known."""
-    trouble: TroubleMessage | None
+    problem: ProblemMessage | None
     """Of the last image, of the camera, or of the tracking."""
 
 
@@ -115,4 +115,4 @@ class PhoneTold(Message):
 
     welcome: WelcomeMessage | None = None
     note: NoteMessage | None = None
-    refused: TroubleMessage | None = None
+    rejected: ProblemMessage | None = None

@@ -12,7 +12,7 @@ import structlog
 from server.capture.local_camera import CalibratedCamera
 from server.capture.phone import Inbound, PhoneImage
 from server.config import CameraConfig
-from server.live import Trouble
+from server.live import Problem
 from server.loop.phone_inbox import PhoneInbox
 from server.security import Person
 from server.stream.connection import LARGEST_UPWARD_BYTES
@@ -62,7 +62,7 @@ class Place:
     key: str
     person: Person
     replaced: asyncio.Event = field(default_factory=asyncio.Event)
-    problem: Trouble | None = None
+    problem: Problem | None = None
 
 
 class Receiver:
@@ -119,7 +119,7 @@ class Receiver:
         """
         before = self._place
         if before is not None and (before.key, before.person.id) != (key, person.id):
-            _log.warning("phone_refused", by=person.name, sending=before.person.name)
+            _log.warning("phone_rejected", by=person.name, sending=before.person.name)
             raise PhoneTaken(before.person.name)
         if before is not None:
             before.replaced.set()
@@ -134,11 +134,11 @@ class Receiver:
                 self._inbox.put(Inbound(sender=""))
                 _log.info("phone_gone", by=person.name)
 
-    def deliver(self, place: Place, received: Received | Trouble) -> None:
+    def deliver(self, place: Place, received: Received | Problem) -> None:
         """Hand an image on to the tracking process, or why it cannot be used."""
         if self._place is not place:
             return
-        problem = received if isinstance(received, Trouble) else self._trouble_of(received)
+        problem = received if isinstance(received, Problem) else self._problem_of(received)
         if problem is not None and (place.problem is None or place.problem.code != problem.code):
             _log.warning(problem.message, code=problem.code, remedy=problem.remedy, by=place.person.name)
         place.problem = problem
@@ -156,9 +156,9 @@ class Receiver:
             self._arrived.append(received.arrived_s)
         self._inbox.put(Inbound(sender=place.person.name, image=image, problem=problem))
 
-    def _trouble_of(self, received: Received) -> Trouble | None:
+    def _problem_of(self, received: Received) -> Problem | None:
         if received.captured_at_s <= self._captured_at_s:
-            return Trouble(
+            return Problem(
                 code="PHONE_IMAGE_REPEATED",
                 message="an image of the phone was captured no later than the one before it",
                 remedy="Touch STOP and START on the phone.",
@@ -166,7 +166,7 @@ class Receiver:
         age_s = received.arrived_s - received.captured_at_s
         if age_s <= MAX_AGE_S:
             return None
-        return Trouble(
+        return Problem(
             code="PHONE_IMAGE_OLD",
             message=f"images of the phone arrive {age_s:.1f} s after their capture, limit {MAX_AGE_S:g} s",
             remedy="Bring the phone nearer to its access point, or ask for smaller images with camera.width "

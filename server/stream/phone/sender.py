@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from server.capture.jpeg_header import jpeg_size_wh_px
 from server.capture.phone import PhoneCamera, broken_image
-from server.live import ImageClock, Trouble
+from server.live import ImageClock, Problem
 from server.loop.phone_inbox import MAX_JPEG_BYTES
 from server.stream.phone.messages import (
     MAX_HEIGHT_PX,
@@ -18,7 +18,7 @@ from server.stream.phone.messages import (
     PongMessage,
 )
 from server.stream.phone.page_clock import PageClock
-from server.stream.socket import LARGEST_MESSAGE_BYTES, REFUSED, TOO_LARGE, Misbehaviour
+from server.stream.socket import LARGEST_MESSAGE_BYTES, REJECTED, TOO_LARGE, Misbehaviour
 
 # One on the way and one being made: the line is never idle, and no more than these can grow old.
 MAX_IMAGES_UNDERWAY = 2
@@ -90,9 +90,9 @@ class Sender:
         elif said.image is not None:
             self._begin(said.image)
         else:
-            raise Misbehaviour(REFUSED, "hello is said once, at the beginning")
+            raise Misbehaviour(REJECTED, "hello is said once, at the beginning")
 
-    def take_part(self, part: bytes, now_s: float) -> Received | Trouble | None:
+    def take_part(self, part: bytes, now_s: float) -> Received | Problem | None:
         """One part of an image: the image when it is whole, what is wrong with it, or None until then.
 
         Raises:
@@ -100,7 +100,7 @@ class Sender:
         """
         image, camera = self._image, self._camera
         if image is None or camera is None or not part:
-            raise Misbehaviour(REFUSED, "an image is announced before its parts")
+            raise Misbehaviour(REJECTED, "an image is announced before its parts")
         self._parts.append(part)
         self._part_bytes += len(part)
         if self._part_bytes > image.bytes:
@@ -110,9 +110,9 @@ class Sender:
         jpeg = b"".join(self._parts)
         self._image, self._parts, self._part_bytes = None, [], 0
         self._received += 1
-        trouble = _trouble_of(jpeg)
-        if trouble is not None:
-            return trouble
+        problem = _problem_of(jpeg)
+        if problem is not None:
+            return problem
         captured_at_s = min(self.clock.captured_at_s(image.captured_ms / 1000.0), now_s)
         clock = ImageClock.BROWSER if image.clock == "capture" else ImageClock.ARRIVAL
         return Received(jpeg=jpeg, captured_at_s=captured_at_s, arrived_s=now_s, clock=clock, camera=camera)
@@ -120,18 +120,18 @@ class Sender:
     def _take_pong(self, pong: PongMessage, now_s: float) -> None:
         sent_s = self._pings.pop(pong.ping, None)
         if sent_s is None:
-            raise Misbehaviour(REFUSED, f"ping {pong.ping} was answered before, or never sent")
+            raise Misbehaviour(REJECTED, f"ping {pong.ping} was answered before, or never sent")
         self.clock.take(sent_s=sent_s, page_s=pong.at_ms / 1000.0, received_s=now_s)
 
     def _begin(self, image: ImageMessage) -> None:
         if self._image is not None:
-            raise Misbehaviour(REFUSED, f"{self._part_bytes} of {self._image.bytes} bytes came of an image")
+            raise Misbehaviour(REJECTED, f"{self._part_bytes} of {self._image.bytes} bytes came of an image")
         if self._camera is None:
-            raise Misbehaviour(REFUSED, "the camera is described before its first image")
+            raise Misbehaviour(REJECTED, "the camera is described before its first image")
         if not self.clock.is_known:
-            raise Misbehaviour(REFUSED, "a ping is answered before the first image")
+            raise Misbehaviour(REJECTED, "a ping is answered before the first image")
         if self._announced >= self._granted:
-            raise Misbehaviour(REFUSED, f"{self._granted} images were granted, and one more was sent")
+            raise Misbehaviour(REJECTED, f"{self._granted} images were granted, and one more was sent")
         if image.bytes > MAX_JPEG_BYTES:
             raise Misbehaviour(
                 TOO_LARGE, f"an image of {image.bytes} bytes, at most {MAX_JPEG_BYTES} are taken"
@@ -151,7 +151,7 @@ def said_in(text: str) -> PhoneSaid:
     try:
         return PhoneSaid.model_validate_json(text, strict=True)
     except ValidationError as error:
-        raise Misbehaviour(REFUSED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
+        raise Misbehaviour(REJECTED, f"not understood: {error.errors()[0]['msg']}"[:120]) from None
 
 
 def hello_in(text: str) -> HelloMessage:
@@ -162,18 +162,18 @@ def hello_in(text: str) -> HelloMessage:
     """
     said = said_in(text)
     if said.hello is None:
-        raise Misbehaviour(REFUSED, "the first message is hello")
+        raise Misbehaviour(REJECTED, "the first message is hello")
     return said.hello
 
 
-def _trouble_of(jpeg: bytes) -> Trouble | None:
+def _problem_of(jpeg: bytes) -> Problem | None:
     size_wh_px = jpeg_size_wh_px(jpeg)
     if size_wh_px is None:
         return broken_image()
     width, height = size_wh_px
     if min(width, height) >= MIN_SIDE_PX and width <= MAX_WIDTH_PX and height <= MAX_HEIGHT_PX:
         return None
-    return Trouble(
+    return Problem(
         code="PHONE_IMAGE_SIZE",
         message=f"an image of the phone has {width}x{height} px, "
         f"allowed are {MIN_SIDE_PX} to {MAX_WIDTH_PX}x{MAX_HEIGHT_PX}",

@@ -17,15 +17,15 @@ from dataclasses import dataclass
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from server.live import LiveHub, Trouble
+from server.live import LiveHub, Problem
 from server.security import person_of
 from server.stream.connection import line_of
-from server.stream.messages import trouble_message
+from server.stream.messages import problem_message
 from server.stream.phone.messages import NoteMessage, PhoneTold
 from server.stream.phone.receiver import PhoneTaken, Place, Receiver
 from server.stream.phone.sender import Received, Sender, hello_in
 from server.stream.race import until_one_ends
-from server.stream.socket import LONGEST_REASON, REFUSED, TRY_LATER, Misbehaviour
+from server.stream.socket import LONGEST_REASON, REJECTED, TRY_LATER, Misbehaviour
 from server.stream.viewers import Stalled, Viewers
 
 NOTE_EVERY_S = 0.5
@@ -56,14 +56,14 @@ async def receive_phone(websocket: WebSocket, door: PhoneDoor) -> None:
     receiver = door.receiver
     try:
         if receiver is None:
-            await _refuse(websocket, door, _not_asked(door.source))
+            await _reject(websocket, door, _not_asked(door.source))
             return
         hello = hello_in(await _text(websocket))
         with receiver.sending(hello.key, person_of(websocket.scope)) as place:
             await _tell(websocket, door, PhoneTold(welcome=receiver.welcome()))
             await _Talk(websocket, door, receiver, place).run()
     except PhoneTaken as taken:
-        await _refuse(websocket, door, Trouble.from_error(taken))
+        await _reject(websocket, door, Problem.from_error(taken))
     except Misbehaviour as told:
         with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
             await door.viewers.send(websocket.close(told.code, told.reason), None)
@@ -124,9 +124,9 @@ class _Talk:
 
     def _note(self) -> NoteMessage:
         grant, clock, newest = self._sender.grant(time.monotonic()), self._sender.clock, self._door.hub.newest
-        trouble = self._place.problem
-        if trouble is None and newest is not None:
-            trouble = newest.source.trouble or newest.process.trouble
+        problem = self._place.problem
+        if problem is None and newest is not None:
+            problem = newest.source.problem or newest.process.problem
         return NoteMessage(
             ping=grant.ping,
             credit=grant.credit,
@@ -135,7 +135,7 @@ class _Talk:
             delay_ms=None if self._delay_s is None else self._delay_s * 1000.0,
             clock_error_ms=clock.error_s * 1000.0 if clock.is_known else None,
             source_state=None if newest is None else newest.source.state,
-            trouble=trouble_message(trouble),
+            problem=problem_message(problem),
         )
 
 
@@ -156,7 +156,7 @@ async def _received(websocket: WebSocket) -> dict[str, object]:
 async def _text(websocket: WebSocket) -> str:
     text = (await _received(websocket)).get("text")
     if not isinstance(text, str):
-        raise Misbehaviour(REFUSED, "the first message is hello")
+        raise Misbehaviour(REJECTED, "the first message is hello")
     return text
 
 
@@ -165,15 +165,15 @@ async def _tell(websocket: WebSocket, door: PhoneDoor, told: PhoneTold) -> None:
     await door.viewers.send(websocket.send_text(text), line_of(websocket.scope))
 
 
-async def _refuse(websocket: WebSocket, door: PhoneDoor, trouble: Trouble) -> None:
+async def _reject(websocket: WebSocket, door: PhoneDoor, problem: Problem) -> None:
     """Say why in full, because the reason of a close has 123 bytes; then close."""
     with contextlib.suppress(Stalled, WebSocketDisconnect, RuntimeError):
-        await _tell(websocket, door, PhoneTold(refused=trouble_message(trouble)))
-        await websocket.close(REFUSED, trouble.message[:LONGEST_REASON])
+        await _tell(websocket, door, PhoneTold(rejected=problem_message(problem)))
+        await websocket.close(REJECTED, problem.message[:LONGEST_REASON])
 
 
-def _not_asked(source: str) -> Trouble:
-    return Trouble(
+def _not_asked(source: str) -> Problem:
+    return Problem(
         code="PHONE_NOT_ASKED",
         message=f"this server takes its images from {source}, not from a phone",
         remedy="Start it with coaxial run --source phone, or set camera.source to phone in its settings.",

@@ -18,14 +18,14 @@ from tests.procedure.team import BY, POINTS, Team
 
 HOLDS = {"done", "due"}
 CONFIRM = "/api/procedure/confirmation"
-SERVERS_MISTAKE, MAX_REFUSED = 500, 20
+SERVERS_MISTAKE, MAX_REJECTED = 500, 20
 
 
 class KilledUnderUs(Exception):
     """The server was killed while somebody waited for it."""
 
 
-class Refused(Exception):
+class Rejected(Exception):
     """The server did not do it."""
 
     def __init__(self, told: str, status: int) -> None:
@@ -44,7 +44,7 @@ class WatchedServer(RealServer):
         """As ever; a change that was confirmed is a promise from then on."""
         answer = self.door.request(method, path, **sent)
         if answer.status_code != status:
-            raise Refused(f"{method} {path}: {answer.status_code} {answer.text[:300]}", answer.status_code)
+            raise Rejected(f"{method} {path}: {answer.status_code} {answer.text[:300]}", answer.status_code)
         told = answer.json() if answer.content else None
         if method != "GET":
             self.promised.note(told)
@@ -113,28 +113,26 @@ class People:
         numbers: of the changes, so that each is made by a name that nobody else has.
     """
 
-    def __init__(
-        self, team: Team, server: WatchedServer, chance: random.Random, numbers: "count[int]"
-    ) -> None:
+    def __init__(self, team: Team, server: WatchedServer, rng: random.Random, numbers: "count[int]") -> None:
         self._team = team
         self._server = server
-        self._chance = chance
+        self._probability = rng
         self._numbers = numbers
         self.doing = ""
 
     def work(self) -> None:
         """Go on and on."""
-        refused = 0
+        rejected = 0
         while True:
             if self._server.killed.is_set():
                 raise KilledUnderUs
             try:
                 self.act()
-                refused = 0
-            except Refused as why:
+                rejected = 0
+            except Rejected as why:
                 # A collection that lost its images is refused; whoever was told so begins again.
-                refused += 1
-                if why.status == SERVERS_MISTAKE or refused > MAX_REFUSED:
+                rejected += 1
+                if why.status == SERVERS_MISTAKE or rejected > MAX_REJECTED:
                     raise
             self._server.promised.observe(self._server)
 
@@ -181,14 +179,14 @@ class People:
         step = next(one for one in told["steps"] if one["step"] == "plan")
         if step["document_id"] is None:
             self._team.plan(VERTEBRA)
-        self._choose(self._chance.choice(("left", "right")))
+        self._choose(self._probability.choice(("left", "right")))
 
     def _while_navigating(self) -> None:
         """Any of the small things that are done meanwhile."""
-        ask, act = self._server.ask, self._chance.random()
+        ask, act = self._server.ask, self._probability.random()
         if act < 0.35:
             self.doing = "choosing"
-            self._choose(self._chance.choice(("left", "right")))
+            self._choose(self._probability.choice(("left", "right")))
         elif act < 0.7:
             self._ask_to_hold_or_release()
         elif act < 0.8:

@@ -118,9 +118,9 @@ def test_a_disk_that_refuses_is_told_and_written_when_it_is_back(
     monkeypatch.setattr("server.alarms.log.append_lines", append)
     monkeypatch.setattr("server.alarms.log.TRY_AGAIN_S", 0.01)
     log.append([entry(1)])
-    with pytest.raises(StoreError) as refused:
+    with pytest.raises(StoreError) as rejected:
         log.flush()
-    assert refused.value.code == "STORE_FULL"
+    assert rejected.value.code == "STORE_FULL"
     assert not log.is_well
     broken[0] = False
     with log._changed:

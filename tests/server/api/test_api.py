@@ -8,13 +8,13 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from server.api.health import health_message
-from server.live import Instant, LiveHub, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.live import Instant, LiveHub, Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.navigation import NavigationSnapshot
 
 SnapshotOf = Callable[..., NavigationSnapshot]
 InstantOf = Callable[..., Instant]
-TROUBLE = Trouble(code="CAMERA_GONE", message="camera 0 gives no image", remedy="Plug it in.")
+PROBLEM = Problem(code="CAMERA_GONE", message="camera 0 gives no image", remedy="Plug it in.")
 
 
 def app_of(client: TestClient) -> FastAPI:
@@ -139,7 +139,7 @@ def test_a_strange_name_in_the_host_is_refused(client: TestClient) -> None:
 def test_a_strange_page_cannot_change_anything(client: TestClient) -> None:
     answer = client.post("/api/live", headers={"Origin": "http://evil.example"})
     assert answer.status_code == 403
-    assert answer.json()["code"] == "ORIGIN_REFUSED"
+    assert answer.json()["code"] == "ORIGIN_REJECTED"
 
 
 def test_health_before_the_first_instant_is_degraded(client: TestClient) -> None:
@@ -189,10 +189,10 @@ def test_health_is_one_word(
 def test_health_fails_only_when_a_restart_would_help(
     client: TestClient, hub: LiveHub, instant_of: InstantOf, process: ProcessState, status: int
 ) -> None:
-    hub.publish(instant_of(1, process=ProcessStatus(state=process, trouble=TROUBLE)))
+    hub.publish(instant_of(1, process=ProcessStatus(state=process, problem=PROBLEM)))
     answer = client.get("/health")
     assert answer.status_code == status
-    assert answer.json()["process"]["trouble"]["code"] == "CAMERA_GONE"
+    assert answer.json()["process"]["problem"]["code"] == "CAMERA_GONE"
 
 
 def test_each_route_documents_what_it_answers(client: TestClient) -> None:
@@ -216,21 +216,21 @@ def test_each_route_documents_what_it_answers(client: TestClient) -> None:
         assert {"401", "403", "413", "421", "429", "500"} <= answers
         assert answers & {"200", "201", "204"}
     assert "LiveMessage" in document["components"]["schemas"]
-    refused = [
+    rejected = [
         (path, status, answer)
         for path, methods in paths.items()
         for operation in methods.values()
         for status, answer in operation["responses"].items()
         if status not in {"200", "201", "204", "401", "403", "413", "421", "429", "500"} and path != "/health"
     ]
-    assert {(path, status) for path, status, _ in refused if path in watched} == {
+    assert {(path, status) for path, status, _ in rejected if path in watched} == {
         ("/video/{camera}.mjpg", "404"),
         ("/video/{camera}.mjpg", "422"),
         ("/video/{camera}.mjpg", "503"),
         ("/api/live", "503"),
     }
-    for _, _, answer in refused:
-        assert answer["content"]["application/json"]["schema"]["$ref"].endswith("/TroubleMessage")
+    for _, _, answer in rejected:
+        assert answer["content"]["application/json"]["schema"]["$ref"].endswith("/ProblemMessage")
 
 
 def test_the_documentation_needs_no_other_server_and_no_script(client: TestClient) -> None:

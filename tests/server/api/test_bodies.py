@@ -89,8 +89,8 @@ def sent(path: str, pieces: list[tuple[float, int]], *, works_s: float = 0.0) ->
         try:
             await LimitedBodies(reads)({"type": "http", "path": path, "headers": []}, receive, send)
             came.append(("whole", now()))
-        except NavigationError as refused:
-            came.append((f"{refused.code}: {refused.message}" if refused.remedy else "no remedy", now()))
+        except NavigationError as rejected:
+            came.append((f"{rejected.code}: {rejected.message}" if rejected.remedy else "no remedy", now()))
 
     run_in_made_time(run())
     return came[0]

@@ -68,8 +68,8 @@ def test_a_case_from_its_making_to_its_end(door: TestClient) -> None:
     assert door.post(f"{path}/open").json() == case
     assert door.get("/api/cases").json() == {"opened_id": case["id"], "cases": [case]}
     assert door.patch(path, json={"name": "two"}).json()["name"] == "two"
-    refused = door.post(f"{path}/deletion", json={"confirm": "two"})
-    assert (refused.status_code, refused.json()["code"]) == (409, "CASE_OPEN")
+    rejected = door.post(f"{path}/deletion", json={"confirm": "two"})
+    assert (rejected.status_code, rejected.json()["code"]) == (409, "CASE_OPEN")
     assert door.post(f"{path}/close").status_code == 200
     again = door.post(f"{path}/close")
     assert (again.status_code, again.json()["code"]) == (409, "CASE_NOT_OPEN")

@@ -162,9 +162,9 @@ def test_where_nobody_signs_in_a_name_is_needed(tmp_path_factory: pytest.TempPat
         kept = house.store.put(case["id"], DocumentKind.CT, "main", {}, made_by="abe")
         path = f"/api/cases/{case['id']}/documents/{kept.id}/withdrawal"
         for said in ({}, {"by": ""}):
-            refused = house.door.post(path, json={"reason": "wrong", **said})
-            assert (refused.status_code, refused.json()["message"]) == (422, "body.by: Field required")
-        refused = house.door.delete("/api/plan/active-channel")
-        assert (refused.status_code, refused.json()["message"]) == (422, "query.made_by: Field required")
+            rejected = house.door.post(path, json={"reason": "wrong", **said})
+            assert (rejected.status_code, rejected.json()["message"]) == (422, "body.by: Field required")
+        rejected = house.door.delete("/api/plan/active-channel")
+        assert (rejected.status_code, rejected.json()["message"]) == (422, "query.made_by: Field required")
         answer = house.door.post(path, json={"reason": "wrong", "by": OTHER})
         assert answer.json()["heading"]["withdrawn"]["by"] == OTHER

@@ -25,7 +25,7 @@ def test_jobs_are_told_whole(jobs: Jobs) -> None:
     door = TestClient(app, base_url="http://127.0.0.1:8000")
     assert door.get("/api/jobs").json() == {"jobs": []}
     good = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 2}).id)
-    bad = jobs.wait_for(jobs.start("reading", labour.refuse, {"slices": 1}).id)
+    bad = jobs.wait_for(jobs.start("reading", labour.reject, {"slices": 1}).id)
     told = {
         "id": good.id,
         "title": "adding",
@@ -33,11 +33,11 @@ def test_jobs_are_told_whole(jobs: Jobs) -> None:
         "progress_ratio": 1.0,
         "doing": "",
         "result": {"sum": 3},
-        "trouble": None,
+        "problem": None,
     }
     assert door.get(f"/api/jobs/{good.id}").json() == told
     assert [one["id"] for one in door.get("/api/jobs").json()["jobs"]] == [bad.id, good.id]
-    assert door.get(f"/api/jobs/{bad.id}").json()["trouble"] == {
+    assert door.get(f"/api/jobs/{bad.id}").json()["problem"] == {
         "code": "TOO_FEW_SLICES",
         "message": "1 slices found",
         "remedy": "Take more.",

@@ -60,7 +60,7 @@ class FakeIndustrialCamera:
     features: dict[str, FeatureValue] = field(default_factory=sensor_features)
     pixel_formats: tuple[str, ...] = ("Mono8", "BayerRG8", "BayerRG12")
     triggers: tuple[str, ...] = ("Line1", "Line3", "Software")
-    refused: set[str] = field(default_factory=set)
+    rejected: set[str] = field(default_factory=set)
     max_rate_hz: float = 160.0
     now_s: float = 1000.0
     device_zero_s: float | None = 50_000.0
@@ -101,7 +101,7 @@ class FakeIndustrialCamera:
         }.get(name, ())
 
     def set_value(self, name: str, value: FeatureValue) -> None:
-        if name not in self.features or name in self.refused:
+        if name not in self.features or name in self.rejected:
             raise OSError(f"{name} is not writable")
         self.features[name] = value
         self.calls.append(f"{name}={value}")

@@ -11,7 +11,7 @@ from server.capture.capture import STALLED_AFTER_S, Capture
 from server.capture.industrial import BaslerCameras, IndustrialCameraSource
 from server.capture.industrial.basler import BaslerCamera
 from server.capture.modes import WantedMode
-from server.live import CameraMode, ImageClock, SourceState, Trouble
+from server.live import CameraMode, ImageClock, Problem, SourceState
 
 pylon = pytest.importorskip(
     "pypylon.pylon", reason="needs pypylon, which the development lock has for Linux", exc_type=ImportError
@@ -90,7 +90,7 @@ def test_images_come_as_they_were_asked_for(emulated: Callable[..., Emulated]) -
     mode = CameraMode(fourcc="BayerRG8", size_wh_px=(320, 240), rate_hz=100.0)
     assert status.camera.asked == status.camera.granted == mode
     assert status.camera.clock is ImageClock.ARRIVAL
-    assert status.trouble is None
+    assert status.problem is None
 
 
 def test_the_newest_image_comes_and_never_a_backlog(emulated: Callable[..., Emulated]) -> None:
@@ -119,17 +119,17 @@ def test_a_camera_that_waits_for_its_trigger_says_so_until_the_pulse_comes(
     one.until(lambda: one.source.camera.trigger == "Software")
     one.until(one.cameras.newest._camera.IsGrabbing)
 
-    def trouble_later() -> Trouble | None:
+    def problem_later() -> Problem | None:
         later_s = time.monotonic() + STALLED_AFTER_S + 60.0
         with monkeypatch.context() as patch:
             patch.setattr("server.capture.capture.time.monotonic", lambda: later_s)
-            return one.capture.status().trouble
+            return one.capture.status().problem
 
-    one.until(lambda: trouble_later() is not None)
-    trouble = trouble_later()
-    assert trouble is not None
-    assert trouble.code == "CAMERA_NOT_TRIGGERED"
-    assert "waits for a pulse on Software" in trouble.message
+    one.until(lambda: problem_later() is not None)
+    problem = problem_later()
+    assert problem is not None
+    assert problem.code == "CAMERA_NOT_TRIGGERED"
+    assert "waits for a pulse on Software" in problem.message
 
     def is_running_after_a_pulse() -> bool:
         # The camera drops a pulse that comes before it is ready.
@@ -137,7 +137,7 @@ def test_a_camera_that_waits_for_its_trigger_says_so_until_the_pulse_comes(
         return one.capture.status().state is SourceState.RUNNING
 
     one.until(is_running_after_a_pulse)
-    assert one.capture.status().trouble is None
+    assert one.capture.status().problem is None
 
 
 def test_a_camera_that_is_pulled_out_is_told_and_taken_again_when_it_is_back(
@@ -149,14 +149,14 @@ def test_a_camera_that_is_pulled_out_is_told_and_taken_again_when_it_is_back(
     monkeypatch.setenv("PYLON_CAMEMU", "0")
     one.cameras.newest._camera.DestroyDevice()
     one.until(lambda: one.capture.status().state is SourceState.RECONNECTING)
-    trouble = one.capture.status().trouble
-    assert trouble is not None
-    assert trouble.code in {"CAMERA_STOPPED", "CAMERA_NOT_OPENED"}
+    problem = one.capture.status().problem
+    assert problem is not None
+    assert problem.code in {"CAMERA_STOPPED", "CAMERA_NOT_OPENED"}
     before = one.capture.status().images
     monkeypatch.setenv("PYLON_CAMEMU", "1")
     one.until(lambda: one.capture.status().state is SourceState.RUNNING)
     assert one.capture.status().images > before
-    assert one.capture.status().trouble is None
+    assert one.capture.status().problem is None
 
 
 def test_a_camera_that_is_not_there_is_told(emulated: Callable[..., Emulated]) -> None:

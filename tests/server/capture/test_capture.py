@@ -100,16 +100,16 @@ def test_a_fault_is_told_once_however_often_it_is_tried_and_it_comes_back() -> N
         capture.start()
         until(lambda: source.opened == 4)
         assert capture.status().state is SourceState.RECONNECTING
-        trouble = capture.status().trouble
-        assert trouble is not None
-        assert (trouble.code, trouble.message, trouble.remedy) == (
+        problem = capture.status().problem
+        assert problem is not None
+        assert (problem.code, problem.message, problem.remedy) == (
             "CAMERA_STOPPED",
             "cable out",
             "Plug it in.",
         )
         source.told.put(shot(1))
         until(lambda: capture.status().state is SourceState.RUNNING)
-        assert capture.status().trouble is None
+        assert capture.status().problem is None
         until(lambda: any(line["event"] == "source is back" for line in logs))
     stop.set()
     source.told.put(None)
@@ -149,8 +149,8 @@ def test_a_camera_that_is_open_and_silent_counts_as_stalled(monkeypatch: pytest.
     status = capture.status()
     monkeypatch.undo()
     assert status.state is SourceState.RECONNECTING
-    assert status.trouble is not None
-    assert status.trouble.code == "SOURCE_STALLED"
+    assert status.problem is not None
+    assert status.problem.code == "SOURCE_STALLED"
     stop.set()
     source.told.put(None)
 
@@ -168,9 +168,9 @@ def test_a_camera_that_waits_for_its_trigger_is_not_taken_for_a_broken_one(
     with monkeypatch.context() as patch:
         patch.setattr("server.capture.capture.time.monotonic", lambda: later_s)
         status = capture.status()
-    assert status.trouble is not None
-    assert status.trouble.code == "CAMERA_NOT_TRIGGERED"
-    assert status.trouble.message == "told waits for a pulse on Line1, and none came for 2 s"
+    assert status.problem is not None
+    assert status.problem.code == "CAMERA_NOT_TRIGGERED"
+    assert status.problem.message == "told waits for a pulse on Line1, and none came for 2 s"
     stop.set()
     source.told.put(None)
 
@@ -190,8 +190,8 @@ def test_an_image_that_a_frozen_camera_repeats_is_not_live() -> None:
         # It came first as the fifth; after a quarter of a second it is old.
         assert status.images == 7
         assert status.state is SourceState.RECONNECTING
-        assert status.trouble is not None
-        assert status.trouble.code == "SOURCE_FROZEN"
+        assert status.problem is not None
+        assert status.problem.code == "SOURCE_FROZEN"
         # No more of it after the source was opened again; the next new image is live.
         until(source.told.empty)
         assert capture.status().images == 7

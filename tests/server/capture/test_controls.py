@@ -119,16 +119,16 @@ def test_a_camera_without_controls_has_none() -> None:
 def test_a_control_that_cannot_be_set_is_told_and_the_rest_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
     camera = FakeCamera()
 
-    def refused(*_asked: object) -> None:
+    def rejected(*_asked: object) -> None:
         raise OSError(errno.EACCES, "Permission denied")
 
-    monkeypatch.setattr(camera, "set_control", refused)
+    monkeypatch.setattr(camera, "set_control", rejected)
     with capture_logs() as logs:
         keeper = keeper_of(camera)
         keeper.poll(BEGIN_S + SETTLES_S)
     assert [(line["code"], line["control"], line["reason"]) for line in logs] == [
-        ("CAMERA_CONTROL_REFUSED", "autofocus", "permission denied"),
-        ("CAMERA_CONTROL_REFUSED", "focus", "permission denied"),
+        ("CAMERA_CONTROL_REJECTED", "autofocus", "permission denied"),
+        ("CAMERA_CONTROL_REJECTED", "focus", "permission denied"),
     ]
     assert keeper.values == WEBCAM_CONTROLS
 

@@ -107,7 +107,7 @@ def test_a_rate_that_the_line_does_not_carry_is_read_back_and_told(camera: FakeI
 
 
 def test_a_refused_pixel_format_is_told(camera: FakeIndustrialCamera) -> None:
-    camera.refused = {"PixelFormat"}
+    camera.rejected = {"PixelFormat"}
     source = opened(source_of(camera))
     assert source.defect is not None
     assert source.defect.code == "CAMERA_MODE_NOT_GRANTED"

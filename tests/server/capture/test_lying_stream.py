@@ -201,14 +201,14 @@ def test_a_stream_that_repeats_its_last_image_is_frozen(
     source = source_of(serve(sent), [], begin_s=time.monotonic())
     capture = Capture(source, stop=stop)
     capture.start()
-    trouble = None
-    while trouble is None:
+    problem = None
+    while problem is None:
         capture.take(30.0)
-        trouble = capture.status().trouble
+        problem = capture.status().problem
     status = capture.status()
     stop.set()
     capture.close(5.0)
-    assert trouble.code == "SOURCE_FROZEN"
+    assert problem.code == "SOURCE_FROZEN"
     assert status.state is SourceState.RECONNECTING
     # A quarter of a second of it, until it is known to be the same.
     assert status.images <= 20 + 9

@@ -187,9 +187,9 @@ def _lose_and_find(capture: Capture) -> None:
     assert first is not None
     while capture.status().state is not SourceState.RECONNECTING:
         capture.take(1.0)
-    trouble = capture.status().trouble
-    assert trouble is not None
-    assert trouble.code in {"STREAM_STOPPED", "SOURCE_STALLED"}
+    problem = capture.status().problem
+    assert problem is not None
+    assert problem.code in {"STREAM_STOPPED", "SOURCE_STALLED"}
     before = capture.status().images
     while capture.status().images <= before:
         capture.take(1.0)

@@ -78,11 +78,11 @@ def test_a_stream_gives_images_and_reconnects_when_its_server_is_back(
     server.end()
     while capture.status().state is not SourceState.RECONNECTING:
         capture.take(10.0)
-    trouble = capture.status().trouble
-    assert trouble is not None
-    assert trouble.code in {"STREAM_STOPPED", "STREAM_UNREACHABLE", "STREAM_WITHOUT_VIDEO"}
-    assert "secret" not in trouble.message
-    assert trouble.remedy
+    problem = capture.status().problem
+    assert problem is not None
+    assert problem.code in {"STREAM_STOPPED", "STREAM_UNREACHABLE", "STREAM_WITHOUT_VIDEO"}
+    assert "secret" not in problem.message
+    assert problem.remedy
     again = MjpegServer(port)
     try:
         shot = None
@@ -90,7 +90,7 @@ def test_a_stream_gives_images_and_reconnects_when_its_server_is_back(
             shot = capture.take(10.0)
         assert shot.number > first.number
         assert capture.status().state is SourceState.RUNNING
-        assert capture.status().trouble is None
+        assert capture.status().problem is None
     finally:
         stop.set()
         capture.close(5.0)

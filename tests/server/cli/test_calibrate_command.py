@@ -10,7 +10,7 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
-from server.camera_file import load_camera_file, read_camera_file, refuse_other_camera
+from server.camera_file import load_camera_file, read_camera_file, reject_other_camera
 from server.cli import app
 from tests.tracker.camera.rendered import POSES, picture
 from tracker.camera import CheckerBoard
@@ -80,9 +80,9 @@ def test_a_file_of_another_camera_is_refused(images: Path, tmp_path: Path) -> No
     output = tmp_path / "camera.yaml"
     assert typed(*BOARD, "--output", output, "--camera-name", "side", images)[0] == 0
     file = read_camera_file(output)
-    refuse_other_camera(file, path=output, name="side", source=0)
+    reject_other_camera(file, path=output, name="side", source=0)
     with pytest.raises(CalibrationError) as told:
-        refuse_other_camera(file, path=output, name="main", source=0)
+        reject_other_camera(file, path=output, name="main", source=0)
     assert told.value.code == "CAMERA_DIFFERS"
     (tmp_path / "config.yaml").write_text(f"camera:\n  source: 0\n  calibration: {output}\n")
     result = CliRunner().invoke(app, ["run", "--config", str(tmp_path / "config.yaml")])

@@ -99,8 +99,8 @@ def test_translations_need_the_unit_of_each_file(camera: Path, second: Path) -> 
     answer = json.loads(typed(*words, "--second-unit", "m"))
     assert answer["offset_s"] == pytest.approx(0.125, abs=4.0 * answer["sd_s"])
     assert answer["motion"] == "translation"
-    refused = json.loads(typed(*words, status=1))
-    assert refused["gate"]["failures"][0]["code"] == "TIME_OFFSET_NO_MOTION"
+    rejected = json.loads(typed(*words, status=1))
+    assert rejected["gate"]["failures"][0]["code"] == "TIME_OFFSET_NO_MOTION"
 
 
 def test_what_does_not_determine_the_offset_is_told_with_status_1(tmp_path: Path, second: Path) -> None:

@@ -275,7 +275,7 @@ def test_poses_that_were_tracked_with_another_side_make_no_tool(tmp_path: Path) 
     lines = tracked(tmp_path, pivoted(Hand(tip_mm=TIP)).poses, side_mm=25.0)
     file = tmp_path / "t.yaml"
 
-    def refused(*words: str | Path) -> str:
+    def rejected(*words: str | Path) -> str:
         result = CliRunner().invoke(
             app, [*map(str, words), "--config", str(empty_config(tmp_path)), "--output", str(file)]
         )
@@ -283,7 +283,7 @@ def test_poses_that_were_tracked_with_another_side_make_no_tool(tmp_path: Path) 
         assert isinstance(result.exception, NavigationError)
         return f"{result.exception.code}: {result.exception.message}"
 
-    said = refused("pivot", lines, "--side-mm", "99")
+    said = rejected("pivot", lines, "--side-mm", "99")
     assert said.startswith("TOOL_SIDE_DIFFERS")
     assert "25 mm" in said
     assert "99 mm" in said

@@ -56,7 +56,7 @@ def _made(*, width: float = 1.0, stops: bool = True) -> object:
                     seed=seed,
                     way=Way.POINTS,
                     anchored_to=AnchoredTo.CAMERA,
-                    refused="",
+                    rejected="",
                     check_mm=0.4,
                     check_passed=True,
                 ),

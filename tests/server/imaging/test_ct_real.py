@@ -24,7 +24,7 @@ def test_every_voxel_of_a_scanners_slices_is_where_its_file_says() -> None:
 
 def test_a_scanners_series_is_described() -> None:
     (series,) = list_series(real_data_file("ct", "thoracic-dicom"))
-    assert (series.kind, series.modality, series.images, series.trouble) == ("dicom", "CT", 20, "")
+    assert (series.kind, series.modality, series.images, series.problem) == ("dicom", "CT", 20, "")
     assert series.pixel_mm == (0.9765625, 0.9765625)
     assert series.thickness_mm == 3.0
     assert "JPEG 2000" in series.compression

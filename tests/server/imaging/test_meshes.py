@@ -159,15 +159,15 @@ def told_of(content: bytes, file_format: str) -> tuple[str, str] | None:
 )
 def test_damaged_files_end_in_a_surface_or_in_a_sentence(content: bytes, file_format: str) -> None:
     rng = np.random.default_rng(8)
-    refused = 0
+    rejected = 0
     for _ in range(60):
         damaged = bytearray(content[: rng.integers(len(content) // 2, 2 * len(content))])
         for at in rng.integers(0, len(damaged), 4):
             damaged[at] = rng.integers(0, 256)
         told = told_of(bytes(damaged), file_format)
         assert told is None or all(told)
-        refused += told is not None
-    assert refused > 10
+        rejected += told is not None
+    assert rejected > 10
 
 
 def test_a_file_too_large_is_refused_unread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

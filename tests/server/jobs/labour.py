@@ -21,7 +21,7 @@ def go_back(report: Report) -> list[float]:
     return [os.nice(0), os.getpid()]
 
 
-def refuse(_report: Report, *, slices: int) -> None:
+def reject(_report: Report, *, slices: int) -> None:
     raise InvalidInput("TOO_FEW_SLICES", f"{slices} slices found", "Take more.", {"slices": slices})
 
 

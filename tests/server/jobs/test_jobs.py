@@ -72,17 +72,17 @@ def test_what_cannot_be_kept_has_failed(jobs: Jobs) -> None:
 
     failed = jobs.wait_for(jobs.start("adding", labour.add, {"a": 1, "b": 1}, conclude=keep).id)
     assert failed.state is JobState.FAILED
-    assert failed.trouble is not None
-    assert failed.trouble.code == "NO"
+    assert failed.problem is not None
+    assert failed.problem.code == "NO"
     assert failed.result is None
 
 
 def test_an_error_keeps_its_words(jobs: Jobs) -> None:
-    failed = jobs.wait_for(jobs.start("reading", labour.refuse, {"slices": 1}).id)
+    failed = jobs.wait_for(jobs.start("reading", labour.reject, {"slices": 1}).id)
     assert failed.state is JobState.FAILED
-    trouble = failed.trouble
-    assert trouble is not None
-    assert (trouble.code, trouble.message, trouble.remedy, trouble.context) == (
+    problem = failed.problem
+    assert problem is not None
+    assert (problem.code, problem.message, problem.remedy, problem.context) == (
         "TOO_FEW_SLICES",
         "1 slices found",
         "Take more.",
@@ -93,20 +93,20 @@ def test_an_error_keeps_its_words(jobs: Jobs) -> None:
 @pytest.mark.parametrize("work", [labour.blunder, labour.say_nothing_sensible])
 def test_a_mistake_of_the_program_tells_a_stranger_nothing(jobs: Jobs, work: object) -> None:
     failed = jobs.wait_for(jobs.start("reading", work).id)  # type: ignore[arg-type]  # either of two
-    assert failed.trouble is not None
-    assert failed.trouble.code == "JOB_FAILED"
+    assert failed.problem is not None
+    assert failed.problem.code == "JOB_FAILED"
     assert "Zaphod" not in str(failed)
 
 
 def test_a_violent_end_is_told_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
     killed = jobs.wait_for(jobs.start("dying", labour.die, {"folder": str(folder)}, folder=folder).id)
     assert killed.state is JobState.FAILED
-    assert killed.trouble is not None
-    assert killed.trouble.message == "the process that did the work ended by signal 9 (SIGKILL)"
+    assert killed.problem is not None
+    assert killed.problem.message == "the process that did the work ended by signal 9 (SIGKILL)"
     assert not folder.exists()
     left = jobs.wait_for(jobs.start("leaving", labour.leave).id)
-    assert left.trouble is not None
-    assert left.trouble.message == "the process that did the work ended with status 3"
+    assert left.problem is not None
+    assert left.problem.message == "the process that did the work ended with status 3"
 
 
 def test_cancelled_work_ends_at_once_and_leaves_nothing_behind(jobs: Jobs, folder: Path) -> None:
@@ -153,8 +153,8 @@ def test_a_disk_that_becomes_full_is_told_with_what_is_free(jobs: Jobs, folder: 
     job = jobs.wait_for(
         jobs.start("filling", labour.fill_the_disk, {"folder": str(folder)}, folder=folder).id
     )
-    assert job.trouble is not None
-    assert job.trouble.code == "STORE_FULL"
-    assert "MB are free" in job.trouble.message
-    assert job.trouble.context["free_bytes"] == pytest.approx(shutil.disk_usage(folder.parent).free, rel=0.05)
+    assert job.problem is not None
+    assert job.problem.code == "STORE_FULL"
+    assert "MB are free" in job.problem.message
+    assert job.problem.context["free_bytes"] == pytest.approx(shutil.disk_usage(folder.parent).free, rel=0.05)
     assert not folder.exists()

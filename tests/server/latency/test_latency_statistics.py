@@ -218,11 +218,11 @@ def test_a_hand_before_the_camera_leaves_its_codes_out() -> None:
     ],
 )
 def test_what_cannot_be_timed_is_refused_in_numbers(run: Run, code: str, said: str) -> None:
-    with pytest.raises(CalibrationError) as refused:
+    with pytest.raises(CalibrationError) as rejected:
         run.report()
-    assert refused.value.code == code
-    assert refused.value.message == said
-    assert refused.value.remedy.endswith(".")
+    assert rejected.value.code == code
+    assert rejected.value.message == said
+    assert rejected.value.remedy.endswith(".")
 
 
 def test_nothing_at_all_is_refused_too() -> None:

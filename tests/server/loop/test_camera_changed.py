@@ -70,17 +70,17 @@ def test_a_lens_that_moved_takes_the_numbers_and_alarms_by_its_name_until_it_is_
     assert words.sentence["en"] == "Focus changed from 120 to 135 since the calibration."
     assert words.sentence["de"] == "Fokus seit der Kalibrierung von 120 auf 135 verstellt."
     assert words.remedy["en"]
-    trouble = theatre.tracking.trouble
-    assert trouble is not None
-    assert trouble.code == "CAMERA_CHANGED"
-    assert "from 120 to 135" in trouble.message
-    assert "back to 120" in trouble.remedy
+    problem = theatre.tracking.problem
+    assert problem is not None
+    assert problem.code == "CAMERA_CHANGED"
+    assert "from 120 to 135" in problem.message
+    assert "back to 120" in problem.remedy
     assert [line["code"] for line in logs if line["log_level"] == "warning"] == ["CAMERA_CHANGED"]
     for _ in range(60):
         snapshot, alarms = theatre.show(CALIBRATED)
     assert isinstance(snapshot.deviations["drill"], Deviation)
     assert alarms.alarms == ()
-    assert theatre.tracking.trouble is None
+    assert theatre.tracking.problem is None
 
 
 @pytest.mark.parametrize(
@@ -99,7 +99,7 @@ def test_what_is_not_known_or_voids_nothing_alarms_nobody(
         snapshot, alarms = theatre.show(now)
     assert isinstance(snapshot.deviations["drill"], Deviation)
     assert alarms.alarms == ()
-    assert theatre.tracking.trouble is None
+    assert theatre.tracking.problem is None
 
 
 def test_without_a_calibration_no_control_counts() -> None:
@@ -108,7 +108,7 @@ def test_without_a_calibration_no_control_counts() -> None:
     shot = Shot(image=image, number=0, captured_at_s=1.0, source_time_s=1.0)
     snapshot = tracking.conclude(shot, skipped_images=0, controls={**CALIBRATED, FOCUS: 135})
     assert snapshot.watched.camera_changes == ()
-    assert tracking.trouble is None
+    assert tracking.problem is None
 
 
 def test_the_calibration_of_a_case_brings_its_own_controls() -> None:
@@ -133,6 +133,6 @@ def test_images_that_change_their_size_lose_their_millimetres_with_the_first_one
         at_s = 1.0 + number * PERIOD_S
         shot = Shot(image=shown, number=number, captured_at_s=at_s, source_time_s=at_s)
         snapshot = tracking.conclude(shot, skipped_images=0)
-        trouble = tracking.trouble
-        told.append((snapshot.setup.camera_calibrated, "" if trouble is None else trouble.code))
+        problem = tracking.problem
+        told.append((snapshot.setup.camera_calibrated, "" if problem is None else problem.code))
     assert told == [(True, ""), (False, "CAMERA_SIZE_MISMATCH"), (True, "")]

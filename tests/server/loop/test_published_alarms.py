@@ -107,17 +107,17 @@ def test_alarms_that_fail_are_told_and_the_picture_goes_on() -> None:
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]
     assert instant.snapshot is not None
-    assert instant.process.trouble is not None
-    assert instant.process.trouble.code == "ALARMS_FAILED"
-    assert instant.process.trouble.remedy.startswith("Do not navigate.")
+    assert instant.process.problem is not None
+    assert instant.process.problem.code == "ALARMS_FAILED"
+    assert instant.process.problem.remedy.startswith("Do not navigate.")
 
 
-def moments(rate_hz: float, deep_from_s: float, chance: random.Random) -> list[tuple[float, float, bool]]:
+def moments(rate_hz: float, deep_from_s: float, rng: random.Random) -> list[tuple[float, float, bool]]:
     """When images are ready, when they were grabbed, and whether they show it: one in ten is lost."""
-    made, ready_s, at_s = [], 0.0, chance.random() / rate_hz
+    made, ready_s, at_s = [], 0.0, rng.random() / rate_hz
     while at_s < deep_from_s + 1.0:
-        if chance.random() > 0.1:
-            ready_s = max(ready_s, at_s + chance.uniform(0.02, 0.08))
+        if rng.random() > 0.1:
+            ready_s = max(ready_s, at_s + rng.uniform(0.02, 0.08))
             made.append((ready_s, at_s, at_s >= deep_from_s))
         at_s += 1 / rate_hz
     return made
@@ -131,12 +131,12 @@ def test_too_deep_is_announced_within_a_quarter_of_a_second_of_its_image(
 
     Tracking takes 20 to 80 ms, and one image in ten is lost, on a clock of the test's own.
     """
-    chance, late_s, now = random.Random(5), [], [0.0]
+    rng, late_s, now = random.Random(5), [], [0.0]
     monkeypatch.setattr("server.loop.publisher.time.monotonic", lambda: now[0])
     shots = {deep: snapshot_of(tip_in_vertebra_mm=(0.0, 0.0, 41.0 if deep else 30.0)) for deep in (0, 1)}
     for _ in range(50):
         desk, now[0] = AlarmDesk(Config(), clock=lambda: now[0]), 0.0
-        stage, images = Stage(look=desk.look), moments(rate_hz, 0.5, chance)
+        stage, images = Stage(look=desk.look), moments(rate_hz, 0.5, rng)
         first_s = next(grabbed_s for _, grabbed_s, deep in images if deep)
         number = 0
         while desk.picture.sound is not Sound.HIGH:

@@ -3,7 +3,7 @@
 import pytest
 
 from server.alarms import no_alarms
-from server.live import ProcessState, ProcessStatus, SourceState, Trouble
+from server.live import Problem, ProcessState, ProcessStatus, SourceState
 from server.loop.board import Board
 from server.loop.publisher import Image, Look, Picture, Publisher
 from server.loop.report import Report, ReportPacker
@@ -14,7 +14,7 @@ from tracker.navigation.alarms import AlarmPicture
 
 RUNNING = ProcessStatus(state=ProcessState.STARTING)
 DEAD = ProcessStatus(
-    state=ProcessState.RESTARTING, restarts=1, trouble=Trouble(code="DEAD", message="m", remedy="r")
+    state=ProcessState.RESTARTING, restarts=1, problem=Problem(code="DEAD", message="m", remedy="r")
 )
 
 
@@ -162,5 +162,5 @@ def test_a_failing_overlay_is_told_and_shows_nothing() -> None:
     stage.publisher.publish_newest()
     instant = stage.hub.instants[-1]
     assert (instant.snapshot, instant.jpeg) == (None, b"")
-    assert instant.process.trouble is not None
-    assert instant.process.trouble.code == "OVERLAY_FAILED"
+    assert instant.process.problem is not None
+    assert instant.process.problem.code == "OVERLAY_FAILED"

@@ -1,11 +1,11 @@
-from server.live import Trouble
+from server.live import Problem
 from server.loop.report import Report, ReportPacker, ReportUnpacker
 from tests.server.loop.made import made_setup, made_snapshot, made_source
 
 
 def test_a_report_comes_out_as_it_went_in() -> None:
-    trouble = Trouble(code="C", message="m", remedy="r", context={"n": 1})
-    report = Report(source=made_source(3), trouble=trouble, tracked_images=2)
+    problem = Problem(code="C", message="m", remedy="r", context={"n": 1})
+    report = Report(source=made_source(3), problem=problem, tracked_images=2)
     assert ReportUnpacker().unpack(ReportPacker().pack(report)) == report
 
 

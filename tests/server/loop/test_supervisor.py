@@ -67,8 +67,8 @@ def shows_image(instant: Instant) -> bool:
 
 
 def is_compiling(instant: Instant) -> bool:
-    trouble = instant.process.trouble
-    return trouble is not None and trouble.code == "TRACKER_COMPILING"
+    problem = instant.process.problem
+    return problem is not None and problem.code == "TRACKER_COMPILING"
 
 
 def is_dead(instant: Instant) -> bool:
@@ -97,12 +97,12 @@ def test_a_killed_process_is_told_at_once_and_replaced(staged: Callable[[Target,
     dead = stage.hub.until(is_dead)
     assert dead.snapshot is None
     assert dead.jpeg == b""
-    assert dead.process.trouble is not None
-    assert dead.process.trouble.message == "the tracking process ended"
-    assert dead.process.trouble.context == {"pid": pid, "how": "by signal 9 (SIGKILL)"}
+    assert dead.process.problem is not None
+    assert dead.process.problem.message == "the tracking process ended"
+    assert dead.process.problem.context == {"pid": pid, "how": "by signal 9 (SIGKILL)"}
     again = stage.hub.until(shows_image, after=dead.sequence)
     assert again.process.restarts == 1
-    assert again.process.trouble is None
+    assert again.process.problem is None
     assert number(again) > number(before)
     sequences = [instant.sequence for instant in stage.hub.instants]
     assert sequences == list(range(len(sequences)))
@@ -117,8 +117,8 @@ def test_a_process_that_hangs_is_killed_and_replaced(staged: Callable[[Target, W
     pid = stage.supervisor.pid
     assert pid is not None
     dead = stage.hub.until(is_dead)
-    assert dead.process.trouble is not None
-    assert "limit 0.3 s" in dead.process.trouble.message
+    assert dead.process.problem is not None
+    assert "limit 0.3 s" in dead.process.problem.message
     stage.hub.until(shows_image, after=dead.sequence)
     assert not exists(pid)
 
@@ -128,13 +128,13 @@ def test_a_process_that_always_fails_is_given_up_and_tried_again_later(
 ) -> None:
     stage = staged(failing_worker, Watch(restarts=2, window_s=60.0, look_every_s=0.01))
     given_up = stage.hub.until(lambda instant: instant.process.state is ProcessState.GIVEN_UP)
-    trouble = given_up.process.trouble
+    problem = given_up.process.problem
     assert given_up.process.restarts == 2
-    assert trouble is not None
-    assert trouble.code == "TRACKING_GIVEN_UP"
-    assert "2 times within 60 s" in trouble.message
-    assert trouble.message.endswith("the last time: the tracking process ended")
-    assert trouble.remedy
+    assert problem is not None
+    assert problem.code == "TRACKING_GIVEN_UP"
+    assert "2 times within 60 s" in problem.message
+    assert problem.message.endswith("the last time: the tracking process ended")
+    assert problem.remedy
     stage.now_s = 60.0
     later = stage.hub.until(lambda instant: instant.process.restarts > 2, after=given_up.sequence)
     assert later.snapshot is None

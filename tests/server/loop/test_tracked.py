@@ -74,13 +74,13 @@ def test_a_file_that_comes_later_is_found_and_tracked_by_itself(
     hub = running[0].hub
     away = hub.until(lambda instant: instant.source.state is SourceState.RECONNECTING)
     assert away.snapshot is None
-    assert away.source.trouble is not None
-    assert away.source.trouble.code == "SOURCE_NOT_FOUND"
+    assert away.source.problem is not None
+    assert away.source.problem.code == "SOURCE_NOT_FOUND"
     film(tmp_path / "part.avi").replace(tmp_path / "v.avi")
     shown = hub.until(lambda instant: instant.snapshot is not None, after=away.sequence)
     assert shown.snapshot is not None
     assert shown.source.state is SourceState.RUNNING
-    assert shown.source.trouble is None
+    assert shown.source.problem is None
     assert set(shown.snapshot.sightings) == {"m"}
     assert not shown.snapshot.setup.camera_calibrated
     assert {"waiting", "navigation"} <= set(shown.snapshot.stage_ms)
@@ -107,10 +107,10 @@ def test_images_of_another_size_than_calibrated_are_shown_without_millimetres_an
     shown = running[0].hub.until(lambda instant: instant.snapshot is not None)
     assert shown.snapshot is not None
     assert not shown.snapshot.setup.camera_calibrated
-    assert shown.process.trouble is not None
-    assert shown.process.trouble.code == "CAMERA_SIZE_MISMATCH"
-    assert "64x48" in shown.process.trouble.message
-    assert "640x480" in shown.process.trouble.message
+    assert shown.process.problem is not None
+    assert shown.process.problem.code == "CAMERA_SIZE_MISMATCH"
+    assert "64x48" in shown.process.problem.message
+    assert "640x480" in shown.process.problem.message
 
 
 def test_a_case_that_is_opened_while_tracking_brings_its_camera(

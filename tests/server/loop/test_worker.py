@@ -152,11 +152,11 @@ def test_each_image_is_reported_with_its_number_and_the_counts_go_on(
 def test_an_image_that_the_tracker_refuses_becomes_trouble_and_the_next_one_ends_it(
     link: tuple[WorkerLink, KeptRing],
 ) -> None:
-    refusal = InvalidInput("IMAGE_ODD", "an image is odd", "Give an even one.")
-    reports = run_to_the_end(link, Failing(11, refusal))
-    troubles = [report.trouble.code if report.trouble else None for report in reports[1:4]]
+    rejection = InvalidInput("IMAGE_ODD", "an image is odd", "Give an even one.")
+    reports = run_to_the_end(link, Failing(11, rejection))
+    problems = [report.problem.code if report.problem else None for report in reports[1:4]]
     numbers = [report.snapshot.image_number if report.snapshot else None for report in reports[1:4]]
-    assert troubles == [None, "IMAGE_ODD", None]
+    assert problems == [None, "IMAGE_ODD", None]
     assert numbers == [10, None, 12]
 
 

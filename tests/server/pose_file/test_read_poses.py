@@ -189,7 +189,7 @@ def test_tracked_lines_bring_their_covariance_and_leave_out_what_was_not_seen(tm
 def test_one_of_several_markers_must_be_named(tmp_path: Path) -> None:
     file = tmp_path / "t.jsonl"
     file.write_text(tracked_line(MATRICES[0]) + tracked_line(MATRICES[1], name="awl"))
-    assert refused(file).code == "POSES_OF_SEVERAL_MARKERS"
+    assert rejected(file).code == "POSES_OF_SEVERAL_MARKERS"
     assert len(read_poses(file, marker="awl").records) == 1
     with pytest.raises(InvalidInput, match="only of awl, drill"):
         read_poses(file, marker="saw")
@@ -206,7 +206,7 @@ def test_metres_are_scaled_when_they_are_named_and_only_then(tmp_path: Path) -> 
         _ = read_poses(tmp_path / "m.npy").poses
 
 
-def refused(path: Path) -> InvalidInput:
+def rejected(path: Path) -> InvalidInput:
     with pytest.raises(InvalidInput) as caught:
         read_poses(path)
     assert caught.value.remedy
@@ -256,7 +256,7 @@ MIRRORED = MATRICES[0] @ np.diag([1.0, 1.0, -1.0, 1.0])
 )
 def test_a_mistake_is_told_with_its_place(tmp_path: Path, name: str, content: str, words: str) -> None:
     (tmp_path / name).write_text(content)
-    error = refused(tmp_path / name)
+    error = rejected(tmp_path / name)
     assert any(word in f"{error.message} {error.remedy}" for word in words.split("|"))
     assert name in f"{error.message}"
 
@@ -273,7 +273,7 @@ def test_what_is_no_file_of_poses_is_refused(tmp_path: Path, kind: str) -> None:
         path.write_bytes(path.read_bytes()[:300])
     if kind == "objects-npy":
         np.save(path, np.array([{"a": 1}], dtype=object), allow_pickle=True)
-    assert refused(path).code in {"POSES_NOT_FOUND", "POSES_UNREADABLE"}
+    assert rejected(path).code in {"POSES_NOT_FOUND", "POSES_UNREADABLE"}
 
 
 def test_rounded_rotations_are_made_whole(tmp_path: Path) -> None:

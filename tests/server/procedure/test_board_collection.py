@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from server.live import CameraStatus, ImageClock, Instant, LiveHub, SourceState, SourceStatus, Trouble
+from server.live import CameraStatus, ImageClock, Instant, LiveHub, Problem, SourceState, SourceStatus
 from server.procedure.board_collection import BoardCollection
 from tracker.camera import Board, CameraControl
 from tracker.errors import InvalidInput
@@ -50,7 +50,7 @@ class Camera:
         self.hub.publish(replace(instant, image=image))
         wanted = -1 if image is None else self._number
         deadline_s = time.monotonic() + DEADLINE_S
-        while self.collection.status.trouble is None and not (
+        while self.collection.status.problem is None and not (
             self.collection.status.said != before if source else self.collection.status.image_number == wanted
         ):
             assert time.monotonic() < deadline_s, "the image was not looked at"
@@ -87,8 +87,8 @@ def test_without_a_board_or_a_picture_it_says_so_and_waits(camera: Camera) -> No
     assert "hold it still" not in empty.said
     camera.show(None)
     assert camera.collection.status.said == "there is no picture"
-    gone = Trouble(code="CAMERA_GONE", message="the camera 0 gives no image", remedy="Plug it in.")
-    camera.show(None, SourceStatus(name="0", state=SourceState.RECONNECTING, trouble=gone))
+    gone = Problem(code="CAMERA_GONE", message="the camera 0 gives no image", remedy="Plug it in.")
+    camera.show(None, SourceStatus(name="0", state=SourceState.RECONNECTING, problem=gone))
     assert camera.collection.status.said == "there is no picture: the camera 0 gives no image"
     camera.show(None, SourceStatus(name="0", state=SourceState.ENDED))
     assert camera.collection.status.said == "there is no picture: the camera's images have ended"
@@ -101,10 +101,10 @@ def test_images_of_another_size_end_it_and_what_was_taken_stays(camera: Camera) 
     for image in images()[:2]:
         camera.show(image)
     camera.show(np.ascontiguousarray(np.pad(images()[2], ((0, 40), (0, 40), (0, 0)))))
-    trouble = camera.collection.status.trouble
-    assert trouble is not None
-    assert trouble.code == "IMAGE_SIZE_CHANGED"
-    assert "680x400" in trouble.message
+    problem = camera.collection.status.problem
+    assert problem is not None
+    assert problem.code == "IMAGE_SIZE_CHANGED"
+    assert "680x400" in problem.message
     assert len(camera.collection.taken) == 1
 
 
@@ -119,10 +119,10 @@ def test_a_lens_that_moves_between_two_views_ends_it(camera: Camera) -> None:
     assert camera.collection.controls == {CameraControl.FOCUS: 45, CameraControl.GAIN: 45}
     camera.show(images()[2], source(46))
     camera.show(images()[3], source(46))
-    trouble = camera.collection.status.trouble
-    assert trouble is not None
-    assert trouble.code == "CAMERA_CHANGED"
-    assert "focus of the camera changed from 45 to 46" in trouble.message
+    problem = camera.collection.status.problem
+    assert problem is not None
+    assert problem.code == "CAMERA_CHANGED"
+    assert "focus of the camera changed from 45 to 46" in problem.message
     assert len(camera.collection.taken) == 1
 
 

@@ -40,7 +40,7 @@ def test_a_slow_look_skips_to_the_newest_instant(instant_of: InstantOf) -> None:
     looks.go_on.release()
     follower.stop()
     assert looks.sequences == [4, 7]
-    assert follower.trouble is None
+    assert follower.problem is None
 
 
 def test_what_a_look_raises_ends_it_and_is_told(instant_of: InstantOf) -> None:
@@ -53,6 +53,6 @@ def test_what_a_look_raises_ends_it_and_is_told(instant_of: InstantOf) -> None:
         hub.publish(instant_of(0))
         looks.go_on.release()
         follower._thread.join(30.0)
-        assert follower.trouble is not None
-        assert follower.trouble.code == code
+        assert follower.problem is not None
+        assert follower.problem.code == code
         follower.stop()

@@ -39,7 +39,7 @@ def test_only_the_camera_is_let_in(sent: bytes | str | None, verdict: Verdict) -
     gate = Gate(counts={})
     assert gate.judge(sent, now_s=0.0) is verdict
     assert gate.counts == {verdict: 1}
-    assert gate.refusals == (verdict is not Verdict.CAMERA)
+    assert gate.rejections == (verdict is not Verdict.CAMERA)
 
 
 def test_a_flood_is_cut_and_the_allowance_comes_back() -> None:

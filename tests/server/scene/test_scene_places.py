@@ -26,9 +26,9 @@ def test_one_person_has_eight_places_and_takes_none_from_others_or_from_pictures
 
         for _ in range(8):
             watch("/scene", "s1")
-        with pytest.raises(WebSocketDisconnect) as refused:
+        with pytest.raises(WebSocketDisconnect) as rejected:
             watch("/scene", "s1")
-        assert refused.value.code == CROWDED
+        assert rejected.value.code == CROWDED
         assert app.state.scene.viewers == 8
         watch("/scene", "s2")
         watch("/ws/live", "s1")

@@ -150,9 +150,9 @@ def test_one_bad_instant_hides_the_drill_and_the_next_is_shown(
 )
 def test_a_stranger_is_refused_before_the_handshake(theatre: Theatre, wish: dict[str, str]) -> None:
     with running(theatre) as server:
-        with pytest.raises(InvalidStatus) as refused, viewer(server, **wish):
+        with pytest.raises(InvalidStatus) as rejected, viewer(server, **wish):
             pass
-        assert refused.value.response.status_code == 403
+        assert rejected.value.response.status_code == 403
         assert server.app.state.scene.viewers == 0
 
 

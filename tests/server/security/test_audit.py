@@ -230,7 +230,7 @@ def test_half_a_letter_is_written_as_its_number_and_holds_nothing_up(log: AuditL
 
 def test_refusals_are_written_so_often_and_no_more(log: AuditLog) -> None:
     for _ in range(200):
-        log.refused(Entry(who=ANYBODY, what="POST /api/session", status=403))
+        log.rejected(Entry(who=ANYBODY, what="POST /api/session", status=403))
     assert log.head.count == LINES + 60
     assert b"more was refused" in log.newest(1)[0]
 

@@ -94,7 +94,7 @@ def test_signing_out_ends_the_session_itself(house: Guarded) -> None:
 def test_a_cookie_alone_changes_nothing_for_another_page(house: Guarded, headers: dict[str, str]) -> None:
     enter(house, house.invited())
     told = house.door.post("/api/cases", json={"name": "L3"}, headers=headers)
-    assert (told.status_code, told.json()["code"]) == (403, "ORIGIN_REFUSED")
+    assert (told.status_code, told.json()["code"]) == (403, "ORIGIN_REJECTED")
     assert house.store.list() == ()
 
 
@@ -142,7 +142,7 @@ def test_refused_tries_are_written_and_opening_the_page_is_none(house: Guarded) 
     assert house.people.audit.head.count == 0
     house.door.post("/api/cases", json={"name": "L3"}, headers=house.bearer(Role.VIEWER))
     line = last_line(house)
-    assert (line["what"], line["status"], line["code"]) == ("POST /api/cases", 403, "ROLE_REFUSED")
+    assert (line["what"], line["status"], line["code"]) == ("POST /api/cases", 403, "ROLE_REJECTED")
     house.door.get("/api/live", headers={"Authorization": "Bearer x"})
     assert last_line(house)["code"] == "SESSION_EXPIRED"
     enter(house, "x")
@@ -207,9 +207,9 @@ def test_a_session_that_ends_takes_its_sockets_and_pictures_with_it(house: Guard
                 for _ in pictures:
                     pass
             assert stays.ping().wait(5)
-            with pytest.raises(InvalidStatus) as refused:
+            with pytest.raises(InvalidStatus) as rejected:
                 connect(f"{address}/ws/live", additional_headers=headers, proxy=None)
-            assert refused.value.response.status_code == 401
+            assert rejected.value.response.status_code == 401
             house.clock.passes(hours=11)
             with pytest.raises(ConnectionClosed):
                 stays.recv(timeout=2)
@@ -222,9 +222,9 @@ def test_a_socket_with_a_cookie_must_say_its_page(house: Guarded) -> None:
         with connect(address, additional_headers={**cookie, "Origin": own}, proxy=None):
             pass
         for headers in (cookie, {**cookie, "Origin": "http://127.0.0.1:1"}):
-            with pytest.raises(InvalidStatus) as refused:
+            with pytest.raises(InvalidStatus) as rejected:
                 connect(address, additional_headers=headers, proxy=None)
-            assert refused.value.response.status_code == 403
+            assert rejected.value.response.status_code == 403
 
 
 def test_where_nobody_has_to_sign_in_all_is_open_and_written_all_the_same(tmp_path: Path) -> None:

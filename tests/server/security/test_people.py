@@ -12,11 +12,11 @@ import pytest
 from server.security import PeopleDesk, Role
 from server.security.people import Token, kept
 from server.security.people.desk import PEOPLE_FILE, Wanted
-from server.security.refusals import (
-    InvitationRefused,
-    PeopleRefused,
+from server.security.rejections import (
+    InvitationRejected,
+    PeopleRejected,
     PersonUnknown,
-    SessionRefused,
+    SessionRejected,
     TooManyTries,
 )
 from server.store import StoreError
@@ -45,9 +45,9 @@ def test_an_invitation_lets_in_once_with_its_name_and_role(desk: PeopleDesk) -> 
     session, token = desk.enter(link, address=HERE)
     assert desk.who(token.text, address=HERE) == session
     assert (session.person.name, session.person.role) == ("Dr. Ito", Role.SUPERVISOR)
-    with pytest.raises(InvitationRefused) as refused:
+    with pytest.raises(InvitationRejected) as rejected:
         desk.enter(link, address=HERE)
-    assert refused.value.code == "INVITATION_USED"
+    assert rejected.value.code == "INVITATION_USED"
 
 
 def test_who_invited_somebody_is_known_of_them_over_a_restart(tmp_path: Path, clock: Clock) -> None:
@@ -72,9 +72,9 @@ def test_one_for_many_lets_in_many_as_the_same_person_until_its_time_is_over(
     assert first.id != second.id
     assert first.person == second.person
     clock.passes(hours=1)
-    with pytest.raises(InvitationRefused) as refused:
+    with pytest.raises(InvitationRejected) as rejected:
         desk.enter(link, address=HERE)
-    assert refused.value.code == "INVITATION_EXPIRED"
+    assert rejected.value.code == "INVITATION_EXPIRED"
 
 
 def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(desk: PeopleDesk) -> None:
@@ -82,9 +82,9 @@ def test_one_that_was_taken_back_lets_nobody_in_and_leaves_who_is_in(desk: Peopl
     session, _ = desk.enter(link, address=HERE)
     desk.revoke(session.invitation_id)
     assert desk.holds(session.id)
-    with pytest.raises(InvitationRefused) as refused:
+    with pytest.raises(InvitationRejected) as rejected:
         desk.enter(link, address=HERE)
-    assert refused.value.code == "INVITATION_REVOKED"
+    assert rejected.value.code == "INVITATION_REVOKED"
 
 
 def test_a_session_ends_by_the_clock_and_when_somebody_ends_it(desk: PeopleDesk, clock: Clock) -> None:
@@ -96,9 +96,9 @@ def test_a_session_ends_by_the_clock_and_when_somebody_ends_it(desk: PeopleDesk,
     assert desk.holds(session.id)
     clock.passes(minutes=1)
     for shown in (token, other_token):
-        with pytest.raises(SessionRefused) as refused:
+        with pytest.raises(SessionRejected) as rejected:
             desk.who(shown.text, address=HERE)
-        assert refused.value.code == "SESSION_EXPIRED"
+        assert rejected.value.code == "SESSION_EXPIRED"
     with pytest.raises(PersonUnknown):
         desk.end(session.id)
 
@@ -122,14 +122,14 @@ def test_a_right_name_with_a_wrong_secret_opens_nothing(desk: PeopleDesk) -> Non
     session, token = desk.enter(invited(desk), address=HERE)
     wrong = f"{session.id}.{'A' * 43}"
     assert wrong != token.text
-    with pytest.raises(SessionRefused):
+    with pytest.raises(SessionRejected):
         desk.who(wrong, address=HERE)
 
 
 def test_guesses_are_limited_by_address_and_wait_a_minute(desk: PeopleDesk, clock: Clock) -> None:
     link = invited(desk)
     for number in range(10):
-        with pytest.raises(InvitationRefused):
+        with pytest.raises(InvitationRejected):
             desk.enter(f"{number:012x}.{'A' * 43}", address=HERE)
         clock.passes(seconds=1)
     with pytest.raises(TooManyTries) as told:
@@ -138,21 +138,21 @@ def test_guesses_are_limited_by_address_and_wait_a_minute(desk: PeopleDesk, cloc
     with pytest.raises(TooManyTries):
         desk.who("nonsense", address=HERE)
     # Somebody elsewhere is not kept waiting by that, and neither is who has the right link, or is in already.
-    with pytest.raises(InvitationRefused):
+    with pytest.raises(InvitationRejected):
         desk.enter("x", address="192.0.2.8")
     session, token = desk.enter(link, address=HERE)
     assert desk.who(token.text, address=HERE) == session
-    with pytest.raises(InvitationRefused) as used:
+    with pytest.raises(InvitationRejected) as used:
         desk.enter(link, address=HERE)
     assert used.value.code == "INVITATION_USED"
     clock.passes(seconds=50)
-    with pytest.raises(InvitationRefused):
+    with pytest.raises(InvitationRejected):
         desk.enter("x", address=HERE)
 
 
 def test_guesses_from_everywhere_are_limited_together(desk: PeopleDesk) -> None:
     for number in range(100):
-        with pytest.raises(SessionRefused):
+        with pytest.raises(SessionRejected):
             desk.who("x", address=f"192.0.2.{number}")
     with pytest.raises(TooManyTries):
         desk.who("x", address="198.51.100.1")
@@ -160,11 +160,11 @@ def test_guesses_from_everywhere_are_limited_together(desk: PeopleDesk) -> None:
 
 def test_neighbours_in_one_network_of_the_new_kind_count_as_one(desk: PeopleDesk) -> None:
     for number in range(10):
-        with pytest.raises(SessionRefused):
+        with pytest.raises(SessionRejected):
             desk.who("x", address=f"2001:db8::{number}")
     with pytest.raises(TooManyTries):
         desk.who("x", address="2001:db8::ffff")
-    with pytest.raises(SessionRefused):
+    with pytest.raises(SessionRejected):
         desk.who("x", address="2001:db8:0:1::1")
 
 
@@ -175,9 +175,9 @@ def test_the_operators_link_comes_until_an_operator_is_in_and_the_old_one_ends(
     second = desk.operator_token(wanted=False)
     assert first is not None
     assert second is not None
-    with pytest.raises(InvitationRefused) as refused:
+    with pytest.raises(InvitationRejected) as rejected:
         desk.enter(first.text, address=HERE)
-    assert refused.value.code == "INVITATION_REVOKED"
+    assert rejected.value.code == "INVITATION_REVOKED"
     session, _ = desk.enter(second.text, address=HERE)
     assert session.person.role is Role.OPERATOR
     assert desk.operator_token(wanted=False) is None
@@ -218,10 +218,10 @@ def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_ar
     desk.enter(invited(desk), address=HERE)
     for _ in range(9):
         invited(desk)
-    with pytest.raises(PeopleRefused) as told:
+    with pytest.raises(PeopleRejected) as told:
         invited(desk)
     assert told.value.code == "TOO_MANY_PEOPLE"
-    with pytest.raises(PeopleRefused):
+    with pytest.raises(PeopleRejected):
         desk.enter(link, address=HERE)
     desk.end(held.id)
     invited(desk)
@@ -234,10 +234,10 @@ def test_ended_sessions_make_room_and_the_operator_gets_in_however_many_there_ar
 def test_one_link_lets_in_twenty_at_a_time(desk: PeopleDesk) -> None:
     link = invited(desk, single_use=False)
     sessions = [desk.enter(link, address=HERE)[0] for _ in range(20)]
-    with pytest.raises(InvitationRefused) as refused:
+    with pytest.raises(InvitationRejected) as rejected:
         desk.enter(link, address=HERE)
-    assert refused.value.code == "INVITATION_FULL"
-    assert "20 are signed in by this link" in refused.value.message
+    assert rejected.value.code == "INVITATION_FULL"
+    assert "20 are signed in by this link" in rejected.value.message
     assert all(desk.holds(one.id) for one in sessions)
     desk.end(sessions[0].id)
     desk.enter(link, address=HERE)

@@ -119,9 +119,9 @@ def test_each_address_lets_in_whom_the_table_names_and_nobody_else(
         signs_out = rule.name == "DELETE /api/session"
         status, code = asked_of(house, rule, house.bearer(role) if signs_out else bearers[role])
         if role in rule.roles:
-            assert code not in {"ROLE_REFUSED", "SESSION_NEEDED", "SESSION_EXPIRED"}, (role, status, code)
+            assert code not in {"ROLE_REJECTED", "SESSION_NEEDED", "SESSION_EXPIRED"}, (role, status, code)
         else:
-            assert (status, code) == (403, "ROLE_REFUSED"), role
+            assert (status, code) == (403, "ROLE_REJECTED"), role
 
 
 def test_who_is_not_signed_in_is_told_one_word(house: Guarded) -> None:

@@ -23,7 +23,7 @@ from server.app import AppParts, create_app
 from server.config import Config
 from server.errors import ConfigError
 from server.live import LiveHub
-from server.security.tls import chosen_tls, handshake, refuse_unsafe, self_made
+from server.security.tls import chosen_tls, handshake, reject_unsafe, self_made
 from server.security.tls.choose import PROXY_WORDS
 from server.security.tls.self_made import kept_or_made
 from tests.served import served
@@ -60,22 +60,22 @@ def test_a_proxy_speaks_it_only_where_the_settings_say_so_in_words(tmp_path: Pat
 def test_without_sign_in_no_other_address_is_served() -> None:
     off = Config.model_validate({"server": {"host": "192.0.2.1"}, "security": {"sign_in": "off"}})
     with pytest.raises(ConfigError) as told:
-        refuse_unsafe(off)
+        reject_unsafe(off)
     assert told.value.code == "SIGN_IN_NEEDED"
-    refuse_unsafe(Config.model_validate({"security": {"sign_in": False}}))
+    reject_unsafe(Config.model_validate({"security": {"sign_in": False}}))
     proxied = {"server": {"behind_proxy": PROXY_WORDS}, "security": {"sign_in": "off"}}
     with pytest.raises(ConfigError) as told:
-        refuse_unsafe(Config.model_validate(proxied))
+        reject_unsafe(Config.model_validate(proxied))
     assert told.value.code == "SIGN_IN_NEEDED"
-    refuse_unsafe(config_of(host="192.0.2.1"))
+    reject_unsafe(config_of(host="192.0.2.1"))
 
 
 @pytest.mark.parametrize("what", ["plan", "registration"])
 def test_nobody_is_a_second_person_where_nobody_signs_in(what: str) -> None:
     required = {"supervision": {"cosign": {what: "required"}}}
-    refuse_unsafe(Config.model_validate(required))
+    reject_unsafe(Config.model_validate(required))
     with pytest.raises(ConfigError) as told:
-        refuse_unsafe(Config.model_validate({**required, "security": {"sign_in": "off"}}))
+        reject_unsafe(Config.model_validate({**required, "security": {"sign_in": "off"}}))
     assert told.value.code == "SIGN_IN_NEEDED"
     assert "cosign" in told.value.message
 
@@ -184,7 +184,7 @@ def test_a_good_one_is_served_on_loopback_too_and_half_of_one_is_refused(
     assert tls is not None
     assert not tls.self_made
     with pytest.raises(ConfigError) as told:
-        refuse_unsafe(config_of(tls={"key": own["key"]}))
+        reject_unsafe(config_of(tls={"key": own["key"]}))
     assert told.value.code == "TLS_HALF"
 
 

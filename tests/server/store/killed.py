@@ -160,13 +160,13 @@ def write_for_ever(folder: Path, *, seed: int, fault: str) -> None:
         _acknowledge_before_commit()
     if fault == "name-early":
         _record_before_naming()
-    chance = random.Random(seed)
+    rng = random.Random(seed)
     with Home(folder) as home, CaseStore(home) as store:
         cases = [case.id for case in store.list()]
         while True:
-            act = chance.random()
+            act = rng.random()
             if not cases or (act < 0.1 and len(cases) < 6):
-                case = store.create(f"case {chance.random()}")
+                case = store.create(f"case {rng.random()}")
                 cases.append(case.id)
                 _say("case", case.id, name=case.name)
             elif act < 0.15 and len(cases) > 2:
@@ -175,19 +175,19 @@ def write_for_ever(folder: Path, *, seed: int, fault: str) -> None:
                 store.delete(case_id, confirm=store.get(case_id).name)
                 _say("gone", case_id)
             elif act < 0.2:
-                archive = store.copy_out(chance.choice(cases), with_identity=True)
+                archive = store.copy_out(rng.choice(cases), with_identity=True)
                 case = store.copy_in(archive.path, by="M. Ito")
                 archive.path.unlink()
                 cases.append(case.id)
                 _say("case", case.id, name=case.name)
             elif act < 0.5:
-                _write_file(store, chance.choice(cases), chance)
+                _write_file(store, rng.choice(cases), rng)
             else:
-                _write_document(store, chance.choice(cases), chance)
+                _write_document(store, rng.choice(cases), rng)
 
 
-def _write_file(store: CaseStore, case_id: str, chance: random.Random) -> None:
-    content = chance.randbytes(chance.randrange(1, 2_000_000))
+def _write_file(store: CaseStore, case_id: str, rng: random.Random) -> None:
+    content = rng.randbytes(rng.randrange(1, 2_000_000))
     with store.new_file(case_id, ".bin") as new, new.path.open("wb") as stream:
         for at in range(0, len(content), 65_536):
             stream.write(content[at : at + 65_536])
@@ -195,10 +195,10 @@ def _write_file(store: CaseStore, case_id: str, chance: random.Random) -> None:
     _say("file", case_id, id=new.stored.id, sha256=hashlib.sha256(content).hexdigest())
 
 
-def _write_document(store: CaseStore, case_id: str, chance: random.Random) -> None:
+def _write_document(store: CaseStore, case_id: str, rng: random.Random) -> None:
     name, content = (
-        f"n{chance.randrange(3)}",
-        {"number": chance.random(), "text": "x" * chance.randrange(20_000)},
+        f"n{rng.randrange(3)}",
+        {"number": rng.random(), "text": "x" * rng.randrange(20_000)},
     )
     document = store.put(case_id, DocumentKind.PLAN, name, content, made_by="child")
     _say_document(document)
@@ -257,7 +257,7 @@ def main() -> None:
     if given.forker:
         fork_for_ever(fault=given.fault)
         return
-    chance, found, confirmed = random.Random(given.seed), [], 0
+    rng, found, confirmed = random.Random(given.seed), [], 0
     with tempfile.TemporaryDirectory() as folder, Writers(given.fault) as writers:
         promised = Promised()
         for number in range(given.times):
@@ -265,7 +265,7 @@ def main() -> None:
                 confirmed += promised.count
                 promised, home = Promised(), Path(folder) / f"{number}"
             seed = given.seed * 1_000_000 + number
-            changes, after_s = chance.randrange(given.max_changes), chance.uniform(0, given.longest_s)
+            changes, after_s = rng.randrange(given.max_changes), rng.uniform(0, given.longest_s)
             writers.kill_once(home, promised, after_changes=changes, after_s=after_s, seed=seed)
             found += [f"kill {number}: {one}" for one in broken_promises(home, promised)]
         confirmed += promised.count

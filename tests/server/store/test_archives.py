@@ -221,10 +221,10 @@ def test_a_hostile_archive_is_refused_whole(
         parts = parts_of(written(tmp_path, parts))
     change(parts)
     before = everything_in(home)
-    with pytest.raises(InvalidInput) as refused:
+    with pytest.raises(InvalidInput) as rejected:
         store.copy_in(written(tmp_path, parts, fix_manifest=agreeing), by="M. Ito")
-    assert said in refused.value.message
-    assert refused.value.code == ("ARCHIVE_NEWER" if "reads form" in said else "ARCHIVE_INVALID")
+    assert said in rejected.value.message
+    assert rejected.value.code == ("ARCHIVE_NEWER" if "reads form" in said else "ARCHIVE_INVALID")
     assert everything_in(home) == before
     assert store.list() == (store.get(case.id),)
 
@@ -302,17 +302,17 @@ def test_a_damaged_file_is_not_copied_out(store: CaseStore, home: Home, case: Ca
 def test_a_case_is_not_deleted_while_it_is_copied_out(
     store: CaseStore, case: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    refusals: list[str] = []
+    rejections: list[str] = []
 
     def all_files(*asked: object) -> tuple[()]:
         del asked
-        with pytest.raises(StoreConflict) as refused:
+        with pytest.raises(StoreConflict) as rejected:
             store.delete(case.id, confirm=PATIENT)
-        refusals.append(refused.value.code)
+        rejections.append(rejected.value.code)
         return ()
 
     monkeypatch.setattr("server.store.archive.packing.all_files", all_files)
     # Inside the reading transaction a writer of the same thread must not wait for itself either.
     store.copy_out(case.id)
-    assert refusals == ["CASE_IN_USE"]
+    assert rejections == ["CASE_IN_USE"]
     store.delete(case.id, confirm=PATIENT)

@@ -60,10 +60,10 @@ def test_a_new_name_is_kept(store: CaseStore) -> None:
 @pytest.mark.parametrize("confirm", ["", "two", "ONE", "one two"])
 def test_a_case_is_deleted_only_by_its_name(store: CaseStore, confirm: str) -> None:
     case = store.create("one")
-    with pytest.raises(InvalidInput) as refused:
+    with pytest.raises(InvalidInput) as rejected:
         store.delete(case.id, confirm=confirm)
-    assert refused.value.code == "CONFIRMATION_WRONG"
-    assert "one" not in refused.value.message.split()
+    assert rejected.value.code == "CONFIRMATION_WRONG"
+    assert "one" not in rejected.value.message.split()
     assert store.list() == (case,)
 
 
@@ -75,9 +75,9 @@ def test_an_open_case_and_one_that_is_written_are_not_deleted(store: CaseStore) 
     store.close()
     with store.new_file(case.id, ".bin") as new:
         new.path.write_bytes(b"x")
-        with pytest.raises(StoreConflict) as refused:
+        with pytest.raises(StoreConflict) as rejected:
             store.delete(case.id, confirm="one")
-    assert refused.value.code == "CASE_IN_USE"
+    assert rejected.value.code == "CASE_IN_USE"
     store.delete(case.id, confirm="one")
     assert store.list() == ()
 

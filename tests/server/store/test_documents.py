@@ -142,9 +142,9 @@ def test_a_change_made_on_another_version_is_refused_with_both_numbers(
     ],
 )
 def test_what_json_cannot_say_is_refused(store: CaseStore, case_id: str, content: object, said: str) -> None:
-    with pytest.raises(InvalidInput, match=said) as refused:
+    with pytest.raises(InvalidInput, match=said) as rejected:
         store.put(case_id, PLAN, "a", content, made_by="ito")  # type: ignore[arg-type]  # wrong on purpose
-    assert refused.value.code == "CONTENT_NOT_JSON"
+    assert rejected.value.code == "CONTENT_NOT_JSON"
     assert store.history(case_id, PLAN, "a") == ()
 
 
@@ -160,9 +160,9 @@ def test_a_bottomless_and_a_huge_content_are_refused(store: CaseStore, case_id: 
 
 @pytest.mark.parametrize("name", ["", "   ", "a\nb", "a\0b", "x" * 201, "\ud800"])
 def test_a_name_that_nobody_can_read_is_refused(store: CaseStore, case_id: str, name: str) -> None:
-    with pytest.raises(InvalidInput) as refused:
+    with pytest.raises(InvalidInput) as rejected:
         store.put(case_id, PLAN, name, {}, made_by="ito")
-    assert refused.value.code == "NAME_INVALID"
+    assert rejected.value.code == "NAME_INVALID"
 
 
 def test_documents_stand_only_on_documents_of_their_own_case(store: CaseStore, put: Put) -> None:
@@ -175,9 +175,9 @@ def test_documents_stand_only_on_documents_of_their_own_case(store: CaseStore, p
 
 def test_nothing_stands_on_who_the_patient_is(store: CaseStore, put: Put, case_id: str) -> None:
     patient = put(DocumentKind.PATIENT)
-    with pytest.raises(InvalidInput) as refused:
+    with pytest.raises(InvalidInput) as rejected:
         store.put(case_id, PLAN, "a", {}, made_by="ito", stands_on=[patient.id])
-    assert refused.value.code == "STANDS_ON_IDENTITY"
+    assert rejected.value.code == "STANDS_ON_IDENTITY"
 
 
 def test_what_a_reader_does_to_a_content_reaches_nobody_else(store: CaseStore, put: Put) -> None:

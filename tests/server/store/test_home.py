@@ -48,9 +48,9 @@ def test_two_servers_never_share_a_folder(tmp_path: Path) -> None:
     ):
         assert other.stdout is not None
         assert other.stdout.readline() == b"mine\n"
-        with pytest.raises(StoreError, match="another Coaxial is running with the folder") as refused:
+        with pytest.raises(StoreError, match="another Coaxial is running with the folder") as rejected:
             Home(tmp_path)
-        assert refused.value.code == "HOME_IN_USE"
+        assert rejected.value.code == "HOME_IN_USE"
         other.kill()
     Home(tmp_path).close()
 
@@ -63,10 +63,10 @@ def test_a_disk_without_locks_is_refused_with_a_remedy(
         raise said
 
     monkeypatch.setattr(filelock.FileLock, "acquire", acquire)
-    with pytest.raises(StoreError, match="gives no locks") as refused:
+    with pytest.raises(StoreError, match="gives no locks") as rejected:
         Home(tmp_path)
-    assert refused.value.code == "HOME_NOT_LOCKABLE"
-    assert "COAXIAL_HOME" in refused.value.remedy
+    assert rejected.value.code == "HOME_NOT_LOCKABLE"
+    assert "COAXIAL_HOME" in rejected.value.remedy
 
 
 def test_a_refused_second_server_does_not_touch_the_work_of_the_first(home: Home) -> None:
@@ -226,23 +226,23 @@ def test_a_full_disk_is_told_and_costs_nothing_that_was_confirmed(store: CaseSto
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
 def test_a_folder_that_may_not_be_written_is_told(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
-    with pytest.raises(StoreError) as refused:
+    with pytest.raises(StoreError) as rejected:
         Home(tmp_path)
-    assert refused.value.code == "STORE_READ_ONLY"
-    assert "COAXIAL_HOME" in refused.value.remedy
+    assert rejected.value.code == "STORE_READ_ONLY"
+    assert "COAXIAL_HOME" in rejected.value.remedy
 
 
 def test_a_database_that_may_not_be_written_is_told(store: CaseStore) -> None:
     pool = store._ledger._engine.raw_connection()
     pool.driver_connection.execute("PRAGMA query_only = ON")  # type: ignore[union-attr]  # SQLite's own
     pool.close()
-    with pytest.raises(StoreError) as refused:
+    with pytest.raises(StoreError) as rejected:
         store.create("one")
-    assert refused.value.code == "STORE_READ_ONLY"
+    assert rejected.value.code == "STORE_READ_ONLY"
 
 
 def test_a_home_that_is_a_file_is_told(tmp_path: Path) -> None:
     (tmp_path / "home").write_text("x")
-    with pytest.raises(StoreError) as refused:
+    with pytest.raises(StoreError) as rejected:
         Home(tmp_path / "home")
-    assert refused.value.code == "STORE_FAILED"
+    assert rejected.value.code == "STORE_FAILED"

@@ -66,9 +66,9 @@ def test_one_person_does_not_take_the_places_of_all(
                 opened(path, "v1").receive_text()
             assert told.value.code == 1013
             assert "Guest has 8 lines open already" in str(told.value.reason)
-        refused = client.get("/video/main.mjpg", headers={"x-person": "v1"})
-        assert (refused.status_code, refused.json()["code"]) == (503, "TOO_MANY_VIEWERS")
-        assert "a page of yours" in refused.json()["remedy"]
+        rejected = client.get("/video/main.mjpg", headers={"x-person": "v1"})
+        assert (rejected.status_code, rejected.json()["code"]) == (503, "TOO_MANY_VIEWERS")
+        assert "a page of yours" in rejected.json()["remedy"]
         for one in (seats[0], opened("/ws/room?view=operator", "o1")):
             one.send_json({"next": True})
             assert one.receive_json()["people"]
@@ -77,6 +77,6 @@ def test_one_person_does_not_take_the_places_of_all(
 
 def test_who_is_refused_does_not_count(client: TestClient, open_socket: OpenSocket) -> None:
     for _ in range(3):
-        with open_socket("/ws/view?size=tiny") as refused, pytest.raises(WebSocketDisconnect):
-            refused.receive_bytes()
+        with open_socket("/ws/view?size=tiny") as rejected, pytest.raises(WebSocketDisconnect):
+            rejected.receive_bytes()
     assert 'coaxial_viewers{kind="view"} 0.0' in client.get("/metrics").text

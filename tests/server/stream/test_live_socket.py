@@ -32,7 +32,7 @@ def test_each_instant_is_told_with_or_without_an_image(
         hub.publish(instant_of(1, process=ProcessStatus(state=ProcessState.RESTARTING, restarts=1)))
         told = socket.receive_json()
         assert told["snapshot"] is None
-        assert told["process"] == {"state": "restarting", "restarts": 1, "trouble": None}
+        assert told["process"] == {"state": "restarting", "restarts": 1, "problem": None}
         hub.publish(live_instant(2))
         assert socket.receive_json()["sequence"] == 2
 
@@ -50,8 +50,8 @@ def test_one_who_talks_is_told_not_to(open_socket: OpenSocket) -> None:
 @pytest.mark.parametrize(
     ("headers", "status", "code"),
     [
-        ({"Origin": "http://evil.example"}, 403, "ORIGIN_REFUSED"),
-        ({"Origin": "null"}, 403, "ORIGIN_REFUSED"),
+        ({"Origin": "http://evil.example"}, 403, "ORIGIN_REJECTED"),
+        ({"Origin": "null"}, 403, "ORIGIN_REJECTED"),
         ({"Host": "evil.example"}, 421, "HOST_UNKNOWN"),
         ({"Host": "evil.example", "Origin": "http://evil.example"}, 421, "HOST_UNKNOWN"),
     ],

@@ -5,13 +5,13 @@ from datetime import datetime
 
 import pytest
 
-from server.live import Instant, ProcessState, ProcessStatus, SourceState, SourceStatus, Trouble
+from server.live import Instant, Problem, ProcessState, ProcessStatus, SourceState, SourceStatus
 from server.stream.no_video import NoVideoCard, reasons_for_no_video
 from tracker.navigation import NavigationSnapshot
 
 InstantOf = Callable[..., Instant]
-GONE = Trouble(code="CAMERA_GONE", message="camera 0 gives no image", remedy="Plug it in.")
-DIED = Trouble(code="DIED", message="tracking died 5 times in a minute", remedy="Restart the server.")
+GONE = Problem(code="CAMERA_GONE", message="camera 0 gives no image", remedy="Plug it in.")
+DIED = Problem(code="DIED", message="tracking died 5 times in a minute", remedy="Restart the server.")
 NOON = datetime(2026, 1, 1, 12, 0, 0).astimezone()
 
 
@@ -19,14 +19,14 @@ NOON = datetime(2026, 1, 1, 12, 0, 0).astimezone()
     ("process", "source", "reasons"),
     [
         pytest.param(
-            ProcessStatus(state=ProcessState.GIVEN_UP, trouble=DIED),
-            SourceStatus(name="0", state=SourceState.RECONNECTING, trouble=GONE),
+            ProcessStatus(state=ProcessState.GIVEN_UP, problem=DIED),
+            SourceStatus(name="0", state=SourceState.RECONNECTING, problem=GONE),
             ("Tracking died 5 times in a minute.", "Restart the server."),
             id="the-process-first",
         ),
         pytest.param(
             ProcessStatus(state=ProcessState.RUNNING),
-            SourceStatus(name="0", state=SourceState.RECONNECTING, trouble=GONE),
+            SourceStatus(name="0", state=SourceState.RECONNECTING, problem=GONE),
             ("Camera 0 gives no image.", "Plug it in."),
             id="then-the-source",
         ),

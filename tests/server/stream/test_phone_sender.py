@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from server.capture.phone import Focus
-from server.live import ImageClock, Trouble
+from server.live import ImageClock, Problem
 from server.loop.phone_inbox import MAX_JPEG_BYTES
 from server.stream.phone.page_clock import PageClock
 from server.stream.phone.sender import MAX_IMAGES_UNDERWAY, Received, Sender, hello_in
@@ -90,7 +90,7 @@ def test_what_is_no_jpeg_is_told_and_the_next_one_is_taken(jpeg: bytes) -> None:
     sender = introduced()
     announce(sender, jpeg, captured_s=1.0)
     told = sender.take_part(jpeg, 1.05)
-    assert isinstance(told, Trouble)
+    assert isinstance(told, Problem)
     assert told.code == "PHONE_IMAGE_BROKEN"
     announce(sender, jpeg_of(90), captured_s=1.1)
     assert isinstance(sender.take_part(jpeg_of(90), 1.15), Received)
@@ -103,7 +103,7 @@ def test_a_size_that_nothing_could_hold_is_refused_before_it_is_decoded() -> Non
     sender = introduced()
     announce(sender, bomb, captured_s=1.0)
     told = sender.take_part(bomb, 1.05)
-    assert isinstance(told, Trouble)
+    assert isinstance(told, Problem)
     assert "65535x65535" in told.message
 
 

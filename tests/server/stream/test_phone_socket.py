@@ -15,7 +15,7 @@ from server.app import AppParts, create_app
 from server.capture.local_camera import CalibratedCamera
 from server.capture.phone import Inbound, PhoneImage
 from server.config import CameraConfig, Config
-from server.live import ImageClock, LiveHub, SourceState, SourceStatus, Trouble
+from server.live import ImageClock, LiveHub, Problem, SourceState, SourceStatus
 from server.loop.phone_inbox import PhoneInbox
 from server.security import Person, Role
 from server.stream.phone import socket as phone_socket
@@ -87,10 +87,10 @@ class Phone:
                 return note
         pytest.fail(f"no {images} images were handed on")
 
-    def trouble(self) -> dict[str, Any]:
+    def problem(self) -> dict[str, Any]:
         """The next note that tells of something wrong."""
         for _ in range(MAX_MESSAGES):
-            if (note := self.told("note"))["trouble"] is not None:
+            if (note := self.told("note"))["problem"] is not None:
                 return note
         pytest.fail("nothing is said to be wrong")
 
@@ -140,7 +140,7 @@ def test_images_reach_the_inbox_with_their_time_and_each_one_grants_the_next(
         assert (image.number, image.clock, image.camera) == (4, ImageClock.BROWSER, CAMERA_WITHOUT_ZOOM)
         assert before_s - 5.0 < image.captured_at_s <= time.monotonic()
         assert note["delay_ms"] >= 0.0
-        assert note["trouble"] is None
+        assert note["problem"] is None
     # The page is closed: nobody is there, and that is told at once.
     assert newest(inbox) == Inbound(sender="")
 
@@ -152,18 +152,18 @@ def test_a_page_hears_what_the_server_has_against_its_images(
         phone = Phone(socket)
         phone.begin()
         phone.send(b"no picture")
-        assert phone.trouble()["trouble"]["code"] == "PHONE_IMAGE_BROKEN"
+        assert phone.problem()["problem"]["code"] == "PHONE_IMAGE_BROKEN"
         told = newest(inbox)
         assert told.problem is not None
         assert (told.image, told.problem.code) == (None, "PHONE_IMAGE_BROKEN")
         phone.send(jpeg_of(80))
-        assert phone.note_after(1)["trouble"] is None
-        trouble = Trouble(code="PHONE_FOCUS_NOT_LOCKED", message="it is not", remedy="None.")
+        assert phone.note_after(1)["problem"] is None
+        problem = Problem(code="PHONE_FOCUS_NOT_LOCKED", message="it is not", remedy="None.")
         hub.publish(
-            instant_of(1, source=SourceStatus(name="phone", state=SourceState.RUNNING, trouble=trouble))
+            instant_of(1, source=SourceStatus(name="phone", state=SourceState.RUNNING, problem=problem))
         )
-        note = phone.trouble()
-        assert (note["trouble"]["code"], note["source_state"]) == ("PHONE_FOCUS_NOT_LOCKED", "running")
+        note = phone.problem()
+        assert (note["problem"]["code"], note["source_state"]) == ("PHONE_FOCUS_NOT_LOCKED", "running")
 
 
 def test_a_second_device_is_refused_with_a_sentence_and_the_first_goes_on(
@@ -173,9 +173,9 @@ def test_a_second_device_is_refused_with_a_sentence_and_the_first_goes_on(
         phone = Phone(socket)
         phone.begin()
         with connected(door) as second:
-            refused = Phone(second, OTHER_KEY).told("refused")
-            assert refused["code"] == "PHONE_TAKEN"
-            assert "STOP" in refused["remedy"]
+            rejected = Phone(second, OTHER_KEY).told("rejected")
+            assert rejected["code"] == "PHONE_TAKEN"
+            assert "STOP" in rejected["remedy"]
             assert ending(second).code == 1008
         phone.send(jpeg_of(50))
         phone.note_after(1)
@@ -220,10 +220,10 @@ def test_a_page_that_misbehaves_is_told_and_its_place_is_free(door: TestClient, 
 
 def test_a_server_with_another_camera_says_how_to_start_it(client: TestClient) -> None:
     with connected(client) as socket:
-        refused = socket.receive_json()["refused"]
-    assert refused["code"] == "PHONE_NOT_ASKED"
-    assert "rehearsal" in refused["message"]
-    assert "--source phone" in refused["remedy"]
+        rejected = socket.receive_json()["rejected"]
+    assert rejected["code"] == "PHONE_NOT_ASKED"
+    assert "rehearsal" in rejected["message"]
+    assert "--source phone" in rejected["remedy"]
 
 
 def received(captured_at_s: float, age_s: float = 0.05) -> Received:

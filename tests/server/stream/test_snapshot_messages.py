@@ -47,8 +47,8 @@ def test_the_judgement_is_sent_as_it_was_made(snapshot_of: SnapshotOf) -> None:
     assert isinstance(sent.clearance.now, NearestMessage)
     assert sent.clearance.now.clearance_mm == now.clearance_mm
     assert sent.clearance.now.wall is now.wall
-    assert sent.chance.soon_ratio == judged.soon.through_ratio
-    assert sum(sent.chance.at_end_grade_ratio.values()) == pytest.approx(1.0)
+    assert sent.probability.soon_ratio == judged.soon.through_ratio
+    assert sum(sent.probability.at_end_grade_ratio.values()) == pytest.approx(1.0)
     assert sent.certain.room_mm == judged.certain.room_mm
     np.testing.assert_array_equal(sent.spread.tip_ellipsoid_mm, judged.spread.tip_ellipsoid_mm)
 

@@ -36,7 +36,7 @@ def test_lamps_that_flicker_are_told_as_a_note_with_the_exposure(automatic: int,
         flicker=LampFlicker(mains_hz=(50,), depth_ratio=0.03),
     )
     message = source_message(SourceStatus(name="camera 0", state=SourceState.RUNNING, camera=camera))
-    assert message.trouble is None
+    assert message.problem is None
     assert message.camera is not None
     assert message.camera.note is not None
     assert message.camera.note.message.en == f"Lamps flicker by 3.0 % in the image (50 Hz mains){exposure}."

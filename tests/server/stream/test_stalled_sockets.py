@@ -11,7 +11,7 @@ from collections.abc import Callable
 import pytest
 from fastapi import FastAPI
 
-from server.live import Instant, LiveHub, SourceState, SourceStatus, Trouble
+from server.live import Instant, LiveHub, Problem, SourceState, SourceStatus
 from server.stream.connection import ViewerProtocol
 
 DEADLINE_S = 60.0
@@ -47,8 +47,8 @@ def test_a_stalled_client_is_cut_off(
     if kind == "view":
         hub.publish(live_instant(1, jpeg=b"\xff" * LARGE))
     else:
-        trouble = Trouble(code="LONG", message="x" * LARGE, remedy="None.")
-        source = SourceStatus(name="0", state=SourceState.RECONNECTING, trouble=trouble)
+        problem = Problem(code="LONG", message="x" * LARGE, remedy="None.")
+        source = SourceStatus(name="0", state=SourceState.RECONNECTING, problem=problem)
         hub.publish(instant_of(1, source=source))
     with socket.socket() as stalled:
         stalled.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)

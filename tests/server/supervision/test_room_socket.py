@@ -194,8 +194,8 @@ def test_holds_of_several_stand_until_each_has_released(client: TestClient) -> N
 
     # The session's name counts, whatever was typed.
     assert by(post("hold", "s1")) == ["Dr Sato"]
-    refused = post("release", "s2", 409)
-    assert (refused["code"], "Dr Sato" in refused["message"]) == ("HOLD_NOT_YOURS", True)
+    rejected = post("release", "s2", 409)
+    assert (rejected["code"], "Dr Sato" in rejected["message"]) == ("HOLD_NOT_YOURS", True)
     post("hold", "s2")
     told = client.get("/api/supervision/room", headers={"x-person": "s2"}).json()
     since = told["hold"].pop("since")

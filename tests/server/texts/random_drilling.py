@@ -130,16 +130,16 @@ class RandomDrilling:
 
     def _person(self) -> Iterator[Moment]:
         """Now and then somebody acknowledges, pauses, or changes what the registration depends on."""
-        chance = self.random.random()
-        if chance < 0.02:
+        probability = self.random.random()
+        if probability < 0.02:
             numbers = [alarm.number for alarm in self.desk.picture.alarms]
             if numbers:
                 self.desk.acknowledge(
                     self.random.sample(numbers, self.random.randint(1, len(numbers))), by="Ito"
                 )
-        elif chance < 0.025:
+        elif probability < 0.025:
             self.desk.pause(self.random.uniform(1.0, 60.0), by="Ito")
-        elif chance < 0.03:
+        elif probability < 0.03:
             self.desk.know(ProcedureFacts(registration_current=self.random.random() < 0.7))
         else:
             return

@@ -81,13 +81,13 @@ def test_a_marker_that_equals_its_mirror_image_is_not_unique() -> None:
     assert found.mirrored.score_ratio > 0.95
     assert not found.turned.accepted
     assert not found.unique
-    assert found.own_likeness > 0.99
+    assert found.own_correlation > 0.99
     assert (found.images, found.nearest) == (0, ())
 
 
 def test_a_marker_is_not_compared_with_itself_as_it_is() -> None:
     found = judged(code_model(), None)
-    assert found.own_likeness < 0.9
+    assert found.own_correlation < 0.9
     assert max(found.turned.score_ratio, found.mirrored.score_ratio) < 0.95
 
 

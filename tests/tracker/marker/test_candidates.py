@@ -61,7 +61,7 @@ def test_the_first_candidate_of_the_first_round_is_the_marker_with_its_own_top(
     image, corners = _scene(side_px, tilt_deg=tilt_deg, roll_deg=roll_deg, seed=roll_deg)
     first = next(candidate_rounds(image, templates_of((MODEL,))))[0][0]
     assert _off_px(first, corners) < max(1.5, 0.03 * side_px)
-    assert first.likeness > 0.7
+    assert first.correlation > 0.7
 
 
 def _found_in(image: Image8, corners: Array, side_px: float) -> int | None:
@@ -130,7 +130,7 @@ def test_each_round_gives_few_and_only_new_ones_the_likeliest_first() -> None:
     for candidates in (one[0] for one in given):
         assert len(candidates) <= 4
         # Behind the likeliest come those that are likest part by part.
-        assert all(one.likeness <= candidates[0].likeness for one in candidates)
+        assert all(one.correlation <= candidates[0].correlation for one in candidates)
     every = [candidate.corners_px for one in given for candidate in one[0]]
     for i, a in enumerate(every):
         assert all(np.abs(a - b).max() > 1.0 for b in every[:i])
@@ -184,7 +184,7 @@ def test_an_image_gives_the_same_candidates_each_time() -> None:
     image, _ = _scene(30, roll_deg=20)
     once, again = _rounds(image), _rounds(image)
     for a, b in zip(once, again, strict=True):
-        assert [c.likeness for c in a[0]] == [c.likeness for c in b[0]]
+        assert [c.correlation for c in a[0]] == [c.correlation for c in b[0]]
 
 
 @pytest.mark.parametrize("size_wh", [(1, 1), (2, 3), (7, 5), (30, 12), (33, 257)])

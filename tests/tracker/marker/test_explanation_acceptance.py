@@ -11,12 +11,12 @@ NOTHING_HIDDEN = np.zeros((30, 30), np.bool_)
 
 
 def _explanation(
-    *, side_px: float, blur_ratio: tuple[float, float], likeness: float = 0.9, beside: float = 0.96
+    *, side_px: float, blur_ratio: tuple[float, float], correlation: float = 0.9, beside: float = 0.96
 ) -> Explanation:
     return Explanation(
         side_px=side_px,
-        likeness=likeness,
-        inner_likeness=likeness,
+        correlation=correlation,
+        inner_correlation=correlation,
         hidden_ratio=0.0,
         inner_hidden_ratio=0.0,
         inner_untold_ratio=0.0,
@@ -25,7 +25,7 @@ def _explanation(
         moved_px=0.0,
         blur_px=(blur_ratio[0] * side_px, blur_ratio[1] * side_px),
         hidden=NOTHING_HIDDEN,
-        beside_noise=BesideNoise(likeness=beside, inner_likeness=beside, flipped_ratio=0.0),
+        beside_noise=BesideNoise(correlation=beside, inner_correlation=beside, flipped_ratio=0.0),
     )
 
 
@@ -51,7 +51,7 @@ def test_a_sharper_square_is_never_refused_where_a_softer_one_is_taken() -> None
         for both in np.arange(1.80, 2.0, 0.01):
             taken = [
                 _explanation(
-                    side_px=side_px, blur_ratio=(one, one), likeness=both - 0.97, beside=0.97
+                    side_px=side_px, blur_ratio=(one, one), correlation=both - 0.97, beside=0.97
                 ).explains
                 for one in (0.02, 0.05, 0.054, 0.057, 0.0595, 0.061)
             ]
@@ -60,5 +60,5 @@ def test_a_sharper_square_is_never_refused_where_a_softer_one_is_taken() -> None
 
 def test_of_what_is_soft_one_way_and_smeared_the_other_none_is_believed() -> None:
     for blur_ratio, explains in (((0.06, 0.08), True), ((0.06, 0.095), False)):
-        one = _explanation(side_px=27.0, blur_ratio=blur_ratio, likeness=0.97, beside=0.99)
+        one = _explanation(side_px=27.0, blur_ratio=blur_ratio, correlation=0.97, beside=0.99)
         assert one.explains is explains

@@ -54,11 +54,11 @@ def test_an_outline_that_is_off_by_a_tenth_of_its_side_is_moved_to_where_it_fits
     image, corners = _scene()
     picture = np.asarray(seen_as(image, corners), dtype=np.uint8)
     off = np.random.default_rng(5).normal(0.0, 0.07 * SIDE_PX, (12, 4, 2))
-    found, likeness = looked_closer(picture, (corners + off).astype(np.float32), templates.each[0])
+    found, correlation = looked_closer(picture, (corners + off).astype(np.float32), templates.each[0])
     left = np.abs(found - corners).max(axis=(1, 2))
     assert np.median(np.abs(off).max(axis=(1, 2))) > 2.5
     assert np.median(left) < off_px
-    assert np.median(likeness) > 0.9
+    assert np.median(correlation) > 0.9
 
 
 def test_a_skewed_outline_becomes_what_a_tilted_square_can_look_like(templates: Templates) -> None:
@@ -75,9 +75,9 @@ def test_a_skewed_outline_becomes_what_a_tilted_square_can_look_like(templates: 
 def test_what_fits_is_not_moved(templates: Templates) -> None:
     image, corners = _scene()
     known = corners[None].astype(np.float32)
-    found, likeness = looked_closer(image, known, templates.each[0])
+    found, correlation = looked_closer(image, known, templates.each[0])
     assert np.array_equal(found, known)
-    assert likeness[0] > 0.98
+    assert correlation[0] > 0.98
 
 
 def test_another_marker_does_not_become_it_by_moving_the_outline(templates: Templates) -> None:

@@ -20,7 +20,7 @@ from tests.tracker.scenes import (
 )
 from tracker.geometry import Array
 from tracker.marker import Explanation, MarkerModel, explanation_of
-from tracker.marker.explanation import likeness_part_by_part, pictures_of
+from tracker.marker.explanation import correlation_part_by_part, pictures_of
 
 CAMERA = camera_of((200, 160), focal_px=400.0)
 MIDDLE = (100.3, 80.7)
@@ -90,7 +90,7 @@ def test_part_by_part_the_marker_is_told_from_its_turns_in_any_light(seed: int) 
     image, corners = _in_poor_light(code_image(OWN), seed, SIDE_PX)
     pictures = pictures_of(code_model().square)
     alike = [
-        likeness_part_by_part(image, pictures, np.roll(corners, turn, axis=0), side_px=SIDE_PX)
+        correlation_part_by_part(image, pictures, np.roll(corners, turn, axis=0), side_px=SIDE_PX)
         for turn in range(4)
     ]
     assert alike[0] > max(0.75, max(alike[1:]) + 0.1)

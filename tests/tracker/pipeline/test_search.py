@@ -155,7 +155,7 @@ def test_where_nothing_is_sure_the_fourth_likeliest_of_a_round_is_fitted_too(
     ]
     image = rendered(CAMERA, prints, seed=3)
     given = [
-        Candidate(corners_px=corners_px_of(CAMERA, one.pose), likeness=0.9 - 0.01 * k)
+        Candidate(corners_px=corners_px_of(CAMERA, one.pose), correlation=0.9 - 0.01 * k)
         for k, one in enumerate(prints)
     ]
     monkeypatch.setattr("tracker.pipeline.search.candidate_rounds", lambda *_: iter([[[]]]))

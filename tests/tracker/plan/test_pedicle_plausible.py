@@ -7,7 +7,7 @@ import pytest
 
 from tests.tracker.plan.pedicles import scanned
 from tracker.errors import PlanError
-from tracker.plan.pedicle import axis_from_angles, checked_side, refusals, tube
+from tracker.plan.pedicle import axis_from_angles, checked_side, rejections, tube
 from tracker.plan.pedicle.fit import FittedBar, narrowest
 from tracker.plan.pedicle.neighbourhood import Neighbourhood, neighbourhood_of
 from tracker.plan.pedicle.outlines import planes_across
@@ -62,9 +62,9 @@ def test_the_canal_begins_at_a_true_pedicles_medial_wall_and_not_at_the_bodys_si
 
 def test_a_section_with_bone_where_the_canal_should_be_is_refused_with_numbers() -> None:
     isthmus = isthmus_of(bar(width_mm=8.0, height_mm=12.0, roll_deg=0.0), 0.5)
-    refusals.refuse_without_canal(isthmus, 6.9, 7.0)
+    rejections.reject_without_canal(isthmus, 6.9, 7.0)
     with pytest.raises(PlanError, match=r"goes on for 15 mm \(allowed 7 mm\)") as caught:
-        refusals.refuse_without_canal(isthmus, 15.0, 7.0)
+        rejections.reject_without_canal(isthmus, 15.0, 7.0)
     assert caught.value.code == "PEDICLE_DOUBTFUL"
 
 

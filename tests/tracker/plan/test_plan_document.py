@@ -23,7 +23,7 @@ from tracker.plan import (
     propose_middle,
     propose_slice,
 )
-from tracker.plan.document import FORMAT_VERSION, refuse_odd
+from tracker.plan.document import FORMAT_VERSION, reject_odd
 from tracker.plan.document.changes import channel_name, settled, with_landmarks
 from tracker.plan.document.checks import MAX_LANDMARKS
 
@@ -171,16 +171,16 @@ def test_more_landmarks_than_anybody_sets_are_refused(count: int) -> None:
     landmarks = tuple(Landmark(name=f"{n}", point_lps_mm=np.zeros(3)) for n in range(count))
     plan = PlanDocument(vertebrae=(VertebraPlan(name="L3", landmarks=landmarks),))
     if count <= MAX_LANDMARKS:
-        refuse_odd(plan)
+        reject_odd(plan)
     else:
         with pytest.raises(PlanError, match="41 landmarks"):
-            refuse_odd(plan)
+            reject_odd(plan)
 
 
 @pytest.mark.parametrize("name", ["L4/5", "..", ".", "L4\u202e", "L" * 41, ""])
 def test_a_vertebra_that_no_address_could_name_is_refused(name: str) -> None:
     with pytest.raises(PlanError):
-        refuse_odd(PlanDocument(vertebrae=(VertebraPlan(name=name),)))
+        reject_odd(PlanDocument(vertebrae=(VertebraPlan(name=name),)))
 
 
 def test_a_channel_is_called_after_the_longest_name_of_a_vertebra() -> None:
@@ -188,7 +188,7 @@ def test_a_channel_is_called_after_the_longest_name_of_a_vertebra() -> None:
     channel = dataclasses.replace(shifted(0.0), name=channel_name(name, "right"))
     planned = PlannedChannel(side="right", channel=channel)
     plan = PlanDocument(vertebrae=(VertebraPlan(name=name, channels=(planned,)),))
-    refuse_odd(plan)
+    reject_odd(plan)
     back = plan_from_mapping(json.loads(json.dumps(plan_to_mapping(plan))))
     assert back.vertebrae[0].channels[0].channel.name == f"{'L' * 40} right"
 

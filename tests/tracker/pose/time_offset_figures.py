@@ -66,7 +66,7 @@ def print_accuracy(recordings: int) -> None:
             )
 
 
-def print_chance(recordings: int) -> None:
+def print_probability(recordings: int) -> None:
     """Correlation of two different motions, and the second peak of one motion, in 9.5 s and 12 s."""
     for motion in Motion:
         different, second = [], []
@@ -106,4 +106,4 @@ if __name__ == "__main__":
     parser.add_argument("--recordings", type=int, default=100)
     count = parser.parse_args().recordings
     print_accuracy(count)
-    print_chance(count)
+    print_probability(count)

@@ -55,7 +55,7 @@ def collected(tips: Iterator[TipSample], settings: CaptureSettings | None = None
     return collector
 
 
-def refused(collector: LandmarkCollector) -> RegistrationError:
+def rejected(collector: LandmarkCollector) -> RegistrationError:
     with pytest.raises(RegistrationError) as caught:
         collector.result()
     return caught.value
@@ -100,7 +100,7 @@ def test_a_camera_too_slow_for_a_hand_is_named_with_its_rate_and_a_remedy(
     rate_hz: float, code: str, said: str
 ) -> None:
     collector = collected(samples(steady_s(rate_hz)))
-    error = refused(collector)
+    error = rejected(collector)
     assert error.code == code
     assert said in error.message
     assert "camera.rate_hz" in error.remedy
@@ -121,7 +121,7 @@ def test_a_camera_too_slow_for_a_hand_is_named_with_its_rate_and_a_remedy(
 def test_lost_images_are_noticed_at_every_rate(rate_hz: float, gap_s: float, allowed: str) -> None:
     intervals_s = steady_s(rate_hz)
     intervals_s[6] = gap_s
-    error = refused(collected(samples(intervals_s)))
+    error = rejected(collected(samples(intervals_s)))
     assert error.code == "CAPTURE_INTERRUPTED"
     assert f"{gap_s:.2f} s passed between two of" in error.message
     assert allowed in error.message
@@ -131,21 +131,21 @@ def test_lost_images_are_noticed_at_every_rate(rate_hz: float, gap_s: float, all
 def test_two_rests_on_a_landmark_are_not_one_however_few_the_images() -> None:
     few = CaptureSettings(min_images=3, min_s=0.4)
     # The mean of both intervals would pass for the period, and allow either.
-    error = refused(collected(samples([0.033, 0.9]), few))
+    error = rejected(collected(samples([0.033, 0.9]), few))
     assert error.code == "CAPTURE_INTERRUPTED"
     assert error.context["allowed_s"] == 0.25
 
 
 def test_a_tip_that_moved_during_an_allowed_gap_is_refused() -> None:
-    assert refused(collected(samples(ON_A_LOADED_MACHINE_S, off_mm=2.0))).code == "CAPTURE_MOVED"
+    assert rejected(collected(samples(ON_A_LOADED_MACHINE_S, off_mm=2.0))).code == "CAPTURE_MOVED"
 
 
 def test_a_machine_that_skips_images_is_not_taken_for_a_slow_camera() -> None:
     intervals_s = [*steady_s(5.0)[:6], 1.2]
-    error = refused(collected(samples(intervals_s, camera_hz=30.0)))
+    error = rejected(collected(samples(intervals_s, camera_hz=30.0)))
     assert "5.0 images/s (the camera gives 30.0)" in error.message
     assert "The machine skips images" in error.remedy
-    error = refused(collected(samples(intervals_s, camera_hz=5.0)))
+    error = rejected(collected(samples(intervals_s, camera_hz=5.0)))
     assert "the camera gives" not in error.message
     assert "The camera is slow" in error.remedy
 
@@ -157,7 +157,7 @@ def test_a_marker_that_is_missed_is_counted_and_the_rate_is_named() -> None:
         collector.take(next(tips))
     collector.take(UnseenSample(at_s=next(tips).at_s, reason="the tool's marker is not seen"))
     assert collector.is_over
-    error = refused(collector)
+    error = rejected(collector)
     assert error.code == "CAPTURE_UNSEEN"
     assert error.message == (
         "the tip was known in 7 of 8 images at 5.0 images/s and not in 1 "
@@ -172,7 +172,7 @@ def test_a_hold_that_was_too_short_says_how_long_it_must_be_at_this_rate() -> No
         collector.take(tip)
     assert collector.rate_hz == pytest.approx(5.0)
     assert collector.left_s == pytest.approx(7 * 0.2)
-    error = refused(collector)
+    error = rejected(collector)
     assert error.code == "CAPTURE_TOO_SHORT"
     assert error.message == "there are 5 images over 0.80 s at 5.0 images/s, needed 12 over 0.4 s"
     assert error.remedy == (

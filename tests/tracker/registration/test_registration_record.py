@@ -134,11 +134,11 @@ def test_a_pose_and_its_inverse_err_by_the_same() -> None:
 
 
 def test_a_covariance_that_is_none_is_refused() -> None:
-    with pytest.raises(RegistrationError, match="not a finite covariance") as refused:
+    with pytest.raises(RegistrationError, match="not a finite covariance") as rejected:
         Registration(
             method=Method.POINTS,
             anchored_to=AnchoredTo.REFERENCE,
             anchor_from_vertebra=REFERENCE_FROM_VERTEBRA,
             covariance=-np.eye(6),
         )
-    assert refused.value.code == "REGISTRATION_COVARIANCE_INVALID"
+    assert rejected.value.code == "REGISTRATION_COVARIANCE_INVALID"

@@ -40,7 +40,7 @@ def off_at_target(found: SurfaceRegistration, truth: SweepTruth) -> np.ndarray:
     return np.asarray(found.fixed_from_moving.move_points(tip) - TARGET)
 
 
-def refused(
+def rejected(
     surface: Surface, truth: SweepTruth, *, landmarks: PairedPoints | None = None
 ) -> RegistrationError:
     with pytest.raises(RegistrationError) as caught:
@@ -108,7 +108,7 @@ def test_a_flat_bone_slides_with_and_without_the_bumps_of_its_mesh(bumps_mm: flo
     corners = surface.vertices_mm[surface.faces]
     inner = corners[(np.abs(corners.mean(axis=1)) < 18.0).all(axis=1)]
     truth = sweep_over(inner, np.random.default_rng(6), sd_mm=0.1, off_mm=0.5, off_deg=0.5)
-    error = refused(surface, truth)
+    error = rejected(surface, truth)
     assert error.code == "SURFACE_SLIDES"
     assert error.context["direction"] in {
         "to the left or right",
@@ -128,7 +128,7 @@ def test_a_trough_along_the_spine_slides_along_the_spine() -> None:
     corners = vertices[faces]
     inner = corners[np.abs(corners.mean(axis=1)[:, 2]) < 20.0]
     truth = sweep_over(inner, np.random.default_rng(7), sd_mm=0.1, off_mm=0.5, off_deg=0.5)
-    assert refused(surface, truth).context["direction"] == "along the spine (to head or feet)"
+    assert rejected(surface, truth).context["direction"] == "along the spine (to head or feet)"
 
 
 def test_landmarks_hold_what_slides_and_that_is_told() -> None:
@@ -148,7 +148,7 @@ def test_a_patch_of_one_lamina_is_not_believed() -> None:
     middles = corners_from_behind().mean(axis=1)
     patch = corners_from_behind()[np.linalg.norm(middles - middles[700], axis=1) < 9.0]
     truth = sweep_over(patch, np.random.default_rng(9), sd_mm=0.2)
-    assert refused(vertebra(), truth).code in {"SURFACE_SLIDES", "SURFACE_AMBIGUOUS", "SURFACE_SWEEP_SMALL"}
+    assert rejected(vertebra(), truth).code in {"SURFACE_SLIDES", "SURFACE_AMBIGUOUS", "SURFACE_SWEEP_SMALL"}
 
 
 @pytest.mark.parametrize(
@@ -170,7 +170,7 @@ def test_what_is_no_sweep_is_refused(points: np.ndarray, code: str) -> None:
 
 def test_a_start_that_is_far_is_refused() -> None:
     truth = sweep_over(corners_from_behind(), np.random.default_rng(11), off_mm=60.0)
-    assert refused(vertebra(), truth).code == "SURFACE_START_FAR"
+    assert rejected(vertebra(), truth).code == "SURFACE_START_FAR"
 
 
 def test_a_sweep_that_mostly_left_the_bone_is_refused() -> None:

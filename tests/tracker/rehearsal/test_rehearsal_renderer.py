@@ -108,13 +108,13 @@ def test_the_printed_face_is_neither_turned_nor_mirrored() -> None:
     matrix = cv2.getPerspectiveTransform(truth.corners_px.astype(np.float32), flat)
     grey = cv2.cvtColor(renderer.image_at(9.0), cv2.COLOR_BGR2GRAY)
     seen = cv2.warpPerspective(grey, matrix, (side, side)).astype(np.float64)
-    likeness = [
+    correlation = [
         np.corrcoef(seen.ravel(), other.ravel())[0, 1]
         for face in (theatre.marker.image, theatre.marker.image[:, ::-1])
         for other in (np.rot90(face, turns) for turns in range(4))
     ]
-    assert likeness[0] > 0.95
-    assert max(likeness[1:]) < 0.85
+    assert correlation[0] > 0.95
+    assert max(correlation[1:]) < 0.85
 
 
 def test_the_same_seed_and_time_give_the_same_image_to_the_bit() -> None:

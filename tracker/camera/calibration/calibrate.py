@@ -10,7 +10,7 @@ from tracker.camera.calibration.choice import choose_model
 from tracker.camera.calibration.coverage import coverage_of, warnings_of, widest_tilt_deg
 from tracker.camera.calibration.fit import MODELS, NAMES, Fit, board_pose, projected
 from tracker.camera.calibration.one_camera import two_cameras_told
-from tracker.camera.calibration.order import PARALLEL_DEG, fault_of, refuse_one_pose
+from tracker.camera.calibration.order import PARALLEL_DEG, fault_of, reject_one_pose
 from tracker.camera.calibration.report import (
     CalibrationReport,
     ModelChoice,
@@ -66,27 +66,27 @@ def calibrate(
         InvalidInput: COEFFICIENTS_INVALID.
     """
     settings = settings or CalibrationSettings()
-    _refuse_model(settings)
+    _reject_model(settings)
     names = tuple(names) if names is not None else tuple(str(n + 1) for n in range(len(views)))
     faults = [fault_of(view, size_wh_px) for view in views]
     sound = [index for index, fault in enumerate(faults) if not fault]
-    _refuse_few(len(sound), views, faults)
+    _reject_few(len(sound), views, faults)
     usable = [views[index] for index in sound]
-    refuse_one_pose(usable, size_wh_px)
+    reject_one_pose(usable, size_wh_px)
     first = without_odd_views(usable, size_wh_px, FIRST_MODEL)
     reach_px = float(np.linalg.norm(size_wh_px)) / 2.0
     choice = _choice(settings, first, size_wh_px, reach_px)
     kept = without_odd_points(usable, first, size_wh_px, choice.coefficients)
     out = {index: fault for index, fault in enumerate(faults) if fault}
     out |= {sound[index]: reason for index, reason in kept.out.items()}
-    _refuse_disagreement(kept, len(usable))
+    _reject_disagreement(kept, len(usable))
     blocks = blocks_of(kept.fit, kept.views)
     alike = noise_is_alike(kept.views, kept.fit.residuals_px, blocks)
     sure = uncertainty(blocks, is_noise_alike=alike)
     parameters = _parameters(kept.fit, sure)
     camera = CameraModel(matrix=kept.fit.matrix, distortion=kept.fit.distortion, size_wh_px=size_wh_px)
     reports = _view_reports(views, names, kept, sound, out)
-    _refuse_undetermined(reports, parameters)
+    _reject_undetermined(reports, parameters)
     coverage = coverage_of(np.concatenate([view.image_points_px for view in kept.views]), size_wh_px)
     return CalibrationReport(
         camera=camera,
@@ -190,7 +190,7 @@ def _view_report(
     )
 
 
-def _refuse_model(settings: CalibrationSettings) -> None:
+def _reject_model(settings: CalibrationSettings) -> None:
     if settings.coefficients not in (None, *MODELS):
         raise InvalidInput(
             "COEFFICIENTS_INVALID",
@@ -199,7 +199,7 @@ def _refuse_model(settings: CalibrationSettings) -> None:
         )
 
 
-def _refuse_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -> None:
+def _reject_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -> None:
     if sound >= MIN_VIEWS:
         return
     why = next((fault for fault in faults if fault), "")
@@ -212,7 +212,7 @@ def _refuse_few(sound: int, views: Sequence[BoardView], faults: Sequence[str]) -
     )
 
 
-def _refuse_undetermined(reports: Sequence[ViewReport], parameters: Sequence[ParameterEstimate]) -> None:
+def _reject_undetermined(reports: Sequence[ViewReport], parameters: Sequence[ParameterEstimate]) -> None:
     """A bent picture of parallel boards looks tilted before the lens is known: so once more with the lens."""
     widest = widest_tilt_deg([view for view in reports if view.used])
     unsure = max(one.sd / one.value for one in parameters if one.name in ("fx", "fy"))
@@ -227,7 +227,7 @@ def _refuse_undetermined(reports: Sequence[ViewReport], parameters: Sequence[Par
     )
 
 
-def _refuse_disagreement(kept: Kept, usable: int) -> None:
+def _reject_disagreement(kept: Kept, usable: int) -> None:
     left = len(kept.indexes)
     if left >= MIN_VIEWS and usable - left <= MAX_OUT_RATIO * usable:
         return

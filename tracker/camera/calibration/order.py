@@ -42,7 +42,7 @@ def fault_of(view: BoardView, size_wh_px: tuple[int, int]) -> str:
     return ""
 
 
-def refuse_one_pose(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> None:
+def reject_one_pose(views: Sequence[BoardView], size_wh_px: tuple[int, int]) -> None:
     """Refuse views that show the board always in the same plane's direction.
 
     Raises:

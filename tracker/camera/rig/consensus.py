@@ -81,7 +81,7 @@ def agreement(shots: Sequence[Shot], models: Mapping[str, CameraModel]) -> Agree
                 {"camera": far, "views": counts[near, far]},
             )
         far_from_near, odd = _place(kept, near, far, whole)
-        _refuse_disagreement(near, far, len(odd), counts[near, far])
+        _reject_disagreement(near, far, len(odd), counts[near, far])
         for index in odd:
             del kept[index][far]
             reasons[index] = (
@@ -159,7 +159,7 @@ def _distance_mm(seen: Seen) -> float:
     return float(np.linalg.norm(pose.rotation @ middle + pose.translation_mm))
 
 
-def _refuse_disagreement(near: str, far: str, odd: int, count: int) -> None:
+def _reject_disagreement(near: str, far: str, odd: int, count: int) -> None:
     if count - odd >= MIN_PAIRS and odd <= MAX_OUT_RATIO * count:
         return
     raise CalibrationError(

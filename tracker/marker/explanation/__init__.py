@@ -7,7 +7,7 @@ light are fitted, one after another, as long as that may explain what is left.
 from tracker.marker.explanation.acceptance import Explanation
 from tracker.marker.explanation.contradiction import Contradiction, contradiction_of
 from tracker.marker.explanation.explanation import explanation_of
-from tracker.marker.explanation.fit import likeness_part_by_part
+from tracker.marker.explanation.fit import correlation_part_by_part
 from tracker.marker.explanation.pictures import Pictures, pictures_of
 from tracker.marker.explanation.washed_out import is_washed_out
 
@@ -16,8 +16,8 @@ __all__ = [
     "Explanation",
     "Pictures",
     "contradiction_of",
+    "correlation_part_by_part",
     "explanation_of",
     "is_washed_out",
-    "likeness_part_by_part",
     "pictures_of",
 ]

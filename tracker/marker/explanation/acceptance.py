@@ -20,14 +20,14 @@ from tracker.marker.explanation.flips import MAX_FLIPPED_RATIO
 # In empty scenes other squares from 16 px reach 0.91 with a fitted blur, in shadow too, and 0.84 under fitted
 # highlights, which take away from both; the marker itself has 0.96 and more, at 20 px under glare 0.93.
 # What is small has little to say, and what is covered less.
-LIKENESS_SIDES_PX, MIN_LIKENESS = (18.0, 24.0, 34.0), (0.975, 0.95, 0.94)
+CORRELATION_SIDES_PX, MIN_CORRELATION = (18.0, 24.0, 34.0), (0.975, 0.95, 0.94)
 HIGHLIGHTS_LESS = 0.02
 COVERED_MORE = 0.01
 COVERED_RATIO, MAX_HIDDEN_RATIO = 0.03, 0.45
 # The outline is what all squares share: enough of what is within must be seen.
 MAX_INNER_HIDDEN_RATIO = 0.55
 # Of what was there a moment ago, so much more may be hidden, and so much lie on it apart from the border.
-MIN_KNOWN_LIKENESS, MAX_KNOWN_HIDDEN_RATIO, MAX_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
+MIN_KNOWN_CORRELATION, MAX_KNOWN_HIDDEN_RATIO, MAX_KNOWN_AREA_RATIO = 0.9, 0.55, 0.015
 # In uneven light, the noise that the outline shows taken out, other squares reach 0.92 where they have 0.7
 # with it, and wide ones 0.95 with 0.89 (9,000 looked at), once 0.943; of a wide square the noise hides less.
 # Where the square is small, nothing is said.
@@ -60,12 +60,12 @@ MAX_MOVED_SMEARS = 2.6
 # 0.973, of 24 px 0.943, covered ones 0.98; smear leaves one direction sharp, and others 0.88 (1,500 scenes,
 # five markers known; markers that are changed in a part reach 0.97 in either).
 BLURRED_SIDE_RATIO, SHARP_SIDE_RATIO, MAX_BLUR_SIDE_RATIO, MAX_SMEAR_SIDE_RATIO = 0.1, 0.05, 0.16, 0.2
-MIN_LIKENESS_BLURRED, MIN_LIKENESS_SMEARED, MIN_LIKENESS_BLURRED_COVERED = 0.975, 0.935, 0.98
+MIN_CORRELATION_BLURRED, MIN_CORRELATION_SMEARED, MIN_CORRELATION_BLURRED_COVERED = 0.975, 0.935, 0.98
 # Of what is small, so much more than where it is sharp.
 BLURRED_MORE = 0.01
 # Half as blurred, and sharp in no direction, squares with two spots in them have reached 0.95 where covered,
 # and 0.97 under highlights: there, none is believed.
-MIN_LIKENESS_SOFT_COVERED = 0.965
+MIN_CORRELATION_SOFT_COVERED = 0.965
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,12 +73,12 @@ class BesideNoise:
     """How like the model a square is where noise does not hide it.
 
     Attributes:
-        likeness, inner_likeness: as in `Explanation`, without the noise that the outline shows.
+        likeness, inner_correlation: as in `Explanation`, without the noise that the outline shows.
         flipped_ratio: how far the most doubtful part of the shape is from the model, towards dark for bright.
     """
 
-    likeness: float
-    inner_likeness: float
+    correlation: float
+    inner_correlation: float
     flipped_ratio: float
 
 
@@ -89,7 +89,7 @@ class Explanation:
     Attributes:
         side_px: of the square in the image.
         likeness: correlation of what is visible with the model, blur and light fitted, -1..1.
-        inner_likeness: the same where the model has its shape, the outline left out.
+        inner_correlation: the same where the model has its shape, the outline left out.
         hidden_ratio: part of the square that is covered, 0..1.
         inner_hidden_ratio: the same of where the model has its shape.
         inner_untold_ratio: the same, and what is too bright, or too near to a cover, to tell.
@@ -104,8 +104,8 @@ class Explanation:
     """
 
     side_px: float
-    likeness: float
-    inner_likeness: float
+    correlation: float
+    inner_correlation: float
     hidden_ratio: float
     inner_hidden_ratio: float
     inner_untold_ratio: float
@@ -157,7 +157,7 @@ class Explanation:
             not self.is_turned
             and not self.under_highlights
             and not self._is_blurred
-            and min(self.likeness, self.inner_likeness) >= MIN_KNOWN_LIKENESS
+            and min(self.correlation, self.inner_correlation) >= MIN_KNOWN_CORRELATION
             and self.inside_ratio < MAX_KNOWN_AREA_RATIO
             and max(self.hidden_ratio, self.inner_hidden_ratio) <= MAX_KNOWN_HIDDEN_RATIO
             and self.moved_px <= self._max_moved_px
@@ -194,17 +194,17 @@ class Explanation:
         is_sharp = self.blur_px[0] <= SHARP_SIDE_RATIO * self.side_px
         if self.under_highlights and not is_sharp:
             return False
-        least = float(np.interp(self.side_px, LIKENESS_SIDES_PX, MIN_LIKENESS))
+        least = float(np.interp(self.side_px, CORRELATION_SIDES_PX, MIN_CORRELATION))
         if self._is_blurred and self.is_covered:
-            least = MIN_LIKENESS_BLURRED_COVERED
+            least = MIN_CORRELATION_BLURRED_COVERED
         elif self._is_smeared:
-            least = MIN_LIKENESS_SMEARED
+            least = MIN_CORRELATION_SMEARED
         elif self._is_blurred:
-            least = max(least + BLURRED_MORE, MIN_LIKENESS_BLURRED)
+            least = max(least + BLURRED_MORE, MIN_CORRELATION_BLURRED)
         elif self.is_covered and not is_sharp:
-            least = max(least, MIN_LIKENESS_SOFT_COVERED)
+            least = max(least, MIN_CORRELATION_SOFT_COVERED)
         least += COVERED_MORE * self.is_covered - HIGHLIGHTS_LESS * self.under_highlights
-        return min(self.likeness, self.inner_likeness) >= least
+        return min(self.correlation, self.inner_correlation) >= least
 
     @property
     def _is_alike_beside_noise(self) -> bool:
@@ -212,7 +212,7 @@ class Explanation:
         without = self.beside_noise
         if without is None:
             return False
-        alike, beside = (min(one.likeness, one.inner_likeness) for one in (self, without))
+        alike, beside = (min(one.correlation, one.inner_correlation) for one in (self, without))
         moved_px = max(MAX_UNEVEN_MOVED_PX, MAX_UNEVEN_MOVED_SIDE_RATIO * self.side_px)
         least = float(np.interp(self.side_px, IN_NOISE_SIDES_PX, MIN_IN_NOISE))
         return (

@@ -26,7 +26,7 @@ from tracker.marker.explanation.pictures import pictures_of
 CONTRADICTION = 0.45
 # Squares with something else inside reach 0.87 at 19 px and 0.77 at 36 px, in 400 pictures full of them; the
 # marker itself has 0.9 and more in plain light. Few pixels say little: what is small must say it clearly.
-LIKENESS_SIDES_PX, MIN_LIKENESS = (20.0, 32.0, 40.0, 48.0), (0.88, 0.80, 0.80, 0.70)
+CORRELATION_SIDES_PX, MIN_CORRELATION = (20.0, 32.0, 40.0, 48.0), (0.88, 0.80, 0.80, 0.70)
 LIGHT_ROUNDS = 4
 
 
@@ -40,18 +40,18 @@ class Contradiction:
         covered_ratio: area of those that reach its border, by its area, 0..1.
         likeness: correlation of the uncovered fields with the model's, the light taken out, 0..1; -1 where
             there is nothing of the model.
-        min_likeness: what is asked of a marker of this size.
+        min_correlation: what is asked of a marker of this size.
     """
 
     inside_ratio: float
     covered_ratio: float
-    likeness: float
-    min_likeness: float
+    correlation: float
+    min_correlation: float
 
     @property
     def is_other_shape(self) -> bool:
         """Whether this is another shape than the model's."""
-        return self.inside_ratio >= MIN_AREA_RATIO or self.likeness < self.min_likeness
+        return self.inside_ratio >= MIN_AREA_RATIO or self.correlation < self.min_correlation
 
 
 def contradiction_of(
@@ -77,6 +77,6 @@ def contradiction_of(
     return Contradiction(
         inside_ratio=largest / FIELDS**2,
         covered_ratio=covered,
-        likeness=alike,
-        min_likeness=float(np.interp(side_px, LIKENESS_SIDES_PX, MIN_LIKENESS)),
+        correlation=alike,
+        min_correlation=float(np.interp(side_px, CORRELATION_SIDES_PX, MIN_CORRELATION)),
     )

@@ -27,7 +27,7 @@ from tracker.marker.explanation.cover import (
 from tracker.marker.explanation.fields.kernels import FIELDS, SPREAD, WIDE
 from tracker.marker.explanation.fit import UNIT, Fit, inside_square
 from tracker.marker.explanation.flips import max_flipped
-from tracker.marker.explanation.kernels import SATURATED_GREY, likeness
+from tracker.marker.explanation.kernels import SATURATED_GREY, correlation
 from tracker.marker.explanation.light import contrasts, highlights, shadow_in, smooth_light
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.poor_light import light_up
@@ -84,14 +84,14 @@ def _in_usual_light(fit: Fit) -> Explanation | None:
         if best is not None and best.explains:
             break
         worth = glaring if brighten is _under_highlights else False
-        if not worth and (best is None or best.likeness < WORTH_ANOTHER_LIGHT):
+        if not worth and (best is None or best.correlation < WORTH_ANOTHER_LIGHT):
             continue
         # What a cover, or glare, did to the fit must not be carried into another light.
         fit.place = first if worth else start
         if not brighten(fit):
             continue
         found = _told(fit) if fit.walk(ROUNDS if worth else ROUNDS_AGAIN) else None
-        if found is not None and (best is None or found.explains or found.likeness > best.likeness):
+        if found is not None and (best is None or found.explains or found.correlation > best.correlation):
             best = found
     return best
 
@@ -107,7 +107,7 @@ def _in_uneven_light(fit: Fit) -> Explanation | None:
             return found
         if turn + 1 >= FIRST_TOLD_TURN:
             found = _told(fit, in_noise=True)
-            if found is None or found.explains or found.likeness < WORTH_ANOTHER_TURN:
+            if found is None or found.explains or found.correlation < WORTH_ANOTHER_TURN:
                 return found
         weight, fit.visible = fit.weight, np.ones((WIDE, WIDE), np.bool_)
     return found
@@ -139,9 +139,9 @@ def _told(fit: Fit, *, in_noise: bool = False) -> Explanation | None:
         if not (fit.visible & inside_square()).any() or not fit.walk(ROUNDS_AGAIN):
             return None
     found = _explanation(fit, in_noise=in_noise)
-    nearly = found.likeness >= WORTH_TURNING and found.inner_likeness >= WORTH_TURNING_INSIDE
+    nearly = found.correlation >= WORTH_TURNING and found.inner_correlation >= WORTH_TURNING_INSIDE
     worth = found.explains if in_noise else nearly
-    if not worth or not (found.is_covered or fit.pictures.turned_likeness > HALF_TURNED):
+    if not worth or not (found.is_covered or fit.pictures.turned_correlation > HALF_TURNED):
         return found
     return replace(found, is_turned=another_turn_is_nearer(fit))
 
@@ -153,8 +153,8 @@ def _explanation(fit: Fit, *, in_noise: bool) -> Explanation:
     shape = shape_of(fit.picture)
     return Explanation(
         side_px=fit.side_px,
-        likeness=likeness(fit.seen, fit.rest, telling & inside_square(), fit.light, 0.0),
-        inner_likeness=likeness(fit.seen, fit.rest, telling & shape, fit.light, 0.0),
+        correlation=correlation(fit.seen, fit.rest, telling & inside_square(), fit.light, 0.0),
+        inner_correlation=correlation(fit.seen, fit.rest, telling & shape, fit.light, 0.0),
         hidden_ratio=1.0 - float(visible[inside_square()].mean()),
         inner_hidden_ratio=1.0 - float(visible[shape].mean()),
         inner_untold_ratio=1.0 - float(telling[shape].mean()),
@@ -173,12 +173,12 @@ def _beside_noise(fit: Fit, telling: Mask, shape: Mask) -> BesideNoise:
     left = np.abs(fit.rest[telling & ~shape])
     noise = SD_OF_MEDIAN * float(np.median(left)) if len(left) else 0.0
     alike, inner = (
-        likeness(fit.seen, fit.rest, telling & part, fit.light, noise) for part in (inside_square(), shape)
+        correlation(fit.seen, fit.rest, telling & part, fit.light, noise) for part in (inside_square(), shape)
     )
     hopeful = min(alike, inner) >= MIN_BESIDE_NOISE
     return BesideNoise(
-        likeness=alike,
-        inner_likeness=inner,
+        correlation=alike,
+        inner_correlation=inner,
         flipped_ratio=max_flipped(fit, telling, any_shape_of(fit.picture), noise) if hopeful else 1.0,
     )
 

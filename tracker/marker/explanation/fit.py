@@ -174,7 +174,7 @@ class Fit:
         return Left(seen=self.seen, picture=self.picture, rest=self.rest, gain=self.gain)
 
 
-def likeness_part_by_part(
+def correlation_part_by_part(
     image: GreyImage, pictures: Pictures, corners_px: Array, *, side_px: float
 ) -> float:
     """How like a marker what an image shows at these corners (4, 2) is, part by part, -1..1.

@@ -197,7 +197,7 @@ def clear_of_beyond(blur, clear):
 
 
 @compiled
-def likeness(seen, rest, chosen, light, noise):
+def correlation(seen, rest, chosen, light, noise):
     """Root of the part that the model explains of what light alone leaves over, where `chosen`.
 
     What noise of this sd, in grey levels, adds to both is taken out.

@@ -27,12 +27,12 @@ class Pictures:
             of them, below, and both; of each the picture, its slopes to the right and down and its curvatures
             along both and between, by the field.
         blurs_fields: (blurs,), sd of the Gaussian, ascending.
-        turned_likeness: correlation of the square with the likest of its quarter and half turns, -1..1.
+        turned_correlation: correlation of the square with the likest of its quarter and half turns, -1..1.
     """
 
     layers: npt.NDArray[np.float32]
     blurs_fields: Array
-    turned_likeness: float
+    turned_correlation: float
 
 
 class _Same:
@@ -79,7 +79,7 @@ def _made(same: _Same) -> Pictures:
     return Pictures(
         layers=layers,
         blurs_fields=np.asarray(blurs, np.float64),
-        turned_likeness=max(
+        turned_correlation=max(
             float(np.corrcoef(ink.ravel(), np.rot90(ink, turns).ravel())[0, 1]) for turns in (1, 2, 3)
         ),
     )

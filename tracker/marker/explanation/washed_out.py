@@ -11,7 +11,7 @@ from tracker.geometry import Array
 from tracker.marker.explanation.cover import covered
 from tracker.marker.explanation.fit import Fit, inside_square
 from tracker.marker.explanation.flips import MAX_FLIPPED_RATIO, max_flipped
-from tracker.marker.explanation.kernels import SATURATED_GREY, likeness
+from tracker.marker.explanation.kernels import SATURATED_GREY, correlation
 from tracker.marker.explanation.light import contrasts, highlights
 from tracker.marker.explanation.pictures import pictures_of
 from tracker.marker.explanation.shape import shape_of
@@ -41,6 +41,6 @@ def is_washed_out(image: GreyImage, square: GreyImage, corners_px: Array, *, sid
     telling, shape = fit.telling(~hidden), shape_of(fit.picture)
     return bool(
         float(telling[shape].mean()) >= MIN_SEEN_RATIO
-        and likeness(fit.seen, fit.rest, telling & inside, fit.light, 0.0) >= MIN_ALIKE
+        and correlation(fit.seen, fit.rest, telling & inside, fit.light, 0.0) >= MIN_ALIKE
         and max_flipped(fit, telling, shape, 0.0) <= MAX_FLIPPED_RATIO
     )

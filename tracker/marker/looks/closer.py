@@ -38,7 +38,7 @@ def looked_closer(
         steps: how often each is moved at most.
     """
     masked = template.upright
-    found, likeness = look_closer(
+    found, correlation = look_closer(
         image,
         quads,
         template.basis,
@@ -55,4 +55,4 @@ def looked_closer(
         MIN_SD_GREY,
         MIN_SD_RATIO,
     )
-    return np.asarray(found, np.float32), np.asarray(likeness, np.float32)
+    return np.asarray(found, np.float32), np.asarray(correlation, np.float32)

@@ -231,7 +231,7 @@ def look_closer(
     sizes = left.sum(axis=0)
     shared = np.empty(columns.shape[1], np.float32)
     sums, squares = np.empty(len(covers), np.float32), np.empty(len(covers), np.float32)
-    found, likeness = quads.copy(), np.zeros(len(quads), np.float32)
+    found, correlation = quads.copy(), np.zeros(len(quads), np.float32)
     matrix, right = np.empty((UNKNOWN, UNKNOWN), np.float32), np.empty(UNKNOWN, np.float32)
     quad = np.empty((1, 4, 2), np.float32)
     for q in range(len(quads)):
@@ -245,8 +245,8 @@ def look_closer(
                 # What fits as it is, is where it is: the pictures are coarser than the image.
                 if step == 0:
                     worst = MAX_UNLIKE_RATIO * (1.0 - alike * alike)
-                if alike > likeness[q]:
-                    likeness[q] = alike
+                if alike > correlation[q]:
+                    correlation[q] = alike
                     if 1.0 - alike * alike < worst:
                         found[q] = quad[0]
                 if p != picture or c != cover:
@@ -264,16 +264,16 @@ def look_closer(
             if right[0] < MIN_GAIN:
                 break
             _move_back(quad[0], right[2:] / right[0])
-    return found, likeness
+    return found, correlation
 
 
 @compiled
-def distinct(quads, likeness, order, known, most, least, same_ratio):
+def distinct(quads, correlation, order, known, most, least, same_ratio):
     """Of outlines in order of likeness the first that are not one already, nor known: indexes (k,)."""
     kept = np.empty(most, np.int64)
     n = 0
     for i in order:
-        if n == most or likeness[i] < least:
+        if n == most or correlation[i] < least:
             break
         side = 0.0
         for k in range(3):

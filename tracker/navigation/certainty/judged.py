@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from tracker.geometry import Tool, Vertebra
 from tracker.navigation.certainty.certain import Certain, Room, certain_for
-from tracker.navigation.certainty.chance import Chance, chance_of_breach, past_planned_ratio
 from tracker.navigation.certainty.placed import Placed
+from tracker.navigation.certainty.probability import Probability, past_planned_ratio, probability_of_breach
 from tracker.navigation.certainty.spread import Spread, spread_of
 from tracker.navigation.clearance import (
     SOON_MM,
@@ -50,9 +50,9 @@ class Judged:
     clearance: DrillClearance
     spread: Spread
     certain: Certain
-    now: Chance
-    soon: Chance
-    at_end: Chance
+    now: Probability
+    soon: Probability
+    at_end: Probability
     past_planned_ratio: float
 
 
@@ -91,7 +91,7 @@ def judge(
     clearance = clearance_of_drill(rings, tool.pose, channel, side)
     spread = spread_of(tool, channel)
     now, soon, at_end = (
-        chance_of_breach(each, wall, tool, wall_sd_mm=wall_sd_mm)
+        probability_of_breach(each, wall, tool, wall_sd_mm=wall_sd_mm)
         for each in (rings.now, rings.soon, rings.at_end)
     )
     return Judged(

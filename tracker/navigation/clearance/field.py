@@ -118,8 +118,8 @@ def field_of_bone(
             BONE_INSIDE_OUT; FIELD_TOO_LARGE.
     """
     grid = grid_around(channel, step_mm=step_mm, margin_mm=margin_mm)
-    _refuse_large(grid)
-    _refuse_inside_out(surface)
+    _reject_large(grid)
+    _reject_inside_out(surface)
     corners = split_to(near_box(surface, grid), LARGEST_TRIANGLE_MM, grid)
     steps = grid.steps_of(corners)
     bone, closed_mm = _bone_around(channel, grid, solid_of(grid, steps), closes_mm)
@@ -190,7 +190,7 @@ def _faces_outside(bone: Flags, grid: Grid, corners: Array) -> Flags:
     )
 
 
-def _refuse_inside_out(surface: Surface) -> None:
+def _reject_inside_out(surface: Surface) -> None:
     centred = Surface(vertices_mm=surface.vertices_mm - surface.vertices_mm.mean(axis=0), faces=surface.faces)
     if centred.volume_ml < 0.0:
         raise PlanError(
@@ -201,7 +201,7 @@ def _refuse_inside_out(surface: Surface) -> None:
         )
 
 
-def _refuse_large(grid: Grid) -> None:
+def _reject_large(grid: Grid) -> None:
     nodes = int(np.prod(grid.shape))
     if nodes > MAX_NODES:
         raise PlanError(

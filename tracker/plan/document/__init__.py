@@ -1,6 +1,6 @@
 """The plan as one document: plain records, to and from what JSON can hold."""
 
-from tracker.plan.document.checks import refuse_odd
+from tracker.plan.document.checks import reject_odd
 from tracker.plan.document.corrections import CORRECTABLE, PedicleRecord, corrected_measure
 from tracker.plan.document.mapping import (
     channel_from_mapping,
@@ -24,5 +24,5 @@ __all__ = [
     "plain",
     "plan_from_mapping",
     "plan_to_mapping",
-    "refuse_odd",
+    "reject_odd",
 ]

@@ -11,7 +11,7 @@ from tracker.geometry import Array
 from tracker.plan.channel import Channel
 from tracker.plan.document.corrections import PedicleRecord
 from tracker.plan.document.records import PlanDocument, PlannedChannel, VertebraPlan
-from tracker.plan.landmark import Landmark, refuse_landmarks_outside
+from tracker.plan.landmark import Landmark, reject_landmarks_outside
 from tracker.plan.pedicle import PedicleMeasure, Side
 from tracker.plan.reference_slice import AHEAD_MM, BEHIND_MM, ReferenceSlice, draw_reference
 from tracker.plan.screw import ScrewPlan, channel_from_measure, plan_screw
@@ -204,7 +204,7 @@ def with_landmarks(
         PlanError: VERTEBRA_UNKNOWN, LANDMARK_TWICE, LANDMARK_OUTSIDE_CT.
     """
     changed = dataclasses.replace(vertebra_named(plan, name), landmarks=tuple(landmarks))
-    refuse_landmarks_outside(changed.landmarks, volume)
+    reject_landmarks_outside(changed.landmarks, volume)
     return _with(plan, changed)
 
 
@@ -220,16 +220,16 @@ def settled(plan: PlanDocument, *, volume: Volume) -> PlanDocument:
     """
     vertebrae = []
     for vertebra in plan.vertebrae:
-        refuse_landmarks_outside(vertebra.landmarks, volume)
+        reject_landmarks_outside(vertebra.landmarks, volume)
         changed = vertebra
         for planned in vertebra.channels:
-            refuse_outside(planned.channel, volume)
+            reject_outside(planned.channel, volume)
             changed = _with_screw_anew(changed, planned.side, volume)
         vertebrae.append(_redrawn(changed, volume))
     return dataclasses.replace(plan, vertebrae=tuple(vertebrae))
 
 
-def refuse_outside(channel: Channel, volume: Volume) -> None:
+def reject_outside(channel: Channel, volume: Volume) -> None:
     """A channel that does not lie in the CT was planned on another one.
 
     Raises:
@@ -266,7 +266,7 @@ def _followed(vertebra: VertebraPlan, side: Side, volume: Volume, front_margin_m
         measure = pedicle_of(vertebra, side).used
         channel = channel_from_measure(planned.channel.name, measure, front_margin_mm=front_margin_mm)
         planned = dataclasses.replace(planned, channel=channel)
-    refuse_outside(planned.channel, volume)
+    reject_outside(planned.channel, volume)
     return _redrawn(_with_screw_anew(_with_channel(vertebra, planned), side, volume), volume)
 
 

@@ -23,7 +23,7 @@ FARTHEST_MM = 10_000.0
 LONGEST_CHANNEL_MM, WIDEST_RADIUS_MM = 150.0, 20.0
 
 
-def refuse_odd(plan: PlanDocument) -> None:
+def reject_odd(plan: PlanDocument) -> None:
     """Refuse a plan whose numbers cannot be those of a spine.
 
     Raises:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from tracker.errors import PlanError
 from tracker.plan.channel import Channel
 from tracker.plan.document.corrections import PedicleRecord
-from tracker.plan.landmark import Landmark, refuse_twins
+from tracker.plan.landmark import Landmark, reject_twins
 from tracker.plan.pedicle import Side
 from tracker.plan.reference_slice import ReferenceSlice
 from tracker.plan.screw import ScrewPlan
@@ -73,7 +73,7 @@ class VertebraPlan:
                 "Take away what is there twice.",
                 {"name": self.name[:40]},
             )
-        refuse_twins(self.landmarks)
+        reject_twins(self.landmarks)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tracker.geometry import Array
-from tracker.plan.pedicle import refusals, tube
+from tracker.plan.pedicle import rejections, tube
 from tracker.plan.pedicle.course import Course, course_through, middle_of_bone
 from tracker.plan.pedicle.fit import FittedBar, fit_bar, voxel_across_mm
 from tracker.plan.pedicle.length import WallAhead, back_wall, front_wall
@@ -76,21 +76,21 @@ def measure_pedicle(volume: Volume, seed_lps_mm: npt.ArrayLike, side: str) -> Pe
             PEDICLE_CUT, SEED_ON_OTHER_SIDE, PEDICLE_DOUBTFUL.
     """
     named = checked_side(side)
-    seed = refusals.checked_seed(volume, seed_lps_mm)
+    seed = rejections.checked_seed(volume, seed_lps_mm)
     near = neighbourhood_of(volume, seed)
-    refusals.refuse_air(near, seed)
+    rejections.reject_air(near, seed)
     solid = solid_around(near, seed)
     found = _found_from(near, solid, seed, named)
     if found is None:
-        raise refusals.not_found(near, seed)
+        raise rejections.not_found(near, seed)
     bar, fitted, isthmus = found
-    refusals.refuse_cut(near, bar)
-    refusals.refuse_outside(near, bar, fitted, seed)
-    refusals.refuse_no_isthmus(near, bar, isthmus)
+    rejections.reject_cut(near, bar)
+    rejections.reject_outside(near, bar, fitted, seed)
+    rejections.reject_no_isthmus(near, bar, isthmus)
     warnings = _side_warnings(near, isthmus, fitted, named)
     wall_mm = medial_wall_mm(isthmus, named)
     beyond_mm = beyond_medial_wall_mm(solid, isthmus.centre_mm, isthmus.axis, wall_mm, named)
-    refusals.refuse_without_canal(isthmus, beyond_mm, max_beyond_mm(near))
+    rejections.reject_without_canal(isthmus, beyond_mm, max_beyond_mm(near))
     warnings += canal_remarks(beyond_mm, usual_beyond_mm(near))
     min_mm = min(isthmus.width_mm, isthmus.height_mm)
     if min_mm < FEW_VOXELS * voxel_across_mm(near, fitted) or not fitted.fitted:
@@ -122,10 +122,10 @@ def _agreed(near: Neighbourhood, solid: Solid, seed: Array, side: Side, isthmus:
         again = seed + AGAIN_MM * isthmus.axis
     found = _found_from(near, solid, again, side)
     if found is None:
-        raise refusals.disagreeing(isthmus, None)
+        raise rejections.disagreeing(isthmus, None)
     other = found[2]
     if not agrees(isthmus, other):
-        raise refusals.disagreeing(isthmus, other)
+        raise rejections.disagreeing(isthmus, other)
     return unsure_as(isthmus, other)
 
 
@@ -258,7 +258,7 @@ def _side_warnings(near: Neighbourhood, isthmus: Isthmus, fitted: FittedBar, sid
     canal = canal_side(near, isthmus.centre_mm, fitted.left, 0.5 * isthmus.width_mm, fitted.up)
     body = body_side(near, isthmus.centre_mm, isthmus.axis, fitted.left)
     if canal == body == -expected:
-        raise refusals.other_side(side)
+        raise rejections.other_side(side)
     if canal == -expected or (body == -expected and canal == 0):
         return [
             f"the {'canal' if canal else 'body'} lies as if this were not the {side} side; check the side"

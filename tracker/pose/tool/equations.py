@@ -127,11 +127,11 @@ def alike_neighbours(residuals: Array) -> float:
     if count < 4 or power <= 0.0:
         return 1.0
     # Three standard deviations of what independent noise shows: below, nothing is claimed.
-    chance = 3.0 / np.sqrt(3.0 * count)
+    probability = 3.0 / np.sqrt(3.0 * count)
     grown = 1.0
     for lag in range(1, count // 4):
         alike = float((residuals[lag:] * residuals[:-lag]).sum()) / power
-        if alike < chance:
+        if alike < probability:
             break
         grown += 2.0 * alike
     return grown

@@ -147,15 +147,15 @@ def pivot_calibration(poses: Poses, gate: ToolGate | None = None) -> PivotCalibr
     gate = gate or ToolGate()
     fresh = ~poses.repeats
     different = poses.of(fresh)
-    refuse_too_few(different, len(poses), gate)
-    _refuse_too_little_tilt(min_turn_deg(different), gate)
+    reject_too_few(different, len(poses), gate)
+    _reject_too_little_tilt(min_turn_deg(different), gate)
     x, agree, weighed = _fitted(different)
     tips = different.points_mm(x[:3])
     used = np.zeros(len(poses), dtype=np.bool_)
     used[fresh] = agree
     off_mm = np.linalg.norm(tips - x[3:], axis=1)
     turning = turning_of(different.of(agree), x[:3])
-    _refuse_too_little_tilt(turning.min_turn_deg, gate)
+    _reject_too_little_tilt(turning.min_turn_deg, gate)
     covariance = covariance_of(weighed.of(agree), x, numbers=3)
     covariance.setflags(write=False)
     return PivotCalibration(
@@ -176,7 +176,7 @@ def provisional_tip_mm(poses: Poses) -> Array:
     return _equations(poses).solved()[:3]
 
 
-def refuse_too_few(different: Poses, count: int, gate: ToolGate) -> None:
+def reject_too_few(different: Poses, count: int, gate: ToolGate) -> None:
     """Raises TOOL_TOO_FEW_POSES where fewer different poses are left than a calibration needs."""
     if len(different) < gate.min_poses:
         raise CalibrationError(
@@ -201,7 +201,7 @@ def rejected_poses(fresh: Mask, agree: Mask, off: Array, reason: RejectedReason)
     return tuple(sorted(found, key=lambda one: one.index))
 
 
-def _refuse_too_little_tilt(turn_deg: float, gate: ToolGate) -> None:
+def _reject_too_little_tilt(turn_deg: float, gate: ToolGate) -> None:
     if not turn_deg >= gate.min_tilt_deg:
         raise CalibrationError(
             "PIVOT_TILT_TOO_SMALL",

@@ -38,7 +38,7 @@ class Poses:
         """
         rotations = np.array([pose.rotation for pose in poses]).reshape(-1, 3, 3)
         translations = np.array([pose.translation_mm for pose in poses]).reshape(-1, 3)
-        _refuse_metres(translations)
+        _reject_metres(translations)
         return cls(
             rotations=_read_only(rotations),
             translations_mm=_read_only(translations),
@@ -77,7 +77,7 @@ def _read_only(array: Array) -> Array:
     return array
 
 
-def _refuse_metres(translations_mm: Array) -> None:
+def _reject_metres(translations_mm: Array) -> None:
     distances = np.linalg.norm(translations_mm, axis=1)
     near = int((distances < NEAREST_MM).sum())
     if not near:

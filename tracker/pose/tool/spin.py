@@ -15,7 +15,7 @@ from tracker.pose.tool.equations import (
     max_allowed,
 )
 from tracker.pose.tool.gate import ToolGate
-from tracker.pose.tool.pivot import RejectedPose, RejectedReason, refuse_too_few, rejected_poses
+from tracker.pose.tool.pivot import RejectedPose, RejectedReason, reject_too_few, rejected_poses
 from tracker.pose.tool.poses import Poses
 from tracker.pose.tool.turning import spin_range_deg
 
@@ -81,7 +81,7 @@ def spin_calibration(
     gate = gate or ToolGate()
     fresh = ~poses.repeats
     different = poses.of(fresh)
-    refuse_too_few(different, len(poses), gate)
+    reject_too_few(different, len(poses), gate)
     axis, agree = _fitted(different)
     if tip_in_marker_mm is not None:
         axis = _towards_tip(axis, np.asarray(tip_in_marker_mm, dtype=np.float64))
@@ -89,7 +89,7 @@ def spin_calibration(
     spin_deg = spin_range_deg(spun, axis)
     off_deg = _off_deg(different, axis, agree)
     wobble_deg = float(np.sqrt((off_deg[agree] ** 2).mean()))
-    _refuse_other_motions(spin_deg, wobble_deg, gate)
+    _reject_other_motions(spin_deg, wobble_deg, gate)
     equations, across = _around(spun, axis)
     x = np.concatenate([np.zeros(2), _mean_direction(spun, axis)])
     covariance = covariance_of(equations, x, numbers=2)[:2, :2]
@@ -181,7 +181,7 @@ def _towards_tip(axis: Array, tip_in_marker_mm: Array) -> Array:
     return axis if off_deg < 90.0 else -axis
 
 
-def _refuse_other_motions(spin_deg: float, wobble_deg: float, gate: ToolGate) -> None:
+def _reject_other_motions(spin_deg: float, wobble_deg: float, gate: ToolGate) -> None:
     context: dict[str, object] = {"spin_range_deg": spin_deg, "wobble_deg": wobble_deg}
     if not wobble_deg <= gate.max_wobble_deg:
         raise CalibrationError(

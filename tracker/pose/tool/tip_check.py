@@ -8,7 +8,7 @@ import numpy.typing as npt
 from tracker.errors import CalibrationError, InvalidInput
 from tracker.geometry import Array
 from tracker.pose.tool.gate import ToolGate
-from tracker.pose.tool.pivot import refuse_too_few, rms_3d_mm
+from tracker.pose.tool.pivot import reject_too_few, rms_3d_mm
 from tracker.pose.tool.poses import Poses
 from tracker.pose.tool.turning import Turning, turning_of
 
@@ -67,7 +67,7 @@ def check_tip(poses: Poses, tip_in_marker_mm: npt.ArrayLike, gate: ToolGate | No
             "Give the tip in the marker's frame, as pivot calibration says it.",
         )
     different = poses.of(~poses.repeats)
-    refuse_too_few(different, len(poses), gate)
+    reject_too_few(different, len(poses), gate)
     turning = turning_of(different, tip)
     if not turning.min_turn_deg >= gate.min_tilt_deg:
         raise CalibrationError(

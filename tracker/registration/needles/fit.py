@@ -18,8 +18,8 @@ from tracker.errors import InvalidInput, RegistrationError
 from tracker.geometry import Array, Rigid, angle_between_deg, vector_from_rotation
 from tracker.registration.needles.equations import Task
 from tracker.registration.needles.limits import NeedleLimits
-from tracker.registration.needles.order import other_orders, refuse_swapped
-from tracker.registration.needles.places import NeedlePlace, refuse_poor_places
+from tracker.registration.needles.order import other_orders, reject_swapped
+from tracker.registration.needles.places import NeedlePlace, reject_poor_places
 from tracker.registration.needles.seen import NeedleSeen
 from tracker.registration.needles.solutions import Solution, solutions
 from tracker.registration.needles.sureness import Sureness, sureness_of
@@ -98,8 +98,8 @@ def register_needles(
             NEEDLES_DISAGREE, NEEDLE_OFF_ITS_PLACE, NEEDLES_AMBIGUOUS.
     """
     gate = limits or NeedleLimits()
-    _refuse_unpaired(places, seen)
-    refuse_poor_places(places)
+    _reject_unpaired(places, seen)
+    reject_poor_places(places)
     found = solutions(Task.of(places, seen, camera, view))
     best = found[0]
     residuals = _residuals(best)
@@ -107,10 +107,10 @@ def register_needles(
     orders = other_orders(places, seen, camera, view)
     order_lead = orders[0][1].cost - best.cost if orders else math.inf
     if orders and not order_is_sure:
-        refuse_swapped(places, orders[0][0], order_lead, gate)
-    _refuse_disagreement(best, freedom, gate)
-    _refuse_offset(residuals, gate)
-    _refuse_rivals(found, gate)
+        reject_swapped(places, orders[0][0], order_lead, gate)
+    _reject_disagreement(best, freedom, gate)
+    _reject_offset(residuals, gate)
+    _reject_rivals(found, gate)
     registration = Registration(
         method=Method.NEEDLES,
         anchored_to=AnchoredTo.CAMERA,
@@ -128,7 +128,7 @@ def register_needles(
     )
 
 
-def _refuse_unpaired(places: Sequence[NeedlePlace], seen: Sequence[NeedleSeen]) -> None:
+def _reject_unpaired(places: Sequence[NeedlePlace], seen: Sequence[NeedleSeen]) -> None:
     if len(places) != len(seen):
         raise InvalidInput(
             "NEEDLES_UNPAIRED",
@@ -163,11 +163,11 @@ def _freedom(best: Solution) -> int:
     return 3 * len(task.places) + 4 + 3 * len(task.view.touched) - 6
 
 
-def _refuse_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> None:
-    chance = float(special.chdtrc(freedom, best.chi2))
-    if chance >= gate.min_chance_ratio:
+def _reject_disagreement(best: Solution, freedom: int, gate: NeedleLimits) -> None:
+    probability = float(special.chdtrc(freedom, best.chi2))
+    if probability >= gate.min_probability_ratio:
         return
-    allowed = float(special.chdtri(freedom, gate.min_chance_ratio))
+    allowed = float(special.chdtri(freedom, gate.min_probability_ratio))
     raise RegistrationError(
         "NEEDLES_DISAGREE",
         f"needles, ruler and touched points disagree: chi squared is {best.chi2:.0f}, allowed {allowed:.0f}; "
@@ -191,7 +191,7 @@ def _worst(best: Solution) -> str:
     return max(by_name, key=lambda name: by_name[name])
 
 
-def _refuse_offset(residuals: Sequence[NeedleResidual], gate: NeedleLimits) -> None:
+def _reject_offset(residuals: Sequence[NeedleResidual], gate: NeedleLimits) -> None:
     worst = max(residuals, key=lambda one: one.offset_mm)
     if worst.offset_mm > gate.max_offset_mm:
         raise RegistrationError(
@@ -203,7 +203,7 @@ def _refuse_offset(residuals: Sequence[NeedleResidual], gate: NeedleLimits) -> N
         )
 
 
-def _refuse_rivals(found: Sequence[Solution], gate: NeedleLimits) -> None:
+def _reject_rivals(found: Sequence[Solution], gate: NeedleLimits) -> None:
     best = found[0]
     for other in found[1:]:
         lead = other.cost - best.cost

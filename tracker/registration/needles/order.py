@@ -30,7 +30,7 @@ def other_orders(
     return sorted(found, key=lambda one: one[1].cost)
 
 
-def refuse_swapped(
+def reject_swapped(
     places: Sequence[NeedlePlace], order: Sequence[int], lead: float, gate: NeedleLimits
 ) -> None:
     """Refuse needles that explain the image clearly better in another order.

@@ -110,7 +110,7 @@ def first_overlay(places: Sequence[NeedlePlace], camera: CameraModel, view: View
     """The slice in the middle of the image, turned and as large as the ruler has it."""
     width, height = camera.size_wh_px
     scale = float(np.mean(np.diag(camera.matrix)[:2])) / view.distance_mm
-    _refuse_empty(places)
+    _reject_empty(places)
     return SliceOverlay(shift_px=np.array([0.5 * width, 0.5 * height]), turn_deg=0.0, scale_px_per_mm=scale)
 
 
@@ -118,7 +118,7 @@ def pose_of_overlay(
     overlay: SliceOverlay, places: Sequence[NeedlePlace], camera: CameraModel, view: View
 ) -> Rigid[Camera, Vertebra]:
     """The pose in which the vertebra looks as the overlay shows it; its two tilts are the ruler's."""
-    _refuse_empty(places)
+    _reject_empty(places)
     x, y = camera.normalised_from_px(overlay.shift_px.reshape(1, 2))[0]
     sight = np.array([x, y, 1.0]) / np.linalg.norm([x, y, 1.0])
     distance_mm = float(np.mean(np.diag(camera.matrix)[:2])) / overlay.scale_px_per_mm
@@ -233,7 +233,7 @@ def needles_under(
     )
 
 
-def _refuse_empty(places: Sequence[NeedlePlace]) -> None:
+def _reject_empty(places: Sequence[NeedlePlace]) -> None:
     if not places:
         raise InvalidInput(
             "NEEDLES_TOO_FEW",

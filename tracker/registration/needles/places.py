@@ -124,7 +124,7 @@ def places_on_lines(
     return tuple(places)
 
 
-def refuse_poor_places(places: Sequence[NeedlePlace]) -> None:
+def reject_poor_places(places: Sequence[NeedlePlace]) -> None:
     """Refuse needles of which no three hold a vertebra.
 
     Raises:

@@ -13,7 +13,7 @@ from tracker.registration.needles.finding import FoundNeedle, expected_width_px,
 from tracker.registration.needles.fit import NeedleFit, register_needles
 from tracker.registration.needles.limits import NeedleLimits
 from tracker.registration.needles.naming import likely_namings
-from tracker.registration.needles.places import NeedlePlace, refuse_poor_places
+from tracker.registration.needles.places import NeedlePlace, reject_poor_places
 from tracker.registration.needles.seen import NeedleSeen
 from tracker.registration.needles.view import MeasuredView, TouchedPoint, view_from_ruler
 
@@ -69,14 +69,14 @@ class NeedleProposal:
     Attributes:
         fit: the registration, with each needle's residual, if this is which needle is which.
         needles: as found in the image, in the plan's order.
-        chance_ratio: 0..1, how likely this naming is among those that are proposed.
+        probability_ratio: 0..1, how likely this naming is among those that are proposed.
         lead: by how much the likeliest other naming is worse, as a difference of chi squared; negative where
             the other one is likelier, infinite where there is no other.
     """
 
     fit: NeedleFit
     needles: tuple[FoundNeedle, ...]
-    chance_ratio: float
+    probability_ratio: float
     lead: float
 
 
@@ -109,7 +109,7 @@ def propose_needles(
         RegistrationError: NEEDLES_NOT_FOUND, and what `register_needles` refuses, where nothing fits.
     """
     gate = limits or NeedleLimits()
-    refuse_poor_places(places)
+    reject_poor_places(places)
     middle = 0.5 * np.array(camera.size_wh_px, dtype=np.float64)
     width = expected_width_px(view_from_ruler(measured, camera, middle), camera, radius_mm=radius_mm)
     found = find_needles(image, camera, width=width)
@@ -121,7 +121,7 @@ def propose_needles(
             {"found": len(found), "planned": len(places)},
         )
     fits: list[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]] = []
-    refusal: RegistrationError | None = None
+    rejection: RegistrationError | None = None
     namings = likely_namings(found, places, camera, measured, touched=touched)
     for cost, naming in namings[:MAX_TRIED]:
         if fits and cost - fits[0][0] > MAX_WORSE:
@@ -131,12 +131,12 @@ def propose_needles(
             continue
         try:
             fit = _fit(needles, places, camera, measured, touched, gate)
-        except RegistrationError as refused:
-            refusal = refusal or refused
+        except RegistrationError as rejected:
+            rejection = rejection or rejected
             continue
         fits.append((cost, fit, needles))
-    if refusal is not None and not fits:
-        raise refusal
+    if rejection is not None and not fits:
+        raise rejection
     return _proposals(fits)
 
 
@@ -159,8 +159,8 @@ def _proposals(
     fits: Sequence[tuple[float, NeedleFit, tuple[FoundNeedle, ...]]],
 ) -> tuple[NeedleProposal, ...]:
     costs = np.array([cost for cost, _, _ in fits])
-    chances = np.exp(-0.5 * (costs - costs.min()) / TOO_SURE)
-    chances /= chances.sum()
+    probabilities = np.exp(-0.5 * (costs - costs.min()) / TOO_SURE)
+    probabilities /= probabilities.sum()
     out = []
     for n, (cost, fit, needles) in enumerate(fits[:MAX_PROPOSALS]):
         lead = float(np.delete(costs, n).min(initial=np.inf) - cost)
@@ -168,7 +168,7 @@ def _proposals(
             NeedleProposal(
                 fit=fit,
                 needles=needles,
-                chance_ratio=float(chances[n]),
+                probability_ratio=float(probabilities[n]),
                 lead=lead,
             )
         )

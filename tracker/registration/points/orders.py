@@ -58,7 +58,7 @@ def mirrored_fre_mm(fixed_mm: Array, moving_mm: Array) -> float:
     return float(_fres_mm(fixed_mm, moving_mm, given, mirrored=True)[0])
 
 
-def refuse_mistaken(pairs: PairedPoints, fre_mm: float, settings: PointSettings) -> tuple[Remark, ...]:
+def reject_mistaken(pairs: PairedPoints, fre_mm: float, settings: PointSettings) -> tuple[Remark, ...]:
     """Raise where another reading of the points is the true one; else what should be known of their order.
 
     Whoever gives points gives their order, so that points which merely look alike in another order (left and

@@ -18,9 +18,9 @@ from tracker.geometry import (
 )
 from tracker.plan.remark import Remark
 from tracker.registration.points.fit import plain_fit, weighted_fit
-from tracker.registration.points.orders import refuse_mistaken
+from tracker.registration.points.orders import reject_mistaken
 from tracker.registration.points.pairs import PairedPoints
-from tracker.registration.points.refusals import MIN_POINTS, refuse_unfit, scale_ratio
+from tracker.registration.points.rejections import MIN_POINTS, reject_unfit, scale_ratio
 from tracker.registration.points.settings import PointGate, PointSettings
 from tracker.registration.points.uncertainty import (
     covariance_from_noise,
@@ -154,10 +154,10 @@ def register_points(
     settings = settings or PointSettings()
     chosen = [index for index in range(len(pairs)) if index not in set(excluded)]
     used = pairs.of(chosen)
-    refuse_unfit(used, settings)
+    reject_unfit(used, settings)
     plain = plain_fit(used.fixed_mm, used.moving_mm)
     plain_fre = _rms(plain.move_points(used.moving_mm) - used.fixed_mm)
-    remarks = refuse_mistaken(used, plain_fre, settings)
+    remarks = reject_mistaken(used, plain_fre, settings)
     fit, covariance = _fitted(used, settings)
     slope = _tip_slope(used, fit, settings)
     if used.common is not None:
@@ -216,7 +216,7 @@ def _left_out_mm(pairs: PairedPoints, chosen: Sequence[int], settings: PointSett
     for index in chosen:
         others = pairs.of([one for one in chosen if one != index])
         try:
-            refuse_unfit(others, settings)
+            reject_unfit(others, settings)
         except RegistrationError:
             # The others alone say no motion, so that they say nothing of this point either.
             continue

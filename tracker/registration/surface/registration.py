@@ -24,14 +24,14 @@ from tracker.registration.points.uncertainty import few_points
 from tracker.registration.record import AnchoredTo, Method, Registration
 from tracker.registration.surface.fit import Laid, Sweep, equations, laid_on, look, shares_of
 from tracker.registration.surface.nearest import NearestOnSurface
-from tracker.registration.surface.refusals import (
+from tracker.registration.surface.rejections import (
     checked_sweep,
-    refuse_disagreement,
-    refuse_far,
-    refuse_sliding,
-    refuse_small,
+    reject_disagreement,
+    reject_far,
+    reject_sliding,
+    reject_small,
 )
-from tracker.registration.surface.rivals import best_of, refuse_another_place
+from tracker.registration.surface.rivals import best_of, reject_another_place
 from tracker.registration.surface.settings import SurfaceGate, SurfaceSettings
 from tracker.registration.surface.sliding import Direction, directions
 
@@ -127,22 +127,22 @@ def register_surface(
     settings = settings or SurfaceSettings()
     points = checked_sweep(np.asarray(points_mm, dtype=np.float64))
     shares = shares_of(points, settings.alike_mm) if len(points) else np.empty(0)
-    refuse_small(points, shares, settings)
+    reject_small(points, shares, settings)
     sweep = _sweep(points, shares, landmarks, start, settings)
-    refuse_far(look(nearest, sweep, start), settings)
+    reject_far(look(nearest, sweep, start), settings)
     targets = np.array([start.move_points(points.mean(axis=0)), *targets_mm], dtype=np.float64).reshape(-1, 3)
     first = laid_on(nearest, sweep, start)
     middle = first.fixed_from_moving.move_points(points).mean(axis=0)
     lever = max(float(np.linalg.norm(targets - middle, axis=1).max()), _radius_mm(points))
     alone, held = _directions(nearest, sweep, first, middle, lever)
-    refuse_disagreement(first, sweep, settings)
-    refuse_sliding(held, settings)
+    reject_disagreement(first, sweep, settings)
+    reject_sliding(held, settings)
     best, rivals = best_of(nearest, sweep, start, first, alone.way, lever, settings)
-    refuse_disagreement(best, sweep, settings)
-    refuse_another_place(sweep, best, rivals, targets, settings)
+    reject_disagreement(best, sweep, settings)
+    reject_another_place(sweep, best, rivals, targets, settings)
     middle = best.fixed_from_moving.move_points(points).mean(axis=0)
     alone, held = _directions(nearest, sweep, best, middle, lever)
-    refuse_sliding(held, settings)
+    reject_sliding(held, settings)
     return _told(nearest, sweep, best, start, alone, settings)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from tracker.geometry import Anchor, Array, Rigid, Vertebra, rotation_from_vector
 from tracker.registration.surface.fit import Laid, Sweep, cost, laid_on
 from tracker.registration.surface.nearest import NearestOnSurface
-from tracker.registration.surface.refusals import refuse_rival
+from tracker.registration.surface.rejections import reject_rival
 from tracker.registration.surface.settings import SurfaceSettings
 from tracker.registration.surface.sliding import in_words
 
@@ -53,7 +53,7 @@ def best_of(
     return best, [fits[one] for one in order[1:]]
 
 
-def refuse_another_place(
+def reject_another_place(
     sweep: Sweep, best: Laid, rivals: Sequence[Laid], targets_mm: Array, settings: SurfaceSettings
 ) -> None:
     """Raise where the sweep fits somewhere else about as well.
@@ -70,7 +70,7 @@ def refuse_another_place(
             continue
         if cost(sweep, rival, best.sd_mm) - least < max(NEWS, NEWS_SHARE * least):
             way = np.concatenate([shifts[int(np.argmax(apart))], np.zeros(3)])
-            refuse_rival(float(apart.max()), in_words(way), (_rms(sweep, best), _rms(sweep, rival)))
+            reject_rival(float(apart.max()), in_words(way), (_rms(sweep, best), _rms(sweep, rival)))
 
 
 def _rms(sweep: Sweep, laid: Laid) -> float:

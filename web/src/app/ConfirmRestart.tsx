@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { answered, server } from "../rest/client";
-import { RefusalNote } from "../rest/RefusalNote";
+import { RejectionNote } from "../rest/RejectionNote";
 import { useDo } from "../rest/useDo";
 import { useWords } from "../words/WordsContext";
 import { useProcedureOften } from "./procedure";
@@ -47,7 +47,7 @@ function Question(): ReactNode {
           {needed.reference === null ? words.look.camera : words.look.reference} {words.orCheck}
           {!isOperator && ` ${words.others}`}
         </p>
-        <RefusalNote refusal={doing.refusal} />
+        <RejectionNote rejection={doing.rejection} />
       </div>
       {isOperator && (
         <Button className="restart-confirm" loading={doing.busy} onClick={() => void confirm()}>

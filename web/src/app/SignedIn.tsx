@@ -2,7 +2,7 @@ import { Alert, Button, Modal } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { answered, server } from "../rest/client";
-import { RefusalNote } from "../rest/RefusalNote";
+import { RejectionNote } from "../rest/RejectionNote";
 import { useAsked } from "../rest/useAsked";
 import { useDo } from "../rest/useDo";
 import { useWords } from "../words/WordsContext";
@@ -14,9 +14,9 @@ export function SignedIn(): ReactNode {
   const words = useWords().enter;
   const { session, leave } = useSession();
   const [asked, setAsked] = useState(false);
-  const { busy, refusal, run, forget } = useDo();
+  const { busy, rejection, run, forget } = useDo();
   const isOperator = session.state === "in" && session.who.role === "operator";
-  const { data: people, refusal: silent } = useAsked(
+  const { data: people, rejection: silent } = useAsked(
     async (signal) => (asked && isOperator ? answered(server.GET("/api/people", { signal })) : null),
     { key: String(asked && isOperator) },
   );
@@ -51,7 +51,7 @@ export function SignedIn(): ReactNode {
         ) : (
           <p>{words.leaveSentence}</p>
         )}
-        <RefusalNote refusal={refusal} />
+        <RejectionNote rejection={rejection} />
         <div className="enter-choices">
           <Button size="lg" variant={isOnly ? "filled" : "default"} onClick={close}>
             {words.stay}

@@ -31,10 +31,10 @@ export function ProcedureProvider({ view, children }: { view: ViewName; children
       setHurried((before) => before - 1);
     };
   }, []);
-  const { data, refusal, asking, again } = asked;
+  const { data, rejection, asking, again } = asked;
   const shared = useMemo(
-    () => ({ data, refusal, asking, again, hurry }),
-    [data, refusal, asking, again, hurry],
+    () => ({ data, rejection, asking, again, hurry }),
+    [data, rejection, asking, again, hurry],
   );
   return <ProcedureContext value={shared}>{children}</ProcedureContext>;
 }

@@ -9,7 +9,7 @@ import {
   useState,
   type ReactNode,
 } from "react";
-import { answered, onSessionGone, Refusal, server } from "../rest/client";
+import { answered, onSessionGone, Rejection, server } from "../rest/client";
 import { sessionAfter, type Session } from "./sessionAfter";
 
 export type { Role, Session, Who } from "./sessionAfter";
@@ -33,7 +33,7 @@ async function ask(): Promise<Session | string> {
     const { name, role, sign_in_required } = await answered(server.GET("/api/session"));
     return { state: "in", who: { name, role }, required: sign_in_required };
   } catch (error) {
-    if (error instanceof Refusal) return error.trouble.code;
+    if (error instanceof Rejection) return error.problem.code;
     throw error;
   }
 }

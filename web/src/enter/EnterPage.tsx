@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { Link } from "wouter";
 import { useSession, type Session } from "../app/session";
 import { homeOf } from "../app/views";
-import type { Refusal } from "../rest/client";
+import type { Rejection } from "../rest/client";
 import type { EnterWords } from "../words/enter/en";
 import { useWords } from "../words/WordsContext";
 import { tokenIn } from "./token";
@@ -20,10 +20,10 @@ export function EnterPage(): ReactNode {
   const all = useWords();
   const words = all.enter;
   const { session } = useSession();
-  const { busy, refusal, enter } = useEntry();
+  const { busy, rejection, enter } = useEntry();
   const [typed, setTyped] = useState("");
   const token = tokenIn(typed);
-  const told = toldOf(session, refusal, words);
+  const told = toldOf(session, rejection, words);
   const waiting = busy || (session.state === "asking" && !session.silent);
   return (
     <main className="enter">
@@ -37,7 +37,7 @@ export function EnterPage(): ReactNode {
           <Loader size="md" aria-hidden="true" /> {busy ? words.entering : words.asking}
         </p>
       ) : (
-        <section role={refusal === null ? "status" : "alert"} data-testid="enter" data-kind={told.kind}>
+        <section role={rejection === null ? "status" : "alert"} data-testid="enter" data-kind={told.kind}>
           <h2>{told.title}</h2>
           <p>{told.sentence}</p>
         </section>
@@ -76,10 +76,10 @@ export function EnterPage(): ReactNode {
 }
 
 /** What happened and what to do, in the page's own words where it has some. */
-function toldOf(session: Session, refusal: Refusal | null, words: EnterWords): Told {
-  if (refusal !== null) {
-    const { code, message, remedy, context } = refusal.trouble;
-    const said = words.refused[code as keyof EnterWords["refused"]] as Said | undefined;
+function toldOf(session: Session, rejection: Rejection | null, words: EnterWords): Told {
+  if (rejection !== null) {
+    const { code, message, remedy, context } = rejection.problem;
+    const said = words.rejected[code as keyof EnterWords["rejected"]] as Said | undefined;
     const wait = typeof context["wait_s"] === "number" ? ` (${String(context["wait_s"])} s)` : "";
     if (said !== undefined) return { kind: code, title: said.title, sentence: said.sentence + wait };
     return { kind: code, title: message, sentence: remedy };

@@ -3,12 +3,12 @@ import { useEffect, useEffectEvent, useRef, useState } from "react";
 import { useLocation } from "wouter";
 import { useSession } from "../app/session";
 import { homeOf } from "../app/views";
-import { answered, Refusal, server } from "../rest/client";
+import { answered, Rejection, server } from "../rest/client";
 import { takeToken } from "./token";
 
 export interface Entry {
   busy: boolean;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   enter: (token: string) => void;
 }
 
@@ -17,14 +17,14 @@ export function useEntry(): Entry {
   const { again } = useSession();
   const [, go] = useLocation();
   const [busy, setBusy] = useState(false);
-  const [refusal, setRefusal] = useState<Refusal | null>(null);
+  const [rejection, setRejection] = useState<Rejection | null>(null);
   const trying = useRef(false);
 
   const enter = (token: string): void => {
     if (trying.current) return;
     trying.current = true;
     setBusy(true);
-    setRefusal(null);
+    setRejection(null);
     answered(server.POST("/api/session", { body: { invitation: token } }))
       .then(({ role }) => {
         again();
@@ -32,8 +32,8 @@ export function useEntry(): Entry {
       })
       .catch((error: unknown) => {
         again();
-        if (!(error instanceof Refusal)) throw error;
-        setRefusal(error);
+        if (!(error instanceof Rejection)) throw error;
+        setRejection(error);
       })
       .finally(() => {
         trying.current = false;
@@ -53,5 +53,5 @@ export function useEntry(): Entry {
       stop.abort();
     };
   }, []);
-  return { busy, refusal, enter };
+  return { busy, rejection, enter };
 }

@@ -84,14 +84,14 @@ function keyOf({ link, firstMessage, video, numbers, scene, newest, carried }: V
   const numbersKey = numbers.live
     ? "live"
     : `${numbers.cause} ${unread?.headline.title.en ?? ""} ${unread?.headline.detail.en ?? ""}`;
-  const troubles = `${newest?.source.trouble?.code ?? ""} ${newest?.process.trouble?.code ?? ""}`;
+  const problems = `${newest?.source.problem?.code ?? ""} ${newest?.process.problem?.code ?? ""}`;
   return [
     link,
     firstMessage,
     videoKey,
     numbersKey,
     scene.state,
-    troubles,
+    problems,
     newest?.source.state,
     newest?.alarms.revision,
     carried.choice,

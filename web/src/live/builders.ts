@@ -74,7 +74,7 @@ export function judgement(changes: Partial<JudgementMessage> = {}): JudgementMes
       channel: { ...place, clearance_mm: 0.2, grade: "A" },
       past_planned_mm: -4,
     },
-    chance: {
+    probability: {
       now_ratio: 0,
       soon_ratio: 0.03,
       at_end_ratio: 0.12,
@@ -126,13 +126,13 @@ export function message(changes: Partial<LiveMessage> = {}): LiveMessage {
     source: {
       name: "rehearsal",
       state: "running",
-      trouble: null,
+      problem: null,
       images: 8,
       skipped_images: 0,
       rate_hz: 30,
       camera: null,
     },
-    process: { state: "running", restarts: 0, trouble: null },
+    process: { state: "running", restarts: 0, problem: null },
     snapshot: snapshot(),
     headline: headline(),
     alarms: alarms(),

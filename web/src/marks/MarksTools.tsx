@@ -18,7 +18,7 @@ export function MarksTools(): ReactNode {
   if (marking === null) return null;
   const isLoading = firstMessage === "awaited" || view.firstMessage === "awaited";
   const gone = !stands ? words.lineGone : !view.video.live ? words.noPicture : "";
-  const trouble = isLoading ? rest.loading : gone === "" ? "" : `▲ ${gone}`;
+  const problem = isLoading ? rest.loading : gone === "" ? "" : `▲ ${gone}`;
   return (
     <div className="marks-tools" role="toolbar" aria-label={words.tools}>
       {TOOLS.map((tool) => (
@@ -67,8 +67,8 @@ export function MarksTools(): ReactNode {
         </button>
       )}
       <p role="status" className="marks-trouble">
-        {trouble !== ""
-          ? trouble
+        {problem !== ""
+          ? problem
           : fadesAfterS === null
             ? words.seenBy
             : `${words.seenBy} ${words.fades.replace("#", shownNumber(fadesAfterS, 0))}`}

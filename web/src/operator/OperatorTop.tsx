@@ -8,8 +8,8 @@ import { useProcedure } from "../app/procedure";
 /** Whose case is open, whether tracking, camera and server are there, and the way to the other views. */
 export function OperatorTop(): ReactNode {
   const words = useWords();
-  const { data, refusal } = useProcedure();
-  const unknown = refusal === null ? words.rest.loading : words.theatre.unknown;
+  const { data, rejection } = useProcedure();
+  const unknown = rejection === null ? words.rest.loading : words.theatre.unknown;
   return (
     <header className="operator-top">
       <Brand />

@@ -17,10 +17,10 @@ export function OperatorView(): ReactNode {
   const words = useWords();
   const [path] = useLocation();
   const procedure = useProcedure();
-  const { data, refusal } = procedure;
+  const { data, rejection } = procedure;
   // Which step is next is not known before the first answer; without one the list of cases is the place to begin.
   const next =
-    data === null ? (refusal === null ? null : "case") : ((data.case_id && data.next_step) ?? "case");
+    data === null ? (rejection === null ? null : "case") : ((data.case_id && data.next_step) ?? "case");
   const band = useBandHeight<HTMLDivElement>();
   const page = pageAt(path) ?? PAGES.find((one) => one.step === next || one.name === next) ?? null;
   return (

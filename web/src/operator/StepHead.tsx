@@ -1,6 +1,6 @@
 import { useEffect, useRef, type ReactNode, type RefObject } from "react";
 import { useLocation } from "wouter";
-import { RefusalNote } from "../rest/RefusalNote";
+import { RejectionNote } from "../rest/RejectionNote";
 import { useWords } from "../words/WordsContext";
 import { NextStep } from "./NextStep";
 import type { OperatorPage } from "./pages";
@@ -16,7 +16,7 @@ const FOR_MACHINES = "/api/";
 /** What a step is for, how it stands with its numbers, and what to do next, as the server says it. */
 export function StepHead({ page }: { page: OperatorPage }): ReactNode {
   const words = useWords().operator;
-  const { data, refusal } = useProcedure();
+  const { data, rejection } = useProcedure();
   const gates = useGates().data;
   const head = useArrival();
   const step = data?.steps.find((one) => one.step === page.step) ?? null;
@@ -27,7 +27,7 @@ export function StepHead({ page }: { page: OperatorPage }): ReactNode {
         <h2>{words.page[page.name]}</h2>
         <NextStep page={page} />
       </div>
-      <RefusalNote refusal={refusal} />
+      <RejectionNote rejection={rejection} />
       {step !== null && (
         <p className="step-said" data-state={step.state} data-testid="step-said">
           <strong>

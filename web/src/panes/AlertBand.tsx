@@ -2,17 +2,17 @@ import type { ReactNode } from "react";
 import { useLive } from "../live/LiveContext";
 import { useWords } from "../words/WordsContext";
 import { textOf } from "../words/text";
-import { noteOf, troublesOf } from "./troubles";
+import { noteOf, problemsOf } from "./problems";
 
 /** What is wrong, in the server's words: what happened, and what to do. Nothing wrong, no band. */
 export function AlertBand(): ReactNode {
   const words = useWords();
   const { view } = useLive();
-  const troubles = view.link === "open" ? troublesOf(view) : [];
+  const problems = view.link === "open" ? problemsOf(view) : [];
   const note = view.link === "open" ? noteOf(view) : null;
   return (
     <div className="alerts" role="region" aria-label={words.alerts.title} aria-live="polite">
-      {troubles.map(({ code, message, remedy }) => (
+      {problems.map(({ code, message, remedy }) => (
         <p className="alert" key={code} data-testid="alert">
           <span aria-hidden="true">▲▲</span>
           {/* The server speaks English. */}

@@ -10,7 +10,7 @@ import { Moves } from "./Moves";
 import { Paced } from "./paced";
 import { Pane } from "./Pane";
 import { setData, setText } from "./setText";
-import { troublesOf } from "./troubles";
+import { problemsOf } from "./problems";
 import { VideoCover } from "./VideoCover";
 
 interface VideoPaneProps {
@@ -94,7 +94,7 @@ export function VideoPane({ tools, over }: VideoPaneProps): ReactNode {
           <span aria-hidden="true">▲▲</span> {words.video.late}
         </p>
         <div className="when-stale" data-testid="video-cover">
-          <VideoCover cause={cause} trouble={troublesOf(view)[0]} />
+          <VideoCover cause={cause} problem={problemsOf(view)[0]} />
         </div>
       </div>
       <Announcer />

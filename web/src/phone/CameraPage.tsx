@@ -5,7 +5,7 @@ import { useSession } from "../app/session";
 import { useWords } from "../words/WordsContext";
 import { unfit } from "./noCamera";
 import { SendingFacts } from "./SendingFacts";
-import { SendingTroubles } from "./SendingTroubles";
+import { SendingProblems } from "./SendingProblems";
 import { useSending } from "./useSending";
 
 /** This device as camera: its picture, one button, and what is sent and said. */
@@ -35,7 +35,7 @@ export function CameraPage(): ReactNode {
         <p className="phone-state" role="status">
           {words.state[sending.state]}
         </p>
-        <SendingTroubles sending={sending} lacks={lacks} />
+        <SendingProblems sending={sending} lacks={lacks} />
         {isOn ? <SendingFacts sending={sending} /> : <p className="phone-lead">{words.lead}</p>}
         <Button
           className="phone-button"

@@ -1,6 +1,6 @@
 // What is said on `/ws/camera`, as `server/stream/phone/messages.py` has it.
 
-export interface Trouble {
+export interface Problem {
   code: string;
   message: string;
   remedy: string;
@@ -24,10 +24,10 @@ export interface Note {
   delay_ms: number | null;
   clock_error_ms: number | null;
   source_state: "opening" | "running" | "reconnecting" | "ended" | null;
-  trouble: Trouble | null;
+  problem: Problem | null;
 }
 
-export type Told = { welcome: Welcome } | { note: Note } | { refused: Trouble };
+export type Told = { welcome: Welcome } | { note: Note } | { rejected: Problem };
 
 export type Focus = "locked" | "automatic" | "unknown";
 

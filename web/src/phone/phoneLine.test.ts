@@ -52,7 +52,7 @@ const noteOf = (credit: number, ping = 0): { note: Note } => ({
     delay_ms: null,
     clock_error_ms: null,
     source_state: null,
-    trouble: null,
+    problem: null,
   },
 });
 
@@ -93,7 +93,7 @@ beforeEach(() => {
     nowMs: () => nowMs,
     onWelcome: () => told.push("welcome"),
     onNote: (note) => told.push(`credit ${String(note.credit)}`),
-    onRefused: (trouble) => told.push(trouble.code),
+    onRejected: (problem) => told.push(problem.code),
     onLost: () => told.push("lost"),
   });
   line.start();
@@ -165,7 +165,7 @@ test("an image of before a loss is not sent on the new line without credit", () 
 
 test("a refusal is told, and not tried again", () => {
   newest().onopen?.();
-  newest().hear({ refused: { code: "PHONE_TAKEN", message: "", remedy: "" } });
+  newest().hear({ rejected: { code: "PHONE_TAKEN", message: "", remedy: "" } });
   tryAgain();
   expect(told).toEqual(["PHONE_TAKEN"]);
   expect(sockets).toHaveLength(1);

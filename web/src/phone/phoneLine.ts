@@ -1,6 +1,6 @@
 // The line to `/ws/camera`: answers pings, counts credit, sends an image in parts. `keptLine.ts` keeps it.
 import { KeptLine, type KeptSocket } from "../live/keptLine";
-import type { CameraFacts, FrameTime, Note, Told, Trouble, Welcome } from "./messages";
+import type { CameraFacts, FrameTime, Note, Told, Problem, Welcome } from "./messages";
 
 export interface PhoneSocket extends KeptSocket {
   readonly bufferedAmount: number;
@@ -14,7 +14,7 @@ export interface PhoneDoors {
   onWelcome(welcome: Welcome): void;
   onNote(note: Note): void;
   /** The server does not take this device's images; the line is given up. */
-  onRefused(trouble: Trouble): void;
+  onRejected(problem: Problem): void;
   onLost(): void;
 }
 
@@ -117,7 +117,7 @@ export class PhoneLine {
       this.doors.onWelcome(told.welcome);
     } else {
       this.stop();
-      this.doors.onRefused(told.refused);
+      this.doors.onRejected(told.rejected);
     }
   }
 
@@ -135,7 +135,7 @@ function toldIn(data: unknown): Told | null {
   try {
     const told: unknown = typeof data === "string" ? JSON.parse(data) : null;
     if (typeof told !== "object" || told === null) return null;
-    return "note" in told || "welcome" in told || "refused" in told ? (told as Told) : null;
+    return "note" in told || "welcome" in told || "rejected" in told ? (told as Told) : null;
   } catch {
     return null;
   }

@@ -1,7 +1,7 @@
 // Joins the pure parts to the browser: camera, video frames, canvas, WebSocket, and the screen that stays on.
 import { factsOf, wanted, withLockedFocus, type Capabilities } from "./camera";
 import { frameTime, type FrameTimes } from "./frameTime";
-import type { CameraFacts, FrameTime, Note, Trouble, Welcome } from "./messages";
+import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages";
 import { PhoneLine, type PhoneSocket } from "./phoneLine";
 import { keepScreenOn } from "./screenOn";
 
@@ -22,7 +22,7 @@ export interface Listener {
   onNote(note: Note | null): void;
   onScreenKept(kept: boolean): void;
   /** It is over: the server refused, or the browser gave no camera. */
-  onRefused(trouble: Trouble): void;
+  onRejected(problem: Problem): void;
   onNoCamera(error: unknown): void;
 }
 
@@ -43,9 +43,9 @@ export function startSending(video: HTMLVideoElement, listener: Listener): () =>
       if (track === null) void begin(welcome).catch(fail);
     },
     onNote: listener.onNote.bind(listener),
-    onRefused: (trouble) => {
+    onRejected: (problem) => {
       end();
-      listener.onRefused(trouble);
+      listener.onRejected(problem);
     },
     onLost: () => {
       listener.onNote(null);

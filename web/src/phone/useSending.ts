@@ -1,6 +1,6 @@
 // What the page shows of its sending; started and stopped by touch, and stopped with the page.
 import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
-import type { CameraFacts, FrameTime, Note, Trouble, Welcome } from "./messages";
+import type { CameraFacts, FrameTime, Note, Problem, Welcome } from "./messages";
 import { noCameraOf, type NoCamera } from "./noCamera";
 import { Rate } from "./rate";
 import { startSending } from "./sending";
@@ -14,7 +14,7 @@ export interface Sending {
   last: { bytes: number; clock: FrameTime["clock"]; rateHz: number } | null;
   note: Note | null;
   screenKept: boolean;
-  refused: Trouble | null;
+  rejected: Problem | null;
   noCamera: NoCamera | null;
 }
 
@@ -25,7 +25,7 @@ const IDLE: Sending = {
   last: null,
   note: null,
   screenKept: true,
-  refused: null,
+  rejected: null,
   noCamera: null,
 };
 
@@ -77,8 +77,8 @@ export function useSending(video: RefObject<HTMLVideoElement | null>): {
       onScreenKept: (screenKept) => {
         change({ screenKept });
       },
-      onRefused: (refused) => {
-        over({ refused });
+      onRejected: (rejected) => {
+        over({ rejected });
       },
       onNoCamera: (error) => {
         over({ noCamera: noCameraOf(error) });

@@ -1,8 +1,8 @@
 import { Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useWords } from "../words/WordsContext";
-import { Refusal } from "./client";
-import { RefusalNote } from "./RefusalNote";
+import { Rejection } from "./client";
+import { RejectionNote } from "./RejectionNote";
 import { isOver, type JobFollowed } from "./useJob";
 
 /** How far long work is, with a way to stop it; why it failed, if it did. */
@@ -10,7 +10,7 @@ export function JobProgress({ followed }: { followed: JobFollowed }): ReactNode 
   const words = useWords().rest;
   const { job, cancel } = followed;
   if (job === null) return null;
-  if (job.trouble !== null) return <RefusalNote refusal={new Refusal(job.trouble)} />;
+  if (job.problem !== null) return <RejectionNote rejection={new Rejection(job.problem)} />;
   if (isOver(job)) return job.state === "cancelled" ? <p role="status">{words.cancelled}</p> : null;
   const percent = Math.round(job.progress_ratio * 100);
   return (

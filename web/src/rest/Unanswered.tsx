@@ -1,19 +1,19 @@
 import { Button, Loader } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useWords } from "../words/WordsContext";
-import { RefusalNote } from "./RefusalNote";
+import { RejectionNote } from "./RejectionNote";
 import type { Asked } from "./useAsked";
 
 interface UnansweredProps {
-  asked: Pick<Asked<unknown>, "refusal" | "again">;
+  asked: Pick<Asked<unknown>, "rejection" | "again">;
   /** How a refusal is shown. */
-  Note?: typeof RefusalNote;
+  Note?: typeof RejectionNote;
 }
 
 /** In place of an answer that is not there: that it is awaited, or why it failed and a way to ask again. */
-export function Unanswered({ asked: { refusal, again }, Note = RefusalNote }: UnansweredProps): ReactNode {
+export function Unanswered({ asked: { rejection, again }, Note = RejectionNote }: UnansweredProps): ReactNode {
   const words = useWords().rest;
-  if (refusal === null)
+  if (rejection === null)
     return (
       <p className="loading" role="status">
         <Loader size="sm" color="gray" aria-hidden="true" /> {words.loading}
@@ -21,7 +21,7 @@ export function Unanswered({ asked: { refusal, again }, Note = RefusalNote }: Un
     );
   return (
     <div className="stack unanswered">
-      <Note refusal={refusal} />
+      <Note rejection={rejection} />
       <Button size="lg" variant="default" onClick={again}>
         {words.again}
       </Button>

@@ -2,7 +2,7 @@
 import createClient from "openapi-fetch";
 import type { components, paths } from "../schema";
 
-export type Trouble = components["schemas"]["TroubleMessage"];
+export type Problem = components["schemas"]["ProblemMessage"];
 
 // Tests of pure parts run without a browser.
 const baseUrl = typeof location === "undefined" ? "" : location.origin;
@@ -27,17 +27,17 @@ export function onSessionGone(listener: () => void): () => void {
 }
 
 /** The server said no, or did not answer (`NO_ANSWER`). */
-export class Refusal extends Error {
-  constructor(readonly trouble: Trouble) {
-    super(trouble.message);
+export class Rejection extends Error {
+  constructor(readonly problem: Problem) {
+    super(problem.message);
   }
 
   get isSessionGone(): boolean {
-    return this.trouble.code === "SESSION_NEEDED" || this.trouble.code === "SESSION_EXPIRED";
+    return this.problem.code === "SESSION_NEEDED" || this.problem.code === "SESSION_EXPIRED";
   }
 }
 
-const NO_ANSWER: Trouble = { code: "NO_ANSWER", message: "", remedy: "", context: {} };
+const NO_ANSWER: Problem = { code: "NO_ANSWER", message: "", remedy: "", context: {} };
 
 interface Answer<Data> {
   data?: Data;
@@ -48,7 +48,7 @@ interface Answer<Data> {
 /**
  * What the server answers: `await answered(server.GET("/api/cases"))`.
  *
- * @throws Refusal
+ * @throws Rejection
  */
 export async function answered<Data>(asked: Promise<Answer<Data>>): Promise<Data> {
   let answer: Answer<Data>;
@@ -56,15 +56,15 @@ export async function answered<Data>(asked: Promise<Answer<Data>>): Promise<Data
     answer = await asked;
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new Refusal(NO_ANSWER);
+    throw new Rejection(NO_ANSWER);
   }
-  if (!answer.response.ok) throw new Refusal(troubleOf(answer.error, answer.response));
+  if (!answer.response.ok) throw new Rejection(problemOf(answer.error, answer.response));
   return answer.data as Data;
 }
 
-function troubleOf(error: unknown, response: Response): Trouble {
+function problemOf(error: unknown, response: Response): Problem {
   if (typeof error === "object" && error !== null && "code" in error && "message" in error) {
-    return error as Trouble;
+    return error as Problem;
   }
   return { ...NO_ANSWER, context: { status: response.status } };
 }

@@ -1,17 +1,17 @@
 // A question to the server whose answer a page shows: asked at once, and again whenever somebody says so.
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
-import { Refusal } from "./client";
+import { Rejection } from "./client";
 
 /** With neither `data` nor `refusal` nothing is known yet: `Unanswered.tsx` stands in its place, never "none". */
 export interface Asked<Data> {
   data: Data | null;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   asking: boolean;
   again: () => void;
 }
 
 type Known<Data> = Omit<Asked<Data>, "again">;
-const NOTHING: Known<never> = { data: null, refusal: null, asking: true };
+const NOTHING: Known<never> = { data: null, rejection: null, asking: true };
 
 /** `ask` is called when `key` changes, with `again()`, and every `everyMs` where that is given. */
 export function useAsked<Data>(
@@ -27,11 +27,11 @@ export function useAsked<Data>(
     const run = async (): Promise<void> => {
       try {
         const data = await onAsk(stop.signal);
-        if (!stop.signal.aborted) setState({ key, data, refusal: null, asking: false });
+        if (!stop.signal.aborted) setState({ key, data, rejection: null, asking: false });
       } catch (error) {
         if (stop.signal.aborted) return;
-        // What was known stands no more beside a refusal: old must not look like now.
-        if (error instanceof Refusal) setState({ key, data: null, refusal: error, asking: false });
+        // What was known stands no more beside a rejection: old must not look like now.
+        if (error instanceof Rejection) setState({ key, data: null, rejection: error, asking: false });
         else throw error;
       }
       if (everyMs > 0 && !stop.signal.aborted) timer = setTimeout(() => void run(), everyMs);
@@ -48,6 +48,6 @@ export function useAsked<Data>(
     setRound((before) => before + 1);
   }, []);
   // The answer to another question is none to this one.
-  const { data, refusal, asking } = state.key === key ? state : NOTHING;
-  return { data, refusal, asking, again };
+  const { data, rejection, asking } = state.key === key ? state : NOTHING;
+  return { data, rejection, asking, again };
 }

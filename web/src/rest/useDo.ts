@@ -1,39 +1,39 @@
 // Something that a person does: one at a time, with its refusal kept until the next try.
 import { useCallback, useRef, useState } from "react";
-import { Refusal } from "./client";
+import { Rejection } from "./client";
 
 export interface Doing {
   busy: boolean;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   /** Runs it; true when it was done. A second call while one runs does nothing. */
   run: (action: () => Promise<void>) => Promise<boolean>;
   forget: () => void;
 }
 
 export function useDo(): Doing {
-  const [state, setState] = useState<{ busy: boolean; refusal: Refusal | null }>({
+  const [state, setState] = useState<{ busy: boolean; rejection: Rejection | null }>({
     busy: false,
-    refusal: null,
+    rejection: null,
   });
   const running = useRef(false);
   const run = useCallback(async (action: () => Promise<void>): Promise<boolean> => {
     if (running.current) return false;
     running.current = true;
-    setState({ busy: true, refusal: null });
+    setState({ busy: true, rejection: null });
     try {
       await action();
-      setState({ busy: false, refusal: null });
+      setState({ busy: false, rejection: null });
       return true;
     } catch (error) {
-      if (!(error instanceof Refusal)) throw error;
-      setState({ busy: false, refusal: error });
+      if (!(error instanceof Rejection)) throw error;
+      setState({ busy: false, rejection: error });
       return false;
     } finally {
       running.current = false;
     }
   }, []);
   const forget = useCallback(() => {
-    setState({ busy: false, refusal: null });
+    setState({ busy: false, rejection: null });
   }, []);
   return { ...state, run, forget };
 }

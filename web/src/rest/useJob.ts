@@ -1,7 +1,7 @@
 // Long work: asked after until it is over, however often the line is lost meanwhile.
 import { useCallback, useEffect, useEffectEvent, useState } from "react";
 import type { components } from "../schema";
-import { answered, Refusal, server } from "./client";
+import { answered, Rejection, server } from "./client";
 
 export type Job = components["schemas"]["JobMessage"];
 
@@ -38,7 +38,7 @@ export function useJob(onOver: (job: Job) => void): JobFollowed {
         })
         .catch((error: unknown) => {
           // A server that restarted remembers no jobs; one that does not answer may come back.
-          if (error instanceof Refusal && error.trouble.code !== "NO_ANSWER" && !stopped) setJob(null);
+          if (error instanceof Rejection && error.problem.code !== "NO_ANSWER" && !stopped) setJob(null);
         });
     }, ASK_EVERY_MS);
     return () => {

@@ -1,6 +1,6 @@
 import type { ReactNode } from "react";
 import { answered, server } from "../rest/client";
-import { RefusalNote } from "../rest/RefusalNote";
+import { RejectionNote } from "../rest/RejectionNote";
 import { useDo } from "../rest/useDo";
 import { useRoomWords } from "../room/RoomContext";
 import { useWords } from "../words/WordsContext";
@@ -12,7 +12,7 @@ export function HoldPanel(): ReactNode {
   const all = useWords();
   const words = all.supervisor.hold;
   const { hold, you } = useRoomWords();
-  const { busy, refusal, run } = useDo();
+  const { busy, rejection, run } = useDo();
   const asked = hold?.asked_by ?? [];
   const mine = hold?.is_yours === true;
   const mayRelease = mine || you?.role === "operator";
@@ -57,7 +57,7 @@ export function HoldPanel(): ReactNode {
           <p className="soft">{words.othersOnly}</p>
         ))}
       <p className="soft">{words.hint}</p>
-      <RefusalNote refusal={refusal} />
+      <RejectionNote rejection={rejection} />
     </section>
   );
 }

@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 import { useSession } from "../app/session";
 import { Maker } from "../operator/parts/Maker";
 import { answered, server } from "../rest/client";
-import { RefusalNote } from "../rest/RefusalNote";
+import { RejectionNote } from "../rest/RejectionNote";
 import { shownTime } from "../operator/parts/shown";
 import { useDo } from "../rest/useDo";
 import type { Signable } from "../room/messages";
@@ -15,7 +15,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
   const all = useWords();
   const words = all.supervisor.sign;
   const { session } = useSession();
-  const { busy, refusal, run } = useDo();
+  const { busy, rejection, run } = useDo();
   const { document_id, signatures, what } = signable;
   if (document_id === null) return null;
   const mine = signatures.find((one) => one.is_yours);
@@ -84,7 +84,7 @@ export function SignBox({ signable }: { signable: Signable }): ReactNode {
           }
         />
       )}
-      <RefusalNote refusal={refusal} />
+      <RejectionNote rejection={rejection} />
     </section>
   );
 }

@@ -22,7 +22,7 @@ export function Navigated(): ReactNode {
   const t = words.theatre;
   const registration = dimmed(registrationText(snapshot, known, t), isOfNow);
   const check = dimmed(checkText(snapshot, known, t), isOfNow);
-  const unknown = isHeard && procedure.refusal !== null ? t.unknown : "—";
+  const unknown = isHeard && procedure.rejection !== null ? t.unknown : "—";
   const unseen = isHeard ? t.unknown : "—";
   return (
     <dl className="facts facts-navigated" aria-label={t.facts}>

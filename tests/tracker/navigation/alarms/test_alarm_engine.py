@@ -182,9 +182,9 @@ def test_a_pause_silences_shows_its_time_and_ends_by_itself() -> None:
 
 @pytest.mark.parametrize("seconds", [120.1, 0.0, -5.0, float("inf"), float("nan")])
 def test_no_pause_is_longer_than_two_minutes(seconds: float) -> None:
-    with pytest.raises(InvalidInput, match="allowed is more than 0 and up to 120 s") as refused:
+    with pytest.raises(InvalidInput, match="allowed is more than 0 and up to 120 s") as rejected:
         AlarmEngine().pause(seconds, by="nurse", at_s=1.0)
-    assert refused.value.code == "ALARM_PAUSE_TOO_LONG"
+    assert rejected.value.code == "ALARM_PAUSE_TOO_LONG"
 
 
 @pytest.mark.parametrize(

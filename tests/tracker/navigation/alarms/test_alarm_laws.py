@@ -26,25 +26,25 @@ MINUTE_IMAGES = int(60 * RATE_HZ)
 
 def played(seed: int) -> list[AlarmPicture]:
     """A minute in which everything happens, by this seed."""
-    chance, engine, at_s, pictures = random.Random(seed), AlarmEngine(), 0.0, []
+    rng, engine, at_s, pictures = random.Random(seed), AlarmEngine(), 0.0, []
     for number in range(MINUTE_IMAGES):
-        at_s += chance.choice((0.033, 0.033, 0.2))
+        at_s += rng.choice((0.033, 0.033, 0.2))
         seen = good(
             number,
             at_s,
-            clearance_mm=0.7 + 1.2 * math.sin(at_s) + chance.gauss(0.0, 0.1),
-            breach_ratio=chance.random() * 0.1,
-            past_depth_mm=chance.gauss(-0.5, 0.5),
-            drill_unseen_s=chance.choice((0.0, 0.0, 1.5)),
-            camera_works=chance.random() > 0.01,
-            hold_asked_by=chance.choice(("", "", "Dr Sato")),
+            clearance_mm=0.7 + 1.2 * math.sin(at_s) + rng.gauss(0.0, 0.1),
+            breach_ratio=rng.random() * 0.1,
+            past_depth_mm=rng.gauss(-0.5, 0.5),
+            drill_unseen_s=rng.choice((0.0, 0.0, 1.5)),
+            camera_works=rng.random() > 0.01,
+            hold_asked_by=rng.choice(("", "", "Dr Sato")),
         )
         pictures.append(engine.step(seen, at_s))
-        if chance.random() < 0.01:
+        if rng.random() < 0.01:
             numbers = [alarm.number for alarm in engine.picture.alarms[:1]]
             pictures.append(engine.acknowledge(numbers, by="surgeon", at_s=at_s))
-        if chance.random() < 0.01:
-            pictures.append(engine.pause(chance.uniform(1.0, 120.0), by="nurse", at_s=at_s))
+        if rng.random() < 0.01:
+            pictures.append(engine.pause(rng.uniform(1.0, 120.0), by="nurse", at_s=at_s))
     return pictures
 
 
@@ -98,8 +98,8 @@ AT_ITS_THRESHOLD = [
 def test_jitter_at_the_threshold_is_one_alarm_at_most(
     condition: Condition, name: str, limit: float, noise: float, off: float
 ) -> None:
-    stream, chance = Stream(), np.random.default_rng(7)
-    for value in limit + noise * (off + chance.standard_normal(2 * MINUTE_IMAGES)):
+    stream, rng = Stream(), np.random.default_rng(7)
+    for value in limit + noise * (off + rng.standard_normal(2 * MINUTE_IMAGES)):
         stream.image(**{name: max(float(value), 0.0) if name == "breach_ratio" else float(value)})
     assert len(onsets(stream.events, condition)) <= 1
 
@@ -124,15 +124,15 @@ def test_whatever_the_value_does_alarms_of_a_condition_keep_their_distance(
 
 
 def test_no_alarm_in_a_thousand_seconds_of_good_drilling() -> None:
-    stream, chance = Stream(), np.random.default_rng(11)
+    stream, rng = Stream(), np.random.default_rng(11)
     images = int(1000 * RATE_HZ)
     seconds = np.arange(images) / RATE_HZ
     # Down to 0.15 mm above the warning distance, by a hand that wanders, with the noise of a far marker.
     true_mm = 1.15 + 0.5 * (1.0 + np.sin(seconds / 7.0))
-    clearance_mm = true_mm + 0.2 * chance.standard_normal(images)
+    clearance_mm = true_mm + 0.2 * rng.standard_normal(images)
     unseen_s = 0.0
     for number in range(images):
         # One image in twenty without the marker, now and then a hand before it for up to half a second.
-        unseen_s = unseen_s + 1 / RATE_HZ if chance.random() < (0.9 if 0 < unseen_s < 0.5 else 0.05) else 0.0
+        unseen_s = unseen_s + 1 / RATE_HZ if rng.random() < (0.9 if 0 < unseen_s < 0.5 else 0.05) else 0.0
         stream.image(clearance_mm=float(clearance_mm[number]), drill_unseen_s=unseen_s)
     assert stream.raised() == []

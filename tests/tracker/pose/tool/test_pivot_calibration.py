@@ -122,7 +122,7 @@ def test_a_covariance_stated_four_times_too_large_changes_nothing() -> None:
     np.testing.assert_allclose(other.tip_sd_mm, own.tip_sd_mm, rtol=0.05)
 
 
-def refused(poses: Poses) -> CalibrationError:
+def rejected(poses: Poses) -> CalibrationError:
     with pytest.raises(CalibrationError) as caught:
         pivot_calibration(poses)
     assert caught.value.context
@@ -152,7 +152,7 @@ def refused(poses: Poses) -> CalibrationError:
     ],
 )
 def test_a_motion_that_leaves_the_tip_open_is_refused(hand: Hand, code: str) -> None:
-    assert refused(pivoted(hand).poses).code == code
+    assert rejected(pivoted(hand).poses).code == code
 
 
 def test_tilt_in_one_plane_is_enough_with_spin() -> None:
@@ -166,11 +166,11 @@ def test_tilt_in_one_plane_is_enough_with_spin() -> None:
 @pytest.mark.parametrize("count", [0, 1, 2, 60])
 def test_the_same_pose_again_and_again_is_refused(count: int) -> None:
     poses = pivoted(Hand(count=60)).poses.of(np.zeros(count, dtype=np.int_))
-    assert refused_code(poses) == "TOOL_TOO_FEW_POSES"
+    assert rejected_code(poses) == "TOOL_TOO_FEW_POSES"
 
 
-def refused_code(poses: Poses) -> str:
-    return refused(poses).code
+def rejected_code(poses: Poses) -> str:
+    return rejected(poses).code
 
 
 def test_one_lone_tilted_pose_among_many_in_one_plane_does_not_pass() -> None:
@@ -182,7 +182,7 @@ def test_one_lone_tilted_pose_among_many_in_one_plane_does_not_pass() -> None:
             [made.poses.translations_mm, [made.pivot_mm - rotation @ made.tip_mm]]
         ),
     )
-    assert refused(lone).code == "PIVOT_TILT_TOO_SMALL"
+    assert rejected(lone).code == "PIVOT_TILT_TOO_SMALL"
 
 
 def test_metres_are_recognised_and_nothing_is_scaled() -> None:

@@ -96,10 +96,10 @@ def test_a_theatres_needles_are_proposed_under_their_names_among_the_first_two()
     random = np.random.default_rng(4)
     measured = measured_by_ruler(theatre, entries.mean(axis=0), random)
     proposals = propose_needles(image, places_at_landmarks(landmarks), theatre.camera, measured)
-    chances = [one.chance_ratio for one in proposals]
-    assert chances == sorted(chances, reverse=True)
-    assert sum(chances) <= 1.0 + 1e-9
-    assert len(chances) >= 2
+    probabilities = [one.probability_ratio for one in proposals]
+    assert probabilities == sorted(probabilities, reverse=True)
+    assert sum(probabilities) <= 1.0 + 1e-9
+    assert len(probabilities) >= 2
     assert proposals[0].lead == pytest.approx(-proposals[1].lead)
     right = [all(map(_is_on_line, one.needles, _lines_px(theatre))) for one in proposals]
     assert any(right[:2])

@@ -23,7 +23,7 @@ from tracker.registration.needles import (
 )
 
 SCENES = 40
-OPEN = NeedleLimits(min_chance_ratio=1e-12, max_offset_mm=1e3, min_lead=0.0, max_lead_of_swapped=1e3)
+OPEN = NeedleLimits(min_probability_ratio=1e-12, max_offset_mm=1e3, min_lead=0.0, max_lead_of_swapped=1e3)
 
 
 def registered(given: Seen, limits: NeedleLimits | None = None) -> NeedleFit:
@@ -81,7 +81,7 @@ def test_a_registration_by_needles_is_fixed_to_the_camera_and_tells_each_needles
         assert one.lean_deg < 60.0
 
 
-def refused(given: Seen) -> NavigationError:
+def rejected(given: Seen) -> NavigationError:
     with pytest.raises(NavigationError) as caught:
         registered(given)
     assert caught.value.remedy.endswith(".")
@@ -92,7 +92,7 @@ def test_two_needles_marked_for_each_other_are_refused() -> None:
     for seed in range(8):
         given = scene(seed)
         first, second, third = given.seen
-        error = refused(dataclasses.replace(given, seen=(third, second, first)))
+        error = rejected(dataclasses.replace(given, seen=(third, second, first)))
         assert error.code == "NEEDLES_SWAPPED"
         assert given.places[0].name in error.message
         assert given.places[1].name not in error.message
@@ -101,7 +101,7 @@ def test_two_needles_marked_for_each_other_are_refused() -> None:
 def test_a_ruler_that_the_touched_point_contradicts_is_named() -> None:
     given = scene(2, touched=1)
     wrong = dataclasses.replace(given.view, distance_mm=given.view.distance_mm + 120.0)
-    error = refused(dataclasses.replace(given, view=wrong))
+    error = rejected(dataclasses.replace(given, view=wrong))
     assert error.code == "NEEDLES_DISAGREE"
     assert "the camera's distance" in error.message
 
@@ -142,7 +142,7 @@ def moved(given: Seen, entries: object) -> Seen:
     ],
 )
 def test_needles_that_hold_no_vertebra_are_refused_with_numbers(given: Seen, code: str) -> None:
-    assert refused(given).code == code
+    assert rejected(given).code == code
 
 
 def test_two_poses_that_explain_the_needles_alike_are_told() -> None:

@@ -14,7 +14,7 @@ from tracker.marker.explanation.fields.kernels import (
     sample_fields,
     u_of,
 )
-from tracker.marker.explanation.kernels import SATURATED_GREY, likeness, walk
+from tracker.marker.explanation.kernels import SATURATED_GREY, correlation, walk
 from tracker.marker.sampling.kernels import square_to_quad
 
 
@@ -214,4 +214,4 @@ def contradicting(image, corners_px, layers, blurs, blur_px, field_px, light, in
     if not contrast > 0.0:
         return largest, hidden / FIELDS**2, -1.0
     # What is covered has no say, everything else the same: so it is a correlation.
-    return largest, hidden / FIELDS**2, likeness(seen, rest, visible, light, 0.0)
+    return largest, hidden / FIELDS**2, correlation(seen, rest, visible, light, 0.0)

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -74,7 +74,7 @@ export function Accuracy({ board, check, gate, onChecked }: AccuracyProps): Reac
           {check === null ? words.accuracy : words.accuracyAgain}
         </Button>
       </div>
-      <RefusalNote refusal={checking.refusal} />
+      <RejectionNote rejection={checking.rejection} />
     </Card>
   );
 }

@@ -1,7 +1,7 @@
 import { Button, SegmentedControl, Select } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
@@ -86,7 +86,7 @@ export function BoardCard({ board, first, onBoard, onBegun }: BoardCardProps): R
         />
       </div>
       <p className="soft">{words.printHint}</p>
-      <RefusalNote refusal={beginning.refusal ?? printing.refusal} />
+      <RejectionNote rejection={beginning.rejection ?? printing.rejection} />
     </Card>
   );
 }

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useEffect, useRef, type ReactNode } from "react";
-import { answered, Refusal, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { answered, Rejection, server } from "../../rest/client";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { filled } from "../../words/filled";
@@ -45,7 +45,7 @@ export function BurstProgress({ working, onReady, onEnd }: BurstProgressProps): 
           </p>
         </>
       )}
-      <RefusalNote refusal={data.trouble === null ? null : new Refusal(data.trouble)} />
+      <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
       <div>
         <Button size="lg" variant="default" disabled={working} onClick={onEnd}>
           {words.end}

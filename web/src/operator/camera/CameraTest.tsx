@@ -3,7 +3,7 @@ import { useLive } from "../../live/LiveContext";
 import { shownNumber } from "../../live/rounding";
 import { cameraFacts } from "../../panes/cameraFacts";
 import { searchTimeMs } from "../../panes/searchTime";
-import { troublesOf } from "../../panes/troubles";
+import { problemsOf } from "../../panes/problems";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
 
@@ -51,12 +51,12 @@ export function CameraTest(): ReactNode {
           </div>
         ))}
       </dl>
-      {troublesOf(view).map((trouble) => (
-        <p key={trouble.code} className="bad" role="alert">
-          ▲ {trouble.message}. {trouble.remedy}
+      {problemsOf(view).map((problem) => (
+        <p key={problem.code} className="bad" role="alert">
+          ▲ {problem.message}. {problem.remedy}
         </p>
       ))}
-      {snapshot === null && troublesOf(view).length === 0 && <p className="soft">{words.camera.waiting}</p>}
+      {snapshot === null && problemsOf(view).length === 0 && <p className="soft">{words.camera.waiting}</p>}
     </Card>
   );
 }

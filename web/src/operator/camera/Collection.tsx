@@ -1,8 +1,8 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
-import { answered, Refusal, server } from "../../rest/client";
+import { answered, Rejection, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
@@ -61,7 +61,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
       <p className="newest" data-taking={data.said === "taken" ? "taken" : ""} role="status">
         {data.running ? sentence(data.said) : words.ended}
       </p>
-      <RefusalNote refusal={data.trouble === null ? null : new Refusal(data.trouble)} />
+      <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
       <div className="coverage-row">
         <Coverage collected={data} />
         <TiltCross tiltDeg={data.tilt_deg} wantedDeg={collecting.min_tilt_deg} />
@@ -107,7 +107,7 @@ export function Collection({ gates, onCalibrated, onOver }: CollectionProps): Re
           {words.throwAway}
         </TwiceButton>
       </div>
-      <RefusalNote refusal={doing.refusal} />
+      <RejectionNote rejection={doing.rejection} />
       <SentViews disabled={working} onAdded={again} />
     </Card>
   );

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -82,7 +82,7 @@ export function MarkerRow({ marker, gate, onRemoved }: MarkerRowProps): ReactNod
           {words.camera.remove}
         </TwiceButton>
       )}
-      <RefusalNote refusal={removing.refusal} />
+      <RejectionNote rejection={removing.rejection} />
     </li>
   );
 }

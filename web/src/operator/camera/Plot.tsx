@@ -1,7 +1,7 @@
 import { Loader } from "@mantine/core";
 import { useEffect, useState, type ReactNode } from "react";
-import { RefusalNote } from "../../rest/RefusalNote";
-import { Refusal } from "../../rest/client";
+import { RejectionNote } from "../../rest/RejectionNote";
+import { Rejection } from "../../rest/client";
 import { useWords } from "../../words/WordsContext";
 import { fetched } from "../parts/transfer";
 
@@ -9,7 +9,7 @@ import { fetched } from "../parts/transfer";
 export function Plot({ caseId, file, name }: { caseId: string; file: string; name: string }): ReactNode {
   const words = useWords().rest;
   const [address, setAddress] = useState<string | null>(null);
-  const [refusal, setRefusal] = useState<Refusal | null>(null);
+  const [rejection, setRejection] = useState<Rejection | null>(null);
   useEffect(() => {
     const stop = new AbortController();
     let made: string | null = null;
@@ -20,14 +20,14 @@ export function Plot({ caseId, file, name }: { caseId: string; file: string; nam
         setAddress(made);
       })
       .catch((error: unknown) => {
-        if (error instanceof Refusal) setRefusal(error);
+        if (error instanceof Rejection) setRejection(error);
       });
     return () => {
       stop.abort();
       if (made !== null) URL.revokeObjectURL(made);
     };
   }, [caseId, file]);
-  if (refusal !== null) return <RefusalNote refusal={refusal} />;
+  if (rejection !== null) return <RejectionNote rejection={rejection} />;
   if (address === null) return <Loader aria-label={words.loading} />;
   return (
     <figure className="plot">

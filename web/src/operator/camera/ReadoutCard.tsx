@@ -1,9 +1,9 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
-import { answered, Refusal, server } from "../../rest/client";
+import { answered, Rejection, server } from "../../rest/client";
 import { JobProgress } from "../../rest/JobProgress";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
@@ -29,7 +29,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   const words = useWords().camera.readout;
   const madeBy = useMaker();
   const doing = useDo();
-  const [refused, setRefused] = useState<Refusal | null>(null);
+  const [rejected, setRejected] = useState<Rejection | null>(null);
   const asked = useAsked((signal) => answered(server.GET("/api/camera/readout", { signal })), {
     everyMs: ASK_EVERY_MS,
   });
@@ -47,12 +47,12 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
   };
   const followed = useJob((job) => {
     // What the motion did not determine is said, and another burst is taken.
-    if (job.state !== "done" && job.trouble !== null) setRefused(new Refusal(job.trouble));
+    if (job.state !== "done" && job.problem !== null) setRejected(new Rejection(job.problem));
     if (job.state !== "done") end();
     changed();
   });
   const begin = (): void => {
-    setRefused(null);
+    setRejected(null);
     void doing
       .run(async () => {
         await answered(server.POST("/api/camera/readout/collection", { body: { board } }));
@@ -97,7 +97,7 @@ export function ReadoutCard({ board, onChange }: ReadoutCardProps): ReactNode {
           <p className="soft">{words.versionHint}</p>
         </>
       )}
-      <RefusalNote refusal={refused ?? doing.refusal} />
+      <RejectionNote rejection={rejected ?? doing.rejection} />
     </Card>
   );
 }

@@ -1,6 +1,6 @@
 import { useState, type ReactNode } from "react";
-import { RefusalNote } from "../../rest/RefusalNote";
-import { Refusal } from "../../rest/client";
+import { RejectionNote } from "../../rest/RejectionNote";
+import { Rejection } from "../../rest/client";
 import { useWords } from "../../words/WordsContext";
 import { FileButton } from "../parts/FileButton";
 import { filled } from "../../words/filled";
@@ -8,19 +8,19 @@ import { sent } from "../parts/transfer";
 import { TransferProgress } from "../parts/TransferProgress";
 import { useTransfer } from "../parts/useTransfer";
 
-interface Refused {
+interface Rejected {
   file: string;
-  refusal: Refusal;
+  rejection: Rejection;
 }
 
 /** Views from pictures that were taken before, one after the other; each that is refused says why. */
 export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: () => void }): ReactNode {
   const words = useWords().camera;
   const transfer = useTransfer();
-  const [refused, setRefused] = useState<readonly Refused[]>([]);
+  const [rejected, setRejected] = useState<readonly Rejected[]>([]);
   const [taken, setTaken] = useState<number | null>(null);
   const send = (files: readonly File[]): void => {
-    setRefused([]);
+    setRejected([]);
     setTaken(null);
     void transfer.run(async (onMoved, signal) => {
       let kept = 0;
@@ -34,8 +34,8 @@ export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: (
           );
           kept += 1;
         } catch (error) {
-          if (!(error instanceof Refusal)) throw error;
-          setRefused((before) => [...before, { file: file.name, refusal: error }]);
+          if (!(error instanceof Rejection)) throw error;
+          setRejected((before) => [...before, { file: file.name, rejection: error }]);
         }
         onAdded();
       }
@@ -58,8 +58,8 @@ export function SentViews({ disabled, onAdded }: { disabled: boolean; onAdded: (
       </div>
       <TransferProgress transfer={transfer} name={words.sendViews} />
       {taken !== null && <p role="status">{filled(words.viewsSent, { count: taken })}</p>}
-      {refused.map(({ file, refusal }) => (
-        <RefusalNote key={file} refusal={refusal} />
+      {rejected.map(({ file, rejection }) => (
+        <RejectionNote key={file} rejection={rejection} />
       ))}
     </div>
   );

@@ -1,7 +1,7 @@
 import { Button, NumberInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { useMaker } from "../parts/useMaker";
@@ -46,7 +46,7 @@ export function StatedReadout({ readoutMs, onKept }: StatedReadoutProps): ReactN
           {words.keep}
         </Button>
       </div>
-      <RefusalNote refusal={keeping.refusal} />
+      <RejectionNote rejection={keeping.rejection} />
     </>
   );
 }

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
@@ -63,7 +63,7 @@ export function CaseList({ cases, openedId, onChange }: CaseListProps): ReactNod
         ))}
       </ul>
       {openedId !== null && <p className="soft">{words.case.oneIsClosed}</p>}
-      <RefusalNote refusal={opening.refusal} />
+      <RejectionNote rejection={opening.rejection} />
       {leaving !== null && (
         <DeleteCase
           key={leaving.id}

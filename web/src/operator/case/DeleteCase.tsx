@@ -1,7 +1,7 @@
 import { Button, Modal, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import type { Case } from "./OpenedCase";
@@ -45,7 +45,7 @@ export function DeleteCase({ leaving, onEnd }: { leaving: Case; onEnd: () => voi
             setConfirm(event.currentTarget.value);
           }}
         />
-        <RefusalNote refusal={deleting.refusal} />
+        <RejectionNote rejection={deleting.rejection} />
         <div className="row">
           <Button size="lg" variant="default" data-autofocus onClick={onEnd}>
             {words.keepCase}

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { isOver, type Job } from "../../rest/useJob";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
@@ -37,9 +37,9 @@ export function Jobs(): ReactNode {
                 {!isOver(job) && job.doing !== "" && <span className="soft"> · {job.doing}</span>}
               </p>
               {!isOver(job) && <Progress size="lg" value={100 * job.progress_ratio} aria-label={job.title} />}
-              {job.trouble !== null && (
+              {job.problem !== null && (
                 <p className="soft">
-                  {sentence(job.trouble.message)} {job.trouble.remedy}
+                  {sentence(job.problem.message)} {job.problem.remedy}
                 </p>
               )}
             </div>
@@ -58,7 +58,7 @@ export function Jobs(): ReactNode {
           </li>
         ))}
       </ul>
-      <RefusalNote refusal={cancelling.refusal} />
+      <RejectionNote rejection={cancelling.rejection} />
     </Card>
   );
 }

@@ -1,7 +1,7 @@
 import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import { Card } from "../parts/Card";
@@ -16,7 +16,7 @@ export function NewCase({ first, onMade }: { first: boolean; onMade: () => void 
       const made = await answered(server.POST("/api/cases", { body: { name: name.trim() } }));
       await answered(server.POST("/api/cases/{case_id}/open", { params: { path: { case_id: made.id } } }));
     });
-    // Also when only the opening was refused: the case is in the list then.
+    // Also when only the opening was rejected: the case is in the list then.
     onMade();
     if (done) setName("");
   };
@@ -45,7 +45,7 @@ export function NewCase({ first, onMade }: { first: boolean; onMade: () => void 
           {words.make}
         </Button>
       </form>
-      <RefusalNote refusal={making.refusal} />
+      <RejectionNote rejection={making.rejection} />
     </Card>
   );
 }

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -42,7 +42,7 @@ export function OpenedCase({ opened, onChange }: { opened: Case; onChange: () =>
           {words.case.close}
         </Button>
       </div>
-      <RefusalNote refusal={closing.refusal} />
+      <RejectionNote rejection={closing.rejection} />
     </Card>
   );
 }

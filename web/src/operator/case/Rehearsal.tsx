@@ -1,7 +1,7 @@
 import { Button, Select } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useRehearsal } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
@@ -30,7 +30,7 @@ export function Rehearsal(): ReactNode {
   const [wish, setWish] = useState<Partial<Played>>({});
   const playing = useDo();
   const { data, again } = asked;
-  if (data === null) return <RefusalNote refusal={asked.refusal} />;
+  if (data === null) return <RejectionNote rejection={asked.rejection} />;
   // The answer has them as text; they are what was asked for before.
   const played: Played = {
     scene: data.scene as Scene,
@@ -104,7 +104,7 @@ export function Rehearsal(): ReactNode {
         />
       </div>
       <p className="soft">{words.atOnce}</p>
-      <RefusalNote refusal={playing.refusal} />
+      <RejectionNote rejection={playing.rejection} />
     </Card>
   );
 }

@@ -1,7 +1,7 @@
 import { Button, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useWords } from "../../words/WordsContext";
 import type { Case } from "./OpenedCase";
@@ -41,7 +41,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
         >
           {words.rename}
         </Button>
-        <RefusalNote refusal={renaming.refusal} />
+        <RejectionNote rejection={renaming.rejection} />
       </div>
     );
   }
@@ -76,7 +76,7 @@ export function Rename({ case_, onRenamed }: { case_: Case; onRenamed: () => voi
       >
         {words.leaveName}
       </Button>
-      <RefusalNote refusal={renaming.refusal} />
+      <RejectionNote rejection={renaming.rejection} />
     </form>
   );
 }

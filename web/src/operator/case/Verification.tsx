@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
@@ -16,7 +16,7 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
   const [found, setFound] = useState<components["schemas"]["VerificationMessage"] | null>(null);
   const verifying = useDo();
   const params = { path: { case_id: caseId } };
-  const { data, refusal } = useAsked(
+  const { data, rejection } = useAsked(
     (signal) => answered(server.GET("/api/cases/{case_id}/files", { signal, params })),
     { key: caseId, everyMs: 5000 },
   );
@@ -29,18 +29,18 @@ export function Verification({ caseId }: { caseId: string }): ReactNode {
   const bytes = (data?.files ?? []).reduce((sum, file) => sum + file.size_bytes, 0);
   return (
     <Card title={words.filesTitle} testId="files">
-      <RefusalNote refusal={refusal} />
+      <RejectionNote rejection={rejection} />
       <div className="row row-mid">
         <p className="grow">
           {data === null
-            ? refusal === null && rest.loading
+            ? rejection === null && rest.loading
             : filled(words.filesCount, { count: data.files.length, size: shownBytes(bytes) })}
         </p>
         <Button size="lg" variant="default" loading={verifying.busy} onClick={verify}>
           {words.verify}
         </Button>
       </div>
-      <RefusalNote refusal={verifying.refusal} />
+      <RejectionNote rejection={verifying.rejection} />
       {found?.sound === true && (
         <p role="status" className="good">
           ✓ {words.filesSound}

@@ -9,7 +9,7 @@ import { LiveStage } from "../registration/LiveStage";
 import { filled } from "../../words/filled";
 import { plannedVertebrae } from "../registration/planRead";
 import { WhereToTouch } from "../registration/points/WhereToTouch";
-import { Refused } from "../registration/Refused";
+import { Rejected } from "../registration/Rejected";
 import { ToolChoice } from "../registration/ToolChoice";
 import { ToolSeen } from "../registration/ToolSeen";
 import { useTools } from "../registration/useTools";
@@ -29,7 +29,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
   const [tool, setTool] = useState("");
   const [picked, setPicked] = useState<string | null>(null);
   const beginning = useDo();
-  if (plan.data === null) return <Unanswered asked={plan} Note={Refused} />;
+  if (plan.data === null) return <Unanswered asked={plan} Note={Rejected} />;
   const landmarks = plannedVertebrae(plan.data.plan).find((one) => one.name === vertebra)?.landmarks ?? [];
   const free = landmarks.filter((one) => !used.includes(one.name));
   const landmark = free.find((one) => one.name === picked) ?? null;
@@ -71,7 +71,7 @@ export function CheckChoice({ vertebra, used, maxMm, onBegun }: CheckChoiceProps
         </ul>
         <ToolChoice tool={touching} onTool={setTool} />
         <ToolSeen tool={touching} />
-        <Refused refusal={beginning.refusal} />
+        <Rejected rejection={beginning.rejection} />
         <Button
           size="xl"
           disabled={landmark === null || touching === ""}

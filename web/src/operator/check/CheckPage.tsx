@@ -6,7 +6,7 @@ import { useAsked } from "../../rest/useAsked";
 import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
 import { usedLandmarks } from "../registration/planRead";
-import { Refused } from "../registration/Refused";
+import { Rejected } from "../registration/Rejected";
 import { RehearsalStrip } from "../registration/RehearsalStrip";
 import { TipRests } from "../registration/TipRests";
 import { useRunning } from "../registration/useRunning";
@@ -38,14 +38,14 @@ function Checking({ registrationId }: { registrationId: string }): ReactNode {
   const registration = useAsked((signal) => answered(server.GET("/api/registration", { signal })), {
     key: registrationId,
   });
-  if (registration.data === null) return <Unanswered asked={registration} Note={Refused} />;
+  if (registration.data === null) return <Unanswered asked={registration} Note={Rejected} />;
   const { check, vertebra } = registration.data;
   return (
     <div className="registration">
       <RehearsalStrip scenes={["check"]}>{(told) => <TipRests told={told} />}</RehearsalStrip>
       <CheckDue rule={check} fresh={kept === 0 ? null : String(kept)} />
       {running.data === null ? (
-        <Unanswered asked={running} Note={Refused} />
+        <Unanswered asked={running} Note={Rejected} />
       ) : running.data.check ? (
         <CheckWork
           onOver={running.again}

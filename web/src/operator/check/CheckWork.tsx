@@ -10,7 +10,7 @@ import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
 import { CaptureProgress } from "../registration/CaptureProgress";
 import { LiveStage } from "../registration/LiveStage";
-import { Refused } from "../registration/Refused";
+import { Rejected } from "../registration/Rejected";
 import { ToolSeen } from "../registration/ToolSeen";
 import { useMadeBy } from "../registration/useMadeBy";
 import { CheckOutcome } from "./CheckOutcome";
@@ -34,7 +34,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
   });
   const doing = useDo();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
+  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
   const { outcome, capture } = data;
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing
@@ -51,7 +51,7 @@ export function CheckWork({ onOver, onKept }: CheckWorkProps): ReactNode {
         <ToolSeen tool={data.tool} />
         <CaptureProgress capture={capture} maxSpreadMm={data.max_spread_mm} />
         {outcome === null ? <p className="quiet">{words.byEye}</p> : <CheckOutcome outcome={outcome} />}
-        <Refused refusal={doing.refusal} />
+        <Rejected rejection={doing.rejection} />
         <Button
           size="xl"
           disabled={outcome === null}

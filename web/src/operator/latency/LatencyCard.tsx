@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, Refusal, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { answered, Rejection, server } from "../../rest/client";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useLatency } from "../../rest/useLatency";
 import { useWords } from "../../words/WordsContext";
@@ -16,17 +16,17 @@ export function LatencyCard(): ReactNode {
   const { data, again } = useLatency();
   const beginning = useDo();
   const [plan, setPlan] = useState<Plan | null>(null);
-  const [refusal, setRefusal] = useState<Refusal | null>(null);
+  const [rejection, setRejection] = useState<Rejection | null>(null);
   const [madeHere, setMadeHere] = useState<string | null>(null);
   const begin = (): void => {
-    setRefusal(null);
+    setRejection(null);
     void beginning.run(async () => {
       setPlan(await answered(server.POST("/api/latency/measurement", { body: { codes: CODES } })));
     });
   };
-  const onOver = (result: Result | null, refused: Refusal | null): void => {
+  const onOver = (result: Result | null, rejected: Rejection | null): void => {
     setPlan(null);
-    setRefusal(refused);
+    setRejection(rejected);
     if (result === null) return;
     setMadeHere(result.at);
     again();
@@ -51,7 +51,7 @@ export function LatencyCard(): ReactNode {
           {result === null ? words.begin : words.beginAgain}
         </Button>
       </div>
-      <RefusalNote refusal={refusal ?? beginning.refusal} />
+      <RejectionNote rejection={rejection ?? beginning.rejection} />
       {plan !== null && <LatencyScreen plan={plan} onOver={onOver} />}
     </Card>
   );

@@ -1,7 +1,7 @@
 import { Button, Progress as Bar } from "@mantine/core";
 import { useEffect, useEffectEvent, useRef, useState, type ReactNode } from "react";
 import { useLive } from "../../live/LiveContext";
-import { Refusal, server } from "../../rest/client";
+import { Rejection, server } from "../../rest/client";
 import { filled } from "../../words/filled";
 import { useWords } from "../../words/WordsContext";
 import { useMaker } from "../parts/useMaker";
@@ -10,7 +10,7 @@ import { measure, type Plan, type Progress, type Result } from "./measure";
 interface LatencyScreenProps {
   plan: Plan;
   /** Called once, with neither where it was stopped. */
-  onOver: (result: Result | null, refusal: Refusal | null) => void;
+  onOver: (result: Result | null, rejection: Rejection | null) => void;
 }
 
 /** The codes over the whole page, under the alarms; it ends by itself, by a touch, and when the page is left. */
@@ -59,7 +59,7 @@ export function LatencyScreen({ plan, onOver }: LatencyScreenProps): ReactNode {
       })
       .catch((error: unknown) => {
         if (signal.aborted) return;
-        if (!(error instanceof Refusal)) throw error;
+        if (!(error instanceof Rejection)) throw error;
         onEnd(null, error);
       })
       .finally(() => {

@@ -1,6 +1,6 @@
 // Measures: paints codes, notes what the live page shows meanwhile, and has the server time them.
 import type { Live } from "../../live/live";
-import { answered, Refusal, server } from "../../rest/client";
+import { answered, Rejection, server } from "../../rest/client";
 import type { components } from "../../schema";
 import { CodeSequence } from "./codes";
 import { drawCode } from "./drawCode";
@@ -34,7 +34,7 @@ const LINGER_MS = 1500;
 /**
  * The result, or null where it was stopped by `signal`.
  *
- * @throws Refusal
+ * @throws Rejection
  */
 export async function measure(measured: Measured): Promise<Result | null> {
   const { live, plan, madeBy, signal, onProgress } = measured;
@@ -51,7 +51,7 @@ export async function measure(measured: Measured): Promise<Result | null> {
       await later(ASK_EVERY_MS);
       if (signal.aborted) return null;
       const reading = await asked(notes);
-      if (reading.trouble !== null) throw new Refusal(reading.trouble);
+      if (reading.problem !== null) throw new Rejection(reading.problem);
       if (reading.read_images > 0 && !sequence.isCounting) {
         notes.begin();
         sequence.begin();

@@ -7,7 +7,7 @@ import { useWords } from "../../words/WordsContext";
 import { useProcedure } from "../../app/procedure";
 import { filled } from "../../words/filled";
 import { plannedVertebrae } from "../registration/planRead";
-import { Refused } from "../registration/Refused";
+import { Rejected } from "../registration/Rejected";
 import { SureButton } from "../registration/SureButton";
 import { useMadeBy } from "../registration/useMadeBy";
 import { useSides } from "../registration/useSides";
@@ -27,7 +27,7 @@ export function ChannelSwitch(): ReactNode {
   const [shown, setShown] = useState(false);
   const switching = useDo();
   if (isPlanned === false) return null;
-  if (plan.data === null) return <Unanswered asked={plan} Note={Refused} />;
+  if (plan.data === null) return <Unanswered asked={plan} Note={Rejected} />;
   const active = plan.data.active_channel;
   const others = plannedVertebrae(plan.data.plan)
     .flatMap((one) => one.sides.map((side) => ({ vertebra: one.name, side })))
@@ -92,7 +92,7 @@ export function ChannelSwitch(): ReactNode {
             </div>
           );
         })}
-      <Refused refusal={switching.refusal} />
+      <Rejected rejection={switching.rejection} />
     </section>
   );
 }

@@ -16,7 +16,7 @@ export function Moved(): ReactNode {
   return moves.map((one) => (
     <Alert
       key={one.key}
-      className="refusal"
+      className="rejection"
       role="alert"
       title={one.words.title}
       data-testid={`moved-${one.key}`}

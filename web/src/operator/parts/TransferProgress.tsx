@@ -1,6 +1,6 @@
 import { Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useWords } from "../../words/WordsContext";
 import { shownBytes } from "./shown";
 import type { Transfer } from "./useTransfer";
@@ -8,8 +8,8 @@ import type { Transfer } from "./useTransfer";
 /** How far a file is on its way, with a way to stop it; how it ended. */
 export function TransferProgress({ transfer, name }: { transfer: Transfer; name: string }): ReactNode {
   const words = useWords();
-  const { moved, refusal, stopped, stop } = transfer;
-  if (refusal !== null) return <RefusalNote refusal={refusal} />;
+  const { moved, rejection, stopped, stop } = transfer;
+  if (rejection !== null) return <RejectionNote rejection={rejection} />;
   if (stopped) return <p role="status">{words.rest.cancelled}</p>;
   if (moved === null) return null;
   const { doneBytes, allBytes } = moved;

@@ -1,6 +1,6 @@
 // What is sent up or fetched down in one piece, with how far it is; both can be stopped.
-import { Refusal } from "../../rest/client";
-import { parsed, troubleIn } from "./trouble";
+import { Rejection } from "../../rest/client";
+import { parsed, problemIn } from "./problem";
 
 export interface Moved {
   doneBytes: number;
@@ -13,7 +13,7 @@ export type OnMoved = (moved: Moved) => void;
 /**
  * Sends a file as the body of a request. `fetch` does not say how far it is with that, so an older way is taken.
  *
- * @throws Refusal, or a DOMException AbortError when it was stopped
+ * @throws Rejection, or a DOMException AbortError when it was stopped
  */
 export function sent<Answer>(
   path: string,
@@ -30,10 +30,10 @@ export function sent<Answer>(
     };
     request.onload = (): void => {
       if (request.status >= 200 && request.status < 300) resolve(parsed(request.responseText) as Answer);
-      else reject(new Refusal(troubleIn(request.responseText, request.status)));
+      else reject(new Rejection(problemIn(request.responseText, request.status)));
     };
     request.onerror = (): void => {
-      reject(new Refusal(troubleIn("", 0)));
+      reject(new Rejection(problemIn("", 0)));
     };
     request.onabort = (): void => {
       reject(new DOMException("stopped", "AbortError"));
@@ -48,7 +48,7 @@ export function sent<Answer>(
 /**
  * Fetches a file.
  *
- * @throws Refusal, or a DOMException AbortError when it was stopped
+ * @throws Rejection, or a DOMException AbortError when it was stopped
  */
 export async function fetched(path: string, onMoved: OnMoved, signal: AbortSignal): Promise<Blob> {
   let answer: Response;
@@ -56,9 +56,9 @@ export async function fetched(path: string, onMoved: OnMoved, signal: AbortSigna
     answer = await fetch(path, { signal, cache: "no-store" });
   } catch (error) {
     if (signal.aborted) throw error;
-    throw new Refusal(troubleIn("", 0));
+    throw new Rejection(problemIn("", 0));
   }
-  if (!answer.ok) throw new Refusal(troubleIn(await answer.text(), answer.status));
+  if (!answer.ok) throw new Rejection(problemIn(await answer.text(), answer.status));
   const allBytes = Number(answer.headers.get("Content-Length") ?? "0");
   const parts: Uint8Array<ArrayBuffer>[] = [];
   let doneBytes = 0;
@@ -71,7 +71,7 @@ export async function fetched(path: string, onMoved: OnMoved, signal: AbortSigna
     }
   } catch (error) {
     if (signal.aborted) throw error;
-    throw new Refusal(troubleIn("", 0));
+    throw new Rejection(problemIn("", 0));
   }
   return new Blob(parts, { type: answer.headers.get("Content-Type") ?? "" });
 }

@@ -1,21 +1,21 @@
 // One file on its way at a time: how far it is, how it ended, and a way to stop it.
 import { useCallback, useEffect, useRef, useState } from "react";
-import { Refusal } from "../../rest/client";
+import { Rejection } from "../../rest/client";
 import type { Moved, OnMoved } from "./transfer";
 
 export interface Transfer {
   /** Null while nothing is on its way. */
   moved: Moved | null;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   stopped: boolean;
   run: (move: (onMoved: OnMoved, signal: AbortSignal) => Promise<void>) => Promise<void>;
   stop: () => void;
 }
 
-const NOTHING = { moved: null, refusal: null, stopped: false };
+const NOTHING = { moved: null, rejection: null, stopped: false };
 
 export function useTransfer(): Transfer {
-  const [state, setState] = useState<Pick<Transfer, "moved" | "refusal" | "stopped">>(NOTHING);
+  const [state, setState] = useState<Pick<Transfer, "moved" | "rejection" | "stopped">>(NOTHING);
   const control = useRef<AbortController | null>(null);
 
   useEffect(
@@ -37,7 +37,7 @@ export function useTransfer(): Transfer {
       setState(NOTHING);
     } catch (error) {
       if (own.signal.aborted) setState({ ...NOTHING, stopped: true });
-      else if (error instanceof Refusal) setState({ ...NOTHING, refusal: error });
+      else if (error instanceof Rejection) setState({ ...NOTHING, rejection: error });
       else throw error;
     } finally {
       control.current = null;

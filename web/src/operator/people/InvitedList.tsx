@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -16,7 +16,7 @@ interface Props {
 export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
   const all = useWords();
   const words = all.people;
-  const { busy, refusal, run } = useDo();
+  const { busy, rejection, run } = useDo();
   const revoke = async (invitation_id: string): Promise<void> => {
     const params = { path: { invitation_id } };
     await answered(server.DELETE("/api/people/invitations/{invitation_id}", { params }));
@@ -25,7 +25,7 @@ export function InvitedList({ invitations, onRevoked }: Props): ReactNode {
   return (
     <section aria-labelledby="invitations">
       <h3 id="invitations">{words.invitations}</h3>
-      <RefusalNote refusal={refusal} />
+      <RejectionNote rejection={rejection} />
       {invitations.length === 0 && <p>{words.noInvitations}</p>}
       <ul className="people-list">
         {invitations.map((one) => (

@@ -2,7 +2,7 @@ import { Button, Checkbox, SegmentedControl, TextInput } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import type { Role } from "../../app/session";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -23,7 +23,7 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
   const [singleUse, setSingleUse] = useState(true);
   const [forMachine, setForMachine] = useState(false);
   const [invited, setInvited] = useState<Invited | null>(null);
-  const { busy, refusal, run } = useDo();
+  const { busy, rejection, run } = useDo();
 
   const invite = async (): Promise<void> => {
     const body = { name: name.trim(), role, lasts_h: hours, single_use: singleUse, for_machine: forMachine };
@@ -101,7 +101,7 @@ export function Inviting({ onInvited }: { onInvited: () => void }): ReactNode {
             }}
           />
         </div>
-        <RefusalNote refusal={refusal} />
+        <RejectionNote rejection={rejection} />
         <Button type="submit" size="lg" loading={busy} disabled={name.trim() === ""} data-testid="invite">
           {words.make}
         </Button>

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
@@ -16,7 +16,7 @@ interface Props {
 export function SignedInList({ sessions, onEnded }: Props): ReactNode {
   const all = useWords();
   const words = all.people;
-  const { busy, refusal, run } = useDo();
+  const { busy, rejection, run } = useDo();
   const end = async (session_id: string): Promise<void> => {
     await answered(server.DELETE("/api/people/sessions/{session_id}", { params: { path: { session_id } } }));
     onEnded();
@@ -24,7 +24,7 @@ export function SignedInList({ sessions, onEnded }: Props): ReactNode {
   return (
     <section aria-labelledby="signed-in">
       <h3 id="signed-in">{words.signedIn}</h3>
-      <RefusalNote refusal={refusal} />
+      <RejectionNote rejection={rejection} />
       {sessions.length === 0 && <p>{words.nobody}</p>}
       <ul className="people-list">
         {sessions.map((one) => (

@@ -19,7 +19,7 @@ export interface AuditRow {
 type Line = Readonly<Record<string, unknown>>;
 type Kind = components["schemas"]["DocumentKind"];
 
-const REFUSED = 400;
+const REJECTED = 400;
 const FAILED = 500;
 /** Names in an address that people know; the others are long numbers. */
 const TOLD = ["name", "side", "series", "plane"] as const;
@@ -89,8 +89,8 @@ function titleOf(what: string, name: string, { audit, case: words }: Words): str
 
 function resultText(status: unknown, { audit }: Words): string {
   if (typeof status !== "number") return "";
-  if (status < REFUSED) return `✓ ${audit.done}`;
-  return `✕ ${status < FAILED ? audit.refused : audit.failed}`;
+  if (status < REJECTED) return `✓ ${audit.done}`;
+  return `✕ ${status < FAILED ? audit.rejected : audit.failed}`;
 }
 
 const text = (value: unknown): string =>

@@ -1,7 +1,7 @@
 import { Alert, Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { Icon } from "../../panes/Icon";
 import { useWords } from "../../words/WordsContext";
 import { Maker } from "../parts/Maker";
@@ -12,7 +12,7 @@ import { useWork } from "./state/WorkContext";
 /** The parts of the plan, the way back, and what stands against going on. */
 export function PlanBar(): ReactNode {
   const words = useWords().plan.bar;
-  const { plan, planRefusal, refusal, conflict, canUndo, undo, change, busy, forget } = usePlanning();
+  const { plan, planRejection, rejection, conflict, canUndo, undo, change, busy, forget } = usePlanning();
   const { setDraft } = useWork();
   const heading = plan?.heading ?? null;
   const isOld = heading !== null && !heading.current;
@@ -36,7 +36,7 @@ export function PlanBar(): ReactNode {
           <Icon name="undo" /> {words.undo}
         </Button>
       </div>
-      <RefusalNote refusal={planRefusal} />
+      <RejectionNote rejection={planRejection} />
       {isOld && (
         <Alert className="consequence" title={words.old.title} data-testid="plan-old">
           <p>{words.old.sentence}</p>
@@ -78,7 +78,7 @@ export function PlanBar(): ReactNode {
           {words.conflict.sentence}
         </Alert>
       )}
-      {conflict === null && <RefusalNote refusal={refusal} />}
+      {conflict === null && <RejectionNote rejection={rejection} />}
     </div>
   );
 }

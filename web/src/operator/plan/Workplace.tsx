@@ -20,7 +20,7 @@ import { SurfacePart } from "./surface/SurfacePart";
 export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
   const words = useWords().plan;
   const { part } = useWork();
-  const { asking, planRefusal, askAgain } = usePlanning();
+  const { asking, planRejection, askAgain } = usePlanning();
   useWayOfChannel();
   const parts: Record<Part, () => ReactNode> = {
     ct: () => <CtPart onTaken={onCtTaken} />,
@@ -38,7 +38,7 @@ export function Workplace({ onCtTaken }: { onCtTaken: () => void }): ReactNode {
         <Planes drawing={(plane, projection) => <PlanDrawing plane={plane} projection={projection} />} />
         <aside className="plan-side" aria-label={words.part[part]}>
           {asking && part !== "ct" ? (
-            <Unanswered asked={{ refusal: planRefusal, again: askAgain }} />
+            <Unanswered asked={{ rejection: planRejection, again: askAgain }} />
           ) : (
             parts[part]()
           )}

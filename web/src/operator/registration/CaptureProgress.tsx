@@ -1,12 +1,12 @@
 import { Progress } from "@mantine/core";
 import type { ReactNode } from "react";
 import { shownNumber } from "../../live/rounding";
-import { Refusal } from "../../rest/client";
+import { Rejection } from "../../rest/client";
 import type { components } from "../../schema";
 import { useWords } from "../../words/WordsContext";
 import { filled } from "../../words/filled";
 import { lookingText } from "./lookingText";
-import { Refused } from "./Refused";
+import { Rejected } from "./Rejected";
 
 interface CaptureProgressProps {
   capture: components["schemas"]["TouchMessage"];
@@ -16,13 +16,13 @@ interface CaptureProgressProps {
 /** How far the tip at rest has been seen, how still it was, or why it was refused. */
 export function CaptureProgress({ capture, maxSpreadMm }: CaptureProgressProps): ReactNode {
   const words = useWords().registration.capture;
-  if (capture.state === "refused" && capture.trouble !== null)
+  if (capture.state === "rejected" && capture.problem !== null)
     return (
       <div data-testid="capture-refused">
         <p>
-          ▲ <strong>{capture.landmark}</strong>: {words.refused}
+          ▲ <strong>{capture.landmark}</strong>: {words.rejected}
         </p>
-        <Refused refusal={new Refusal(capture.trouble)} />
+        <Rejected rejection={new Rejection(capture.problem)} />
       </div>
     );
   if (capture.state === "taken") {

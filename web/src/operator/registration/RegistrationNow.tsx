@@ -10,7 +10,7 @@ import { Maker } from "../parts/Maker";
 import { shownTime } from "../parts/shown";
 import { useProcedure } from "../../app/procedure";
 import { filled } from "../../words/filled";
-import { Refused } from "./Refused";
+import { Rejected } from "./Rejected";
 import { RegistrationNumbers } from "./RegistrationNumbers";
 import { SureButton } from "./SureButton";
 import { useMadeBy } from "./useMadeBy";
@@ -37,7 +37,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
   });
   const withdrawing = useDo();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
+  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
   const { heading } = data;
   const lost = heading.withdrawn?.reason ?? heading.out_of_date;
   const check = procedure.data?.steps.find((one) => one.step === "check");
@@ -57,7 +57,7 @@ function Newest({ caseId, documentId }: { caseId: string; documentId: string }):
       </p>
       {lost !== null && <p className="warning">▲ {lost}</p>}
       <RegistrationNumbers method={data.method} numbers={data.numbers} />
-      <Refused refusal={withdrawing.refusal} />
+      <Rejected rejection={withdrawing.rejection} />
       <div className="row">
         {heading.current && (
           <>

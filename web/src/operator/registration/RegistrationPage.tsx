@@ -22,7 +22,7 @@ export function RegistrationPage(): ReactNode {
   const way = Object.hasOwn(WAYS, named) ? (named as Way) : null;
   // The ways begin from what the case is and has: they wait for the first answer. One that fails later must not
   // take away what a hand has marked.
-  if (step === undefined && procedure.refusal === null) return <Unanswered asked={procedure} />;
+  if (step === undefined && procedure.rejection === null) return <Unanswered asked={procedure} />;
   if (step !== undefined && !step.allowed)
     return (
       <p className="warning" data-testid="register-shut">

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { useDo } from "../../rest/useDo";
 import { useRehearsal, type Rehearsed } from "../../rest/useRehearsal";
 import type { components } from "../../schema";
@@ -53,7 +53,7 @@ export function RehearsalStrip({ scenes, children }: RehearsalStripProps): React
         ))}
         {children?.(data)}
       </div>
-      <RefusalNote refusal={playing.refusal} />
+      <RejectionNote rejection={playing.rejection} />
     </aside>
   );
 }

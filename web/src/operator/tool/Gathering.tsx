@@ -1,8 +1,8 @@
 import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { answered, server } from "../../rest/client";
-import { Refusal } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { Rejection } from "../../rest/client";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
@@ -67,7 +67,7 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
       <p className="newest" data-taking={data.newest} role="status">
         {data.running ? words.takings[data.newest] : words.ended}
       </p>
-      <RefusalNote refusal={data.trouble === null ? null : new Refusal(data.trouble)} />
+      <RejectionNote rejection={data.problem === null ? null : new Rejection(data.problem)} />
       <GatheringMeasures gathered={data} gate={gate} />
       <ul className="missing" aria-label={words.missing} data-testid="missing" data-enough={enough}>
         {data.missing.map((one) => (
@@ -94,7 +94,7 @@ export function Gathering({ tools, gate, onOver }: GatheringProps): ReactNode {
         </TwiceButton>
       </div>
       {needsShape && given === null && <p className="soft">{words.shapeFirst}</p>}
-      <RefusalNote refusal={doing.refusal} />
+      <RejectionNote rejection={doing.rejection} />
     </Card>
   );
 }

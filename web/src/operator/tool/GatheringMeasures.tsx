@@ -90,8 +90,8 @@ export function GatheringMeasures({ gathered, gate }: { gathered: Gathered; gate
           <Measure name={words.checkMost} value={outcome?.max_mm ?? null} unit="mm" />
         )}
       </dl>
-      {gathered.outcome_trouble !== null && gathered.taken > 0 && (
-        <p className="soft">{sentence(gathered.outcome_trouble.message)}</p>
+      {gathered.outcome_problem !== null && gathered.taken > 0 && (
+        <p className="soft">{sentence(gathered.outcome_problem.message)}</p>
       )}
       {passedOver.length > 0 && (
         <p className="soft">

@@ -1,7 +1,7 @@
 import { useState, type ReactNode } from "react";
 import { VideoPane } from "../../panes/VideoPane";
 import { answered, server } from "../../rest/client";
-import { RefusalNote } from "../../rest/RefusalNote";
+import { RejectionNote } from "../../rest/RejectionNote";
 import { Unanswered } from "../../rest/Unanswered";
 import { useAsked } from "../../rest/useAsked";
 import { useDo } from "../../rest/useDo";
@@ -42,13 +42,13 @@ export function ToolPage(): ReactNode {
   };
   if (data === null) return <Unanswered asked={asked} />;
   if (gates.data === null) return <Unanswered asked={gates} />;
-  if (procedure.data === null && procedure.refusal === null) return <Unanswered asked={procedure} />;
+  if (procedure.data === null && procedure.rejection === null) return <Unanswered asked={procedure} />;
   const gate = gates.data.tool_calibration;
   if (procedure.data?.case_id === null) return <p className="card-lead">{words.noCase}</p>;
   return (
     <div className="beside">
       <div className="cards">
-        <RefusalNote refusal={beginning.refusal} />
+        <RejectionNote rejection={beginning.rejection} />
         {data.collecting ? (
           <Gathering tools={data.tools} gate={gate} onOver={over} />
         ) : (

@@ -92,7 +92,7 @@ export const auditDe: AuditWords = {
   other: "Hat etwas getan, wofür diese Seite keine Worte hat",
   damaged: "Eine beschädigte Zeile",
   done: "getan",
-  refused: "abgelehnt",
+  rejected: "abgelehnt",
   failed: "misslungen",
   caseChanged: "Fall",
   invitation: "Einladung",

@@ -91,7 +91,7 @@ export const auditEn = {
   other: "Did something for which this page has no words",
   damaged: "A damaged line",
   done: "done",
-  refused: "refused",
+  rejected: "rejected",
   failed: "failed",
   caseChanged: "Case",
   invitation: "Invitation",

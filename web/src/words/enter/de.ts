@@ -16,7 +16,7 @@ export const enterDe: EnterWords = {
     sentence:
       "Es wird von selbst weiter versucht. Prüfen Sie, ob dieses Gerät im richtigen Netz ist und ob Coaxial läuft.",
   },
-  refused: {
+  rejected: {
     INVITATION_UNKNOWN: {
       title: "Dieser Link gehört nicht zu diesem Server",
       sentence:

@@ -14,7 +14,7 @@ export const enterEn = {
     sentence:
       "It is tried again by itself. Check that this device is in the right network, and that Coaxial is running.",
   },
-  refused: {
+  rejected: {
     INVITATION_UNKNOWN: {
       title: "This link does not open this server",
       sentence:

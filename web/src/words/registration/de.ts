@@ -93,7 +93,7 @@ export const registrationDe: RegistrationWords = {
     lookingAtRate: "{images} von {wanted} Bildern. Noch {left} s ruhig halten, bei {rate} Bildern/s.",
     images: "Bilder mit sichtbarer Spitze",
     taken: "aus {images} Bildern aufgenommen, Streuung {spread} mm (erlaubt {most} mm).",
-    refused: "nicht aufgenommen.",
+    rejected: "nicht aufgenommen.",
   },
   points: {
     before: "Punkte der Planung antasten",

@@ -92,7 +92,7 @@ export const registrationEn = {
     lookingAtRate: "{images} of {wanted} images. Hold still for another {left} s, at {rate} images/s.",
     images: "Images in which the tip was seen",
     taken: "taken from {images} images, spread {spread} mm (allowed {most} mm).",
-    refused: "not taken.",
+    rejected: "not taken.",
   },
   points: {
     before: "Touch the landmarks of the plan",

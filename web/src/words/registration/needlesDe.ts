@@ -69,7 +69,7 @@ export const needlesDe: NeedlesWords = {
     findAgain: "Erneut suchen",
     pick: "Berühren Sie einen Vorschlag, um ihn zu sehen. Keiner gilt, bevor Sie hingesehen haben.",
     number: "Vorschlag {number}",
-    chance: "unter diesen zu {percent} wahrscheinlich",
+    probability: "unter diesen zu {percent} wahrscheinlich",
     needle: "Nadel",
     lean: "Neigung",
     depth: "Tiefe auf ±{sd} {unit} bekannt",

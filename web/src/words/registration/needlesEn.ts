@@ -67,7 +67,7 @@ export const needlesEn = {
     findAgain: "Find again",
     pick: "Touch a proposal to see it. None is right before you have looked.",
     number: "Proposal {number}",
-    chance: "{percent} likely among these",
+    probability: "{percent} likely among these",
     needle: "Needle",
     lean: "leans",
     depth: "Depth known to ±{sd} {unit}",

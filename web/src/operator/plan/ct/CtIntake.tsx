@@ -4,7 +4,7 @@ import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
 import { useRehearsal } from "../../../rest/useRehearsal";
 import { useDo } from "../../../rest/useDo";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { RejectionNote } from "../../../rest/RejectionNote";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useWords } from "../../../words/WordsContext";
 import { useMadeBy } from "../state/madeBy";
@@ -98,7 +98,7 @@ export function CtIntake({ isSecond, onTaken }: CtIntakeProps): ReactNode {
         </>
       )}
       <UploadProgress upload={upload} />
-      <RefusalNote refusal={choosing.refusal} />
+      <RejectionNote rejection={choosing.rejection} />
       <JobProgress followed={job} />
       {job.job !== null && !isOver(job.job) && (
         <ReadingPreview key={uploadId} uploadId={uploadId} of={job.job} />

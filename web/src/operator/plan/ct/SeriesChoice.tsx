@@ -16,7 +16,7 @@ export interface Series {
   pixel_mm: [number, number];
   thickness_mm: number;
   kernel: string;
-  trouble: string;
+  problem: string;
 }
 
 /** The series that a job found in an upload; none where it read the CT. */
@@ -42,7 +42,7 @@ export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): Rea
       <p>{words.hint}</p>
       <ul className="series">
         {series.map((one) => (
-          <li key={one.series} data-trouble={one.trouble !== "" || undefined}>
+          <li key={one.series} data-trouble={one.problem !== "" || undefined}>
             <div>
               <strong>
                 {one.number > 0 && `${one.number} · `}
@@ -54,11 +54,11 @@ export function SeriesChoice({ series, busy, onChoose }: SeriesChoiceProps): Rea
                 {one.kernel !== "" && ` · ${one.kernel}`}
                 {patients > 1 && ` · ${words.patient} ${one.patient}`}
               </p>
-              {one.trouble !== "" && <p className="warning">{one.trouble}</p>}
+              {one.problem !== "" && <p className="warning">{one.problem}</p>}
             </div>
             <Button
               size="lg"
-              variant={one.trouble === "" ? "filled" : "default"}
+              variant={one.problem === "" ? "filled" : "default"}
               disabled={busy}
               onClick={() => {
                 onChoose(one.series);

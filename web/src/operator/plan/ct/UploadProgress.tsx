@@ -1,14 +1,14 @@
 import { Alert, Button, Progress } from "@mantine/core";
 import type { ReactNode } from "react";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { RejectionNote } from "../../../rest/RejectionNote";
 import { useWords } from "../../../words/WordsContext";
 import type { Upload } from "./useUpload";
 
 /** How much of a file is packed or sent, with a way to stop; why it was not taken. */
 export function UploadProgress({ upload }: { upload: Upload }): ReactNode {
   const words = useWords();
-  if (upload.refusal !== null) return <RefusalNote refusal={upload.refusal} />;
-  if (upload.isTooMuch) return <Alert className="refusal" role="alert" title={words.plan.ct.tooMuch} />;
+  if (upload.rejection !== null) return <RejectionNote rejection={upload.rejection} />;
+  if (upload.isTooMuch) return <Alert className="rejection" role="alert" title={words.plan.ct.tooMuch} />;
   if (upload.wasStopped) return <p role="status">{words.rest.cancelled}</p>;
   if (upload.phase === null) return null;
   const percent = Math.round(upload.ratio * 100);

@@ -1,10 +1,10 @@
 // Sends a large file with its progress: fetch tells nothing of what went up, XMLHttpRequest does.
-import { Refusal, type Trouble } from "../../../rest/client";
+import { Rejection, type Problem } from "../../../rest/client";
 
 /**
  * What the server answers to a POST of this body.
  *
- * @throws Refusal
+ * @throws Rejection
  * @throws DOMException - AbortError, after `stop`.
  */
 export function sent<Answer>(
@@ -15,7 +15,7 @@ export function sent<Answer>(
 ): Promise<Answer> {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
-    const noAnswer = new Refusal({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+    const noAnswer = new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
     request.open("POST", address);
     request.setRequestHeader("Content-Type", "application/octet-stream");
     request.upload.onprogress = (event) => {
@@ -25,7 +25,7 @@ export function sent<Answer>(
       try {
         const answer = JSON.parse(request.responseText) as unknown;
         if (request.status < 300) resolve(answer as Answer);
-        else reject(new Refusal(answer as Trouble));
+        else reject(new Rejection(answer as Problem));
       } catch {
         reject(noAnswer);
       }

@@ -1,6 +1,6 @@
 // From files on the tablet to a job on the server: packed where there are several, sent, and stopped if wished.
 import { useRef, useState } from "react";
-import { Refusal } from "../../../rest/client";
+import { Rejection } from "../../../rest/client";
 import type { Job } from "../../../rest/useJob";
 import { sent } from "./send";
 import { MAX_BYTES, MAX_FILES, zipped } from "./zip";
@@ -10,13 +10,13 @@ export type Phase = "packing" | "sending" | "fetching";
 export interface Uploading {
   phase: Phase | null;
   ratio: number;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   wasStopped: boolean;
   /** Too much for one zip: what to do is said on the page. */
   isTooMuch: boolean;
 }
 
-const IDLE: Uploading = { phase: null, ratio: 0, refusal: null, wasStopped: false, isTooMuch: false };
+const IDLE: Uploading = { phase: null, ratio: 0, rejection: null, wasStopped: false, isTooMuch: false };
 
 export interface Upload extends Uploading {
   send: (files: readonly File[]) => void;
@@ -51,7 +51,7 @@ export function useUpload(address: () => string, onTaken: (begun: Begun) => void
       setState(IDLE);
       onTaken(answer);
     } catch (error) {
-      if (error instanceof Refusal) setState({ ...IDLE, refusal: error });
+      if (error instanceof Rejection) setState({ ...IDLE, rejection: error });
       else if (stop.signal.aborted) setState({ ...IDLE, wasStopped: true });
       else throw error;
     } finally {
@@ -86,7 +86,7 @@ export function useUpload(address: () => string, onTaken: (begun: Begun) => void
     void run(async (stop) => {
       setState({ ...IDLE, phase: "fetching" });
       const answer = await fetch(from, { signal: stop });
-      if (!answer.ok) throw new Refusal((await answer.json()) as Refusal["trouble"]);
+      if (!answer.ok) throw new Rejection((await answer.json()) as Rejection["problem"]);
       return answer.blob();
     });
   };

@@ -1,6 +1,6 @@
 import { Alert, Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
-import { answered, Refusal, server } from "../../../rest/client";
+import { answered, Rejection, server } from "../../../rest/client";
 import { useWords } from "../../../words/WordsContext";
 import { FileButtons } from "../ct/FileButtons";
 import { usePlanning } from "../state/PlanContext";
@@ -8,9 +8,9 @@ import { usePlanning } from "../state/PlanContext";
 /** The plan out to a file, and in from one. */
 export function FilePart(): ReactNode {
   const words = useWords().plan.file;
-  const { plan, change, busy, forget, refusal } = usePlanning();
+  const { plan, change, busy, forget, rejection } = usePlanning();
   const [content, setContent] = useState<{ name: string; text: string } | null>(null);
-  const isOfOtherCt = refusal?.trouble.code === "PLAN_OF_ANOTHER_CT";
+  const isOfOtherCt = rejection?.problem.code === "PLAN_OF_ANOTHER_CT";
   const read = (text: string, forOtherCt: boolean): void => {
     void change((by) => {
       const query = { ...by, for_other_ct: forOtherCt };
@@ -65,7 +65,7 @@ export function FilePart(): ReactNode {
           </Button>
         </Alert>
       )}
-      {refusal instanceof Refusal && !isOfOtherCt && content !== null && (
+      {rejection instanceof Rejection && !isOfOtherCt && content !== null && (
         <p className="soft">{content.name}</p>
       )}
     </>

@@ -1,7 +1,7 @@
 import { Button } from "@mantine/core";
 import type { ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { RejectionNote } from "../../../rest/RejectionNote";
 import { useRehearsal } from "../../../rest/useRehearsal";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
@@ -40,7 +40,7 @@ export function RehearsedLandmarks({
       >
         {words.takeRehearsed}
       </Button>
-      <RefusalNote refusal={asking.refusal} />
+      <RejectionNote rejection={asking.rejection} />
     </div>
   );
 }

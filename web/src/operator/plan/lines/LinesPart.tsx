@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { RejectionNote } from "../../../rest/RejectionNote";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
 import { useIntoView } from "../../parts/useIntoView";
@@ -69,7 +69,7 @@ export function LinesPart(): ReactNode {
       >
         {words.propose}
       </Button>
-      <RefusalNote refusal={asking.refusal} />
+      <RejectionNote rejection={asking.rejection} />
       <CursorPad />
       <Stepper
         name="apart"

@@ -2,7 +2,7 @@ import { Button } from "@mantine/core";
 import { useRef, useState, type ReactNode } from "react";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { RejectionNote } from "../../../rest/RejectionNote";
 import { useDo } from "../../../rest/useDo";
 import { isOver, useJob } from "../../../rest/useJob";
 import { useWords } from "../../../words/WordsContext";
@@ -68,7 +68,7 @@ export function PediclePart(): ReactNode {
       if (made) setPart("channel");
     });
   };
-  const doubtfulAt = vec3(job.job?.trouble?.context["isthmus_lps_mm"]);
+  const doubtfulAt = vec3(job.job?.problem?.context["isthmus_lps_mm"]);
   return (
     <>
       <VertebraChooser />
@@ -78,7 +78,7 @@ export function PediclePart(): ReactNode {
       <Button size="xl" fullWidth disabled={isMeasuring || busy} data-testid="measure" onClick={measure}>
         {record === null ? words.measure[side] : words.again[side]}
       </Button>
-      <RefusalNote refusal={asking.refusal} />
+      <RejectionNote rejection={asking.rejection} />
       <JobProgress followed={job} />
       {doubtfulAt !== null && (
         <Button

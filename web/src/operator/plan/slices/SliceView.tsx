@@ -8,8 +8,8 @@ import {
   type ReactNode,
   type RefObject,
 } from "react";
-import { Refusal } from "../../../rest/client";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { Rejection } from "../../../rest/client";
+import { RejectionNote } from "../../../rest/RejectionNote";
 import { useWords } from "../../../words/WordsContext";
 import { addressOf, neighboursOf, type PlaneName } from "./address";
 import { OtherCt } from "./loadSlice";
@@ -41,7 +41,7 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
   const slices = useSlices();
   const { ct, look, zooms, setZoom, goTo, scroll, setGreys, lookAnew } = slices;
   const address = addressOf(plane, look, ct);
-  const { wanted, shown, trouble, again } = useSlice(address, neighboursOf(plane, look, ct, isLarge ? 2 : 0));
+  const { wanted, shown, problem, again } = useSlice(address, neighboursOf(plane, look, ct, isLarge ? 2 : 0));
   const canvas = useRef<HTMLCanvasElement>(null);
   const stage = useRef<HTMLDivElement>(null);
   const { ref, width, height } = useElementSize<HTMLDivElement>();
@@ -121,22 +121,22 @@ export function SliceView({ plane, isLarge, drawing }: SliceViewProps): ReactNod
           isLarge={isLarge}
         />
       )}
-      {trouble instanceof OtherCt && (
+      {problem instanceof OtherCt && (
         <Alert className="consequence slice-trouble" title={words.otherCt}>
           <Button size="lg" data-testid="look-at-other-ct" onClick={lookAnew}>
             {words.lookAtOther}
           </Button>
         </Alert>
       )}
-      {trouble instanceof Refusal && (
+      {problem instanceof Rejection && (
         <div className="slice-trouble">
-          <RefusalNote refusal={trouble} />
+          <RejectionNote rejection={problem} />
           <Button size="lg" onClick={again}>
             {words.again}
           </Button>
         </div>
       )}
-      {shown === null && trouble === null && <p className="slice-waiting">{words.waiting}</p>}
+      {shown === null && problem === null && <p className="slice-waiting">{words.waiting}</p>}
     </div>
   );
 }

@@ -1,7 +1,7 @@
 // A slice as it is shown: pixels and place out of one answer of the server.
-import { Refusal, type Trouble } from "../../../rest/client";
+import { Rejection, type Problem } from "../../../rest/client";
 import type { Place } from "./place";
-import { SliceShelf } from "./sliceLine";
+import { SliceRepository } from "./sliceLine";
 
 export interface Slice {
   pixels: ImageBitmap;
@@ -12,7 +12,7 @@ export interface Slice {
 const MAX_KEPT = 80;
 
 /** One shelf for all views: the same slice is never fetched twice while it is there. */
-export const shelf = new SliceShelf<Slice>(MAX_KEPT);
+export const shelf = new SliceRepository<Slice>(MAX_KEPT);
 
 /** The case has another CT now than the one that is looked at. */
 export class OtherCt extends Error {}
@@ -20,7 +20,7 @@ export class OtherCt extends Error {}
 /**
  * The slice at this address.
  *
- * @throws Refusal
+ * @throws Rejection
  * @throws OtherCt
  */
 export async function loadSlice(address: string): Promise<Slice> {
@@ -28,9 +28,9 @@ export async function loadSlice(address: string): Promise<Slice> {
   try {
     answer = await fetch(address);
   } catch {
-    throw new Refusal({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+    throw new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
   }
-  if (!answer.ok) throw new Refusal((await answer.json()) as Trouble);
+  if (!answer.ok) throw new Rejection((await answer.json()) as Problem);
   const told = answer.headers.get("slice-place");
   if (told === null) throw new Error("a slice came without its place");
   // Somebody may have sent another CT meanwhile: its slices must not stand under this one's numbers.

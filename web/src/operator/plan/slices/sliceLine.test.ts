@@ -1,14 +1,14 @@
 import { beforeEach, describe, expect, test } from "vitest";
-import { SliceLine, SliceShelf } from "./sliceLine";
+import { SliceLine, SliceRepository } from "./sliceLine";
 
 /** A server that answers when it is told to. */
 class Slow {
   asked: string[] = [];
-  private waiting = new Map<string, { give: (slice: string) => void; refuse: (why: Error) => void }>();
+  private waiting = new Map<string, { give: (slice: string) => void; reject: (why: Error) => void }>();
 
   load = (key: string): Promise<string> => {
     this.asked.push(key);
-    return new Promise((give, refuse) => this.waiting.set(key, { give, refuse }));
+    return new Promise((give, reject) => this.waiting.set(key, { give, reject }));
   };
 
   async answer(key: string): Promise<void> {
@@ -16,8 +16,8 @@ class Slow {
     await settled();
   }
 
-  async refuse(key: string): Promise<void> {
-    this.waiting.get(key)?.refuse(new Error("no"));
+  async reject(key: string): Promise<void> {
+    this.waiting.get(key)?.reject(new Error("no"));
     await settled();
   }
 }
@@ -30,7 +30,7 @@ let server: Slow;
 let line: SliceLine<string>;
 beforeEach(() => {
   server = new Slow();
-  line = new SliceLine(server.load, new SliceShelf(10));
+  line = new SliceLine(server.load, new SliceRepository(10));
 });
 
 describe("slices while a finger moves", () => {
@@ -80,24 +80,24 @@ describe("a slice that cannot be had", () => {
     line.ask("1");
     await server.answer("1");
     line.ask("2");
-    await server.refuse("2");
-    expect(line.snapshot()).toMatchObject({ shown: { key: "1" }, trouble: new Error("no") });
+    await server.reject("2");
+    expect(line.snapshot()).toMatchObject({ shown: { key: "1" }, problem: new Error("no") });
     line.again();
     await server.answer("2");
-    expect(line.snapshot()).toMatchObject({ shown: { key: "2" }, trouble: null });
+    expect(line.snapshot()).toMatchObject({ shown: { key: "2" }, problem: null });
   });
 
   test("is no trouble where only a neighbour is refused", async () => {
     line.ask("1", ["2", "3"]);
     await server.answer("1");
-    await server.refuse("2");
-    expect(line.snapshot().trouble).toBeNull();
+    await server.reject("2");
+    expect(line.snapshot().problem).toBeNull();
     expect(server.asked).toEqual(["1", "2", "3"]);
   });
 });
 
 test("the longest unused slice goes first", () => {
-  const shelf = new SliceShelf<number>(2);
+  const shelf = new SliceRepository<number>(2);
   shelf.put("a", 1);
   shelf.put("b", 2);
   shelf.get("a");

@@ -7,13 +7,13 @@ export interface SliceState<Slice> {
   /** The picture that stands there, and under which key it was asked for. */
   shown: { key: string; slice: Slice } | null;
   /** Why the one that is wanted cannot be had. */
-  trouble: unknown;
+  problem: unknown;
 }
 
 export type Load<Slice> = (key: string) => Promise<Slice>;
 
 /** What was loaded, the longest unused first to go. */
-export class SliceShelf<Slice> {
+export class SliceRepository<Slice> {
   private readonly kept = new Map<string, Slice>();
 
   constructor(private readonly most: number) {}
@@ -37,30 +37,30 @@ export class SliceShelf<Slice> {
 }
 
 export class SliceLine<Slice> {
-  private state: SliceState<Slice> = { wanted: null, shown: null, trouble: null };
+  private state: SliceState<Slice> = { wanted: null, shown: null, problem: null };
   private readonly listeners = new Set<() => void>();
   private loading = false;
   private ahead: string[] = [];
 
   constructor(
     private readonly load: Load<Slice>,
-    private readonly shelf: SliceShelf<Slice>,
+    private readonly repository: SliceRepository<Slice>,
   ) {}
 
   /** Ask for a slice, and say which may be asked for next. */
   ask(key: string, ahead: readonly string[] = []): void {
     this.ahead = [...ahead];
     if (key !== this.state.wanted) {
-      const kept = this.shelf.get(key);
+      const kept = this.repository.get(key);
       const shown = kept === undefined ? this.state.shown : { key, slice: kept };
-      this.tell({ wanted: key, shown, trouble: null });
+      this.tell({ wanted: key, shown, problem: null });
     }
     void this.next();
   }
 
   /** Ask again for what could not be had. */
   again(): void {
-    this.tell({ ...this.state, trouble: null });
+    this.tell({ ...this.state, problem: null });
     void this.next();
   }
 
@@ -73,16 +73,16 @@ export class SliceLine<Slice> {
 
   private async next(): Promise<void> {
     if (this.loading) return;
-    const { wanted, shown, trouble } = this.state;
-    const isWanted = wanted !== null && trouble === null && shown?.key !== wanted;
-    const key = isWanted ? wanted : this.ahead.find((one) => this.shelf.get(one) === undefined);
+    const { wanted, shown, problem } = this.state;
+    const isWanted = wanted !== null && problem === null && shown?.key !== wanted;
+    const key = isWanted ? wanted : this.ahead.find((one) => this.repository.get(one) === undefined);
     if (key === undefined) return;
     this.loading = true;
     try {
       this.take(key, await this.load(key), isWanted);
     } catch (error) {
       this.ahead = this.ahead.filter((one) => one !== key);
-      if (key === this.state.wanted) this.tell({ ...this.state, trouble: error });
+      if (key === this.state.wanted) this.tell({ ...this.state, problem: error });
     } finally {
       this.loading = false;
     }
@@ -90,10 +90,10 @@ export class SliceLine<Slice> {
   }
 
   private take(key: string, slice: Slice, wasWanted: boolean): void {
-    this.shelf.put(key, slice);
+    this.repository.put(key, slice);
     const { wanted, shown } = this.state;
     // Between the one that stands and the one that is wanted it shows that something moves; its own place is
-    // printed with it. Where the wanted one stands already, it came from the shelf: nothing older follows it.
+    // printed with it. Where the wanted one stands already, it came from the repository: nothing older follows it.
     if (key === wanted || (wasWanted && shown?.key !== wanted)) {
       this.tell({ ...this.state, shown: { key, slice } });
     }

@@ -1,6 +1,6 @@
 // The plan, one change at a time, and the way back.
 import { createContext, use, useCallback, useState, type ReactNode } from "react";
-import { answered, Refusal, server } from "../../../rest/client";
+import { answered, Rejection, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
 import { useMadeBy } from "./madeBy";
 import { vertebraeOf, type PlanAnswer, type Side, type Vertebra } from "./shape";
@@ -15,7 +15,7 @@ export interface By {
 interface PlanValue {
   caseId: string;
   plan: PlanAnswer | null;
-  planRefusal: Refusal | null;
+  planRejection: Rejection | null;
   /** Whether the first answer is still awaited. */
   asking: boolean;
   askAgain: () => void;
@@ -24,7 +24,7 @@ interface PlanValue {
   vertebra: Vertebra | null;
   side: Side;
   busy: boolean;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   /** Who changed the plan in between, after a change here was refused for it. */
   conflict: PlanAnswer["heading"] | null;
   setVertebra: (name: string) => void;
@@ -43,7 +43,7 @@ const PlanContext = createContext<PlanValue | null>(null);
 const STEPS = "coaxial.plan.steps";
 
 export function PlanProvider({ caseId, children }: { caseId: string; children: ReactNode }): ReactNode {
-  const { plan, refusal: planRefusal, asking, take, again } = usePlan(caseId);
+  const { plan, rejection: planRejection, asking, take, again } = usePlan(caseId);
   const doing = useDo();
   const [steps, setSteps] = useState<Step[]>(() => read(sessionStorage.getItem(`${STEPS}.${caseId}`)));
   const [conflict, setConflict] = useState<PlanAnswer["heading"] | null>(null);
@@ -66,7 +66,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
         made = await action();
         take(made);
       } catch (error) {
-        if (!(error instanceof Refusal) || error.trouble.code !== "VERSION_CONFLICT") throw error;
+        if (!(error instanceof Rejection) || error.problem.code !== "VERSION_CONFLICT") throw error;
         setConflict((await again())?.heading ?? null);
       }
     });
@@ -103,7 +103,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
   const value: PlanValue = {
     caseId,
     plan,
-    planRefusal,
+    planRejection,
     asking,
     askAgain: () => void again(),
     vertebrae,
@@ -118,7 +118,7 @@ export function PlanProvider({ caseId, children }: { caseId: string; children: R
     forget,
     vertebra: vertebrae.find((one) => one.name === chosen) ?? vertebrae[0] ?? null,
     busy: doing.busy,
-    refusal: doing.refusal,
+    rejection: doing.rejection,
     // On another CT an older plan would be taken over unseen.
     canUndo: step !== null && !doing.busy && plan?.heading.current !== false,
   };

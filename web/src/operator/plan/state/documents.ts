@@ -10,7 +10,7 @@ const MAIN = "main";
 /**
  * Whether the case has one of this kind.
  *
- * @throws Refusal
+ * @throws Rejection
  */
 export async function hasDocument(caseId: string, kind: Kind, signal?: AbortSignal): Promise<boolean> {
   const { documents } = await answered(

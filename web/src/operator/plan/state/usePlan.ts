@@ -1,6 +1,6 @@
 // The newest plan, asked for every few seconds, because two tablets may plan at once.
 import { useCallback, useEffect, useRef, useState } from "react";
-import { answered, Refusal, server } from "../../../rest/client";
+import { answered, Rejection, server } from "../../../rest/client";
 import { hasDocument } from "./documents";
 import type { PlanAnswer } from "./shape";
 
@@ -9,7 +9,7 @@ const ASK_EVERY_MS = 3000;
 export interface PlanAsked {
   plan: PlanAnswer | null;
   /** Why there is none that could be shown; null where there simply is none yet. */
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   /** Whether the first answer is still awaited. */
   asking: boolean;
   /** The answer to a change: what was asked before it does not count any more. */
@@ -19,12 +19,12 @@ export interface PlanAsked {
 
 interface Known {
   plan: PlanAnswer | null;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   asking: boolean;
 }
 
 export function usePlan(caseId: string): PlanAsked {
-  const [known, setKnown] = useState<Known>({ plan: null, refusal: null, asking: true });
+  const [known, setKnown] = useState<Known>({ plan: null, rejection: null, asking: true });
   const changes = useRef(0);
   const isThere = useRef(false);
 
@@ -37,7 +37,7 @@ export function usePlan(caseId: string): PlanAsked {
   }, [caseId]);
   const take = useCallback((plan: PlanAnswer) => {
     changes.current += 1;
-    setKnown({ plan, refusal: null, asking: false });
+    setKnown({ plan, rejection: null, asking: false });
   }, []);
 
   useEffect(() => {
@@ -54,11 +54,11 @@ export function usePlan(caseId: string): PlanAsked {
 async function asked(caseId: string, wasThere: boolean): Promise<Known> {
   try {
     if (!wasThere && !(await hasDocument(caseId, "plan")))
-      return { plan: null, refusal: null, asking: false };
-    return { plan: await answered(server.GET("/api/plan")), refusal: null, asking: false };
+      return { plan: null, rejection: null, asking: false };
+    return { plan: await answered(server.GET("/api/plan")), rejection: null, asking: false };
   } catch (error) {
-    if (!(error instanceof Refusal)) throw error;
-    const isNone = error.trouble.code === "PLAN_MISSING";
-    return { plan: null, refusal: isNone ? null : error, asking: false };
+    if (!(error instanceof Rejection)) throw error;
+    const isNone = error.problem.code === "PLAN_MISSING";
+    return { plan: null, rejection: isNone ? null : error, asking: false };
   }
 }

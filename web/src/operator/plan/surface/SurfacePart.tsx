@@ -3,7 +3,7 @@ import { useState, type ReactNode } from "react";
 import { shownNumber } from "../../../live/rounding";
 import { answered, server } from "../../../rest/client";
 import { JobProgress } from "../../../rest/JobProgress";
-import { RefusalNote } from "../../../rest/RefusalNote";
+import { RejectionNote } from "../../../rest/RejectionNote";
 import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
@@ -54,7 +54,7 @@ export function SurfacePart(): ReactNode {
     });
   };
   const found = surface.data === "none" ? null : surface.data;
-  const proposed = job.job?.trouble?.context["proposed_unit"];
+  const proposed = job.job?.problem?.context["proposed_unit"];
   return (
     <>
       <h3>{words.title}</h3>
@@ -65,7 +65,7 @@ export function SurfacePart(): ReactNode {
       <Button size="xl" fullWidth disabled={isBusy} data-testid="make-surface" onClick={make}>
         {found === null ? words.make : words.makeAnew}
       </Button>
-      <RefusalNote refusal={asking.refusal} />
+      <RejectionNote rejection={asking.rejection} />
       <JobProgress followed={job} />
       {typeof proposed === "string" && (
         <Alert className="consequence" title={`${words.proposedUnit} ${proposed}`}>

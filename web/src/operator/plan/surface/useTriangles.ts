@@ -1,4 +1,4 @@
-import { answered, Refusal, server } from "../../../rest/client";
+import { answered, Rejection, server } from "../../../rest/client";
 import { useAsked } from "../../../rest/useAsked";
 import { hasDocument } from "../state/documents";
 import { trianglesOf, type Triangles } from "./triangles";
@@ -27,5 +27,5 @@ async function fetched(): Promise<Triangles | null> {
     // Told below, as any other line that is lost.
   }
   kept = null;
-  throw new Refusal({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
+  throw new Rejection({ code: "NO_ANSWER", message: "", remedy: "", context: {} });
 }

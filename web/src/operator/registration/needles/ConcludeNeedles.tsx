@@ -5,7 +5,7 @@ import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { SureButton } from "../SureButton";
 import { useMadeBy } from "../useMadeBy";
 import type { Overlay } from "./overlay";
@@ -47,7 +47,7 @@ export function ConcludeNeedles({
     procedure.data?.steps.some((one) => one.step === "register" && one.state === "done") === true;
   return (
     <div className="conclude">
-      <Refused refusal={doing.refusal} />
+      <Rejected rejection={doing.rejection} />
       {held ? (
         <>
           <p className="warning">▲ {words.needles.heldNoFit}</p>

@@ -5,7 +5,7 @@ import { useAsked } from "../../../rest/useAsked";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
 import { plannedVertebrae } from "../planRead";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { NeedlesWork } from "./NeedlesWork";
 import { PlacesForm } from "./PlacesForm";
 import { RulerForm } from "./RulerForm";
@@ -21,7 +21,7 @@ export function NeedlesPage(): ReactNode {
   const [view, setView] = useState(known ?? FIRST_VIEW);
   const [measured, setMeasured] = useState(known !== null);
   const [chosen, setChosen] = useState<string[] | null>(null);
-  if (plan.data === null) return <Unanswered asked={plan} Note={Refused} />;
+  if (plan.data === null) return <Unanswered asked={plan} Note={Rejected} />;
   const name = plan.data.active_channel?.vertebra ?? "";
   const vertebra = plannedVertebrae(plan.data.plan).find((one) => one.name === name);
   if (vertebra === undefined) return <p className="warning">▲ {words.noVertebra}</p>;

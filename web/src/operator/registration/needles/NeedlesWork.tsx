@@ -4,7 +4,7 @@ import { answered, server } from "../../../rest/client";
 import { useWords } from "../../../words/WordsContext";
 import { filled } from "../../../words/filled";
 import type { PlannedVertebra } from "../planRead";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { LiveStage } from "../LiveStage";
 import { asked, type NeedleOrder } from "./order";
 import { LineLayer } from "./LineLayer";
@@ -111,7 +111,7 @@ export function NeedlesWork({ order, vertebra, onRuler, onLandmarks }: NeedlesWo
             { value: "mark", label: words.mark },
           ]}
         />
-        <Refused refusal={state.refusal} />
+        <Rejected rejection={state.rejection} />
         {mode === "overlay" && (
           <OverlayPanel
             desk={desk}

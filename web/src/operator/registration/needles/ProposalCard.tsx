@@ -16,7 +16,7 @@ interface ProposalCardProps {
 export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCardProps): ReactNode {
   const words = useWords().registration.proposal;
   const nameOf = useNeedleNames();
-  const { laid, chance_ratio } = proposal;
+  const { laid, probability_ratio } = proposal;
   const depth = laid.directions[0];
   return (
     <li>
@@ -28,7 +28,7 @@ export function ProposalCard({ number, proposal, isPicked, onPick }: ProposalCar
         data-testid={`proposal-${number}`}
       >
         <strong>{filled(words.number, { number })}</strong>{" "}
-        <span>{filled(words.chance, { percent: shownPercent(chance_ratio) })}</span>
+        <span>{filled(words.probability, { percent: shownPercent(probability_ratio) })}</span>
         <table>
           <thead>
             <tr>

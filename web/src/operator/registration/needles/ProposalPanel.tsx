@@ -4,7 +4,7 @@ import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
 import type { components } from "../../../schema";
 import { useWords } from "../../../words/WordsContext";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { ConcludeNeedles } from "./ConcludeNeedles";
 import type { NeedleOrder } from "./order";
 import { asked } from "./order";
@@ -45,7 +45,7 @@ export function ProposalPanel({ order, picked, held, onPick, onAdjust }: Proposa
       >
         {proposals === null ? words.find : words.findAgain}
       </Button>
-      <Refused refusal={finding.refusal} />
+      <Rejected rejection={finding.rejection} />
       {proposals !== null && (
         <>
           <p>{words.pick}</p>

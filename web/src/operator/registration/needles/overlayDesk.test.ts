@@ -1,5 +1,5 @@
 import { expect, test, vi } from "vitest";
-import { Refusal } from "../../../rest/client";
+import { Rejection } from "../../../rest/client";
 import { applied, moved, placeOf, type Overlay } from "./overlay";
 import { OverlayDesk, type Laid } from "./overlayDesk";
 
@@ -77,16 +77,16 @@ test("what a hand did is undone as a whole, and so is the way back to the ruler"
 });
 
 test("a refusal is kept with what the server said last, and nothing asks for ever", async () => {
-  const refusal = new Refusal({ code: "NO_PICTURE", message: "no", remedy: "Wait.", context: {} });
+  const rejection = new Rejection({ code: "NO_PICTURE", message: "no", remedy: "Wait.", context: {} });
   let count = 0;
   const desk = new OverlayDesk((overlay) => {
     count += 1;
-    return count === 1 ? Promise.resolve(laid(overlay ?? RULER)) : Promise.reject(refusal);
+    return count === 1 ? Promise.resolve(laid(overlay ?? RULER)) : Promise.reject(rejection);
   });
   desk.start();
   await new Promise((resolve) => setTimeout(resolve));
   desk.step((hand) => moved(hand, [5, 0]));
   await new Promise((resolve) => setTimeout(resolve));
-  expect(desk.state()).toMatchObject({ refusal, settled: false, laid: laid(RULER) });
+  expect(desk.state()).toMatchObject({ rejection, settled: false, laid: laid(RULER) });
   expect(count).toBe(2);
 });

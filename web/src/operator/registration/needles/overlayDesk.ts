@@ -1,6 +1,6 @@
 // The slice in the hand, and the newest word of the server about it: painted at once, asked after as fast as
 // the server answers, exact again with each answer.
-import { Refusal } from "../../../rest/client";
+import { Rejection } from "../../../rest/client";
 import type { components } from "../../../schema";
 import { same, similarity, type Matrix, type Overlay } from "./overlay";
 
@@ -9,7 +9,7 @@ export type Laid = components["schemas"]["LaidMessage"];
 export interface DeskState {
   hand: Overlay | null;
   laid: Laid | null;
-  refusal: Refusal | null;
+  rejection: Rejection | null;
   /** What is drawn is what the server has, exactly. */
   settled: boolean;
   canUndo: boolean;
@@ -20,13 +20,13 @@ const MAX_UNDO = 50;
 export class OverlayDesk {
   private hand: Overlay | null = null;
   private laid: Laid | null = null;
-  private refusal: Refusal | null = null;
+  private rejection: Rejection | null = null;
   private before: Overlay[] = [];
   private asking = false;
   private stopped = false;
   private readonly painters = new Set<() => void>();
   private readonly readers = new Set<() => void>();
-  private told: DeskState = { hand: null, laid: null, refusal: null, settled: false, canUndo: false };
+  private told: DeskState = { hand: null, laid: null, rejection: null, settled: false, canUndo: false };
 
   constructor(private readonly ask: (overlay: Overlay | null) => Promise<Laid>) {}
 
@@ -102,19 +102,19 @@ export class OverlayDesk {
       const asked = fresh ? null : this.hand;
       const laid = await this.ask(asked);
       this.laid = laid;
-      this.refusal = null;
+      this.rejection = null;
       // What the hand did meanwhile goes on from there.
       if (asked === null) this.hand = laid.overlay;
     } catch (error) {
-      if (!(error instanceof Refusal)) throw error;
-      this.refusal = error;
+      if (!(error instanceof Rejection)) throw error;
+      this.rejection = error;
     } finally {
       this.asking = false;
     }
     this.paint();
     this.tell();
     const behind = this.laid !== null && this.hand !== null && !same(this.laid.overlay, this.hand);
-    if (behind && this.refusal === null && !this.stopped) void this.askNow(false);
+    if (behind && this.rejection === null && !this.stopped) void this.askNow(false);
   }
 
   private paint(): void {
@@ -122,9 +122,9 @@ export class OverlayDesk {
   }
 
   private tell(): void {
-    const { hand, laid, refusal } = this;
-    const settled = hand !== null && laid !== null && refusal === null && same(laid.overlay, hand);
-    this.told = { hand, laid, refusal, settled, canUndo: this.before.length > 0 };
+    const { hand, laid, rejection } = this;
+    const settled = hand !== null && laid !== null && rejection === null && same(laid.overlay, hand);
+    this.told = { hand, laid, rejection, settled, canUndo: this.before.length > 0 };
     for (const reader of this.readers) reader();
   }
 }

@@ -7,7 +7,7 @@ import { useDo } from "../../../rest/useDo";
 import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { useMadeBy } from "../useMadeBy";
 import { NudgeLog } from "./NudgeLog";
 import { NudgePad, type Axis, type Kind } from "./NudgePad";
@@ -72,8 +72,8 @@ export function NudgesWork(): ReactNode {
           />
         </div>
         <NudgePad kind={kind} disabled={doing.busy} onNudge={nudge} />
-        <Refused refusal={doing.refusal} />
-        {data === null && <Unanswered asked={asked} Note={Refused} />}
+        <Rejected rejection={doing.rejection} />
+        {data === null && <Unanswered asked={asked} Note={Rejected} />}
         <Button
           size="lg"
           variant="default"

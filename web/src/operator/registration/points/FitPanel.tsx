@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
-import { Refusal } from "../../../rest/client";
+import { Rejection } from "../../../rest/client";
 import { useWords } from "../../../words/WordsContext";
 import { Measure } from "../Measure";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { useSides } from "../useSides";
 import type { Points } from "./PointsWork";
 
@@ -49,8 +49,8 @@ export function FitPanel({ points }: { points: Points }): ReactNode {
         </p>
       ))}
       <div data-testid="points-missing">
-        {points.missing.map((trouble) => (
-          <Refused key={trouble.code} refusal={new Refusal(trouble)} />
+        {points.missing.map((problem) => (
+          <Rejected key={problem.code} rejection={new Rejection(problem)} />
         ))}
       </div>
       {points.missing.length === 0 && (

@@ -4,7 +4,7 @@ import { answered, server } from "../../../rest/client";
 import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
 import { LiveStage } from "../LiveStage";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
 import { useTools } from "../useTools";
@@ -29,7 +29,7 @@ export function PointsBegin({ onBegun }: { onBegun: () => void }): ReactNode {
           </ol>
           <ToolChoice tool={tool} onTool={setChosen} />
           <ToolSeen tool={tool} />
-          <Refused refusal={beginning.refusal} />
+          <Rejected rejection={beginning.rejection} />
           <Button
             size="xl"
             disabled={tool === ""}

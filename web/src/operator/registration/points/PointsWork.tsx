@@ -8,7 +8,7 @@ import type { components } from "../../../schema";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { SureButton } from "../SureButton";
 import { useMadeBy } from "../useMadeBy";
 import { CapturePanel } from "./CapturePanel";
@@ -33,7 +33,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
   const [order, setOrder] = useState<string[]>([]);
   const doing = useDo();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
+  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
   const wanted = nextLandmark(data, picked);
   const landmark = data.landmarks.find((one) => one.name === wanted) ?? null;
 
@@ -74,7 +74,7 @@ export function PointsWork({ onOver }: { onOver: () => void }): ReactNode {
             );
           }}
         />
-        <Refused refusal={doing.refusal ?? asked.refusal} />
+        <Rejected rejection={doing.rejection ?? asked.rejection} />
         <FitPanel points={data} />
         <div className="row">
           <SureButton

@@ -2,7 +2,7 @@
 
 interface Touchable {
   landmarks: { name: string; touched: boolean }[];
-  capture: { landmark: string; state: "looking" | "taken" | "refused" } | null;
+  capture: { landmark: string; state: "looking" | "taken" | "rejected" } | null;
 }
 
 /**

@@ -5,7 +5,7 @@ import { useDo } from "../../../rest/useDo";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { ToolChoice } from "../ToolChoice";
 import { ToolSeen } from "../ToolSeen";
 import { useTools } from "../useTools";
@@ -32,7 +32,7 @@ export function SweepBegin({ onBegun }: { onBegun: () => void }): ReactNode {
         {!registered && <p className="warning">▲ {words.sweep.needsPoints}</p>}
         <ToolChoice tool={tool} onTool={setChosen} />
         <ToolSeen tool={tool} />
-        <Refused refusal={beginning.refusal} />
+        <Rejected rejection={beginning.rejection} />
         <Button
           size="xl"
           disabled={tool === "" || !registered}

@@ -1,8 +1,8 @@
 import type { ReactNode } from "react";
-import { Refusal } from "../../../rest/client";
+import { Rejection } from "../../../rest/client";
 import type { components } from "../../../schema";
 import { useWords } from "../../../words/WordsContext";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { RegistrationNumbers } from "../RegistrationNumbers";
 
 /** What the sweep gives, which way it holds the bone least, and what keeps it from being kept. */
@@ -22,8 +22,8 @@ export function SweepFit({ fit }: { fit: components["schemas"]["SweepFitMessage"
           ▲ {remark.message}. {remark.remedy}
         </p>
       ))}
-      {fit.missing.map((trouble) => (
-        <Refused key={trouble.code} refusal={new Refusal(trouble)} />
+      {fit.missing.map((problem) => (
+        <Rejected key={problem.code} rejection={new Rejection(problem)} />
       ))}
       {fit.missing.length === 0 && <p className="good">✓ {words.passes}</p>}
     </section>

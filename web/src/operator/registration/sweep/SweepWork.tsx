@@ -1,7 +1,7 @@
 import { Button, Loader } from "@mantine/core";
 import { useState, type ReactNode } from "react";
 import { useLocation } from "wouter";
-import { answered, Refusal, server } from "../../../rest/client";
+import { answered, Rejection, server } from "../../../rest/client";
 import { Unanswered } from "../../../rest/Unanswered";
 import { useAsked } from "../../../rest/useAsked";
 import { useDo } from "../../../rest/useDo";
@@ -10,7 +10,7 @@ import { Icon } from "../../../panes/Icon";
 import { useWords } from "../../../words/WordsContext";
 import { useProcedure } from "../../../app/procedure";
 import { LiveStage } from "../LiveStage";
-import { Refused } from "../Refused";
+import { Rejected } from "../Rejected";
 import { SureButton } from "../SureButton";
 import { ToolSeen } from "../ToolSeen";
 import { useMadeBy } from "../useMadeBy";
@@ -33,7 +33,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
   const doing = useDo();
   const fitting = useDo();
   const { data } = asked;
-  if (data === null) return <Unanswered asked={asked} Note={Refused} />;
+  if (data === null) return <Unanswered asked={asked} Note={Rejected} />;
 
   const run = (action: () => Promise<unknown>, then: (done: boolean) => void): void => {
     void doing
@@ -58,7 +58,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
         <section className="card">
           <ToolSeen tool={data.tool} />
           <SweepProgress sweep={data} />
-          {data.trouble !== null && <Refused refusal={new Refusal(data.trouble)} />}
+          {data.problem !== null && <Rejected rejection={new Rejection(data.problem)} />}
           <Button
             size="xl"
             fullWidth
@@ -77,7 +77,7 @@ export function SweepWork({ onOver }: { onOver: () => void }): ReactNode {
             {data.taking ? words.sweep.lift : words.sweep.take}
           </Button>
         </section>
-        <Refused refusal={doing.refusal ?? fitting.refusal} />
+        <Rejected rejection={doing.rejection ?? fitting.rejection} />
         {fitting.busy && (
           <p className="row" role="status">
             <Loader size="sm" /> {words.sweep.fitting}

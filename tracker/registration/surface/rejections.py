@@ -28,7 +28,7 @@ def checked_sweep(points_mm: Array) -> Array:
     return points
 
 
-def refuse_small(points_mm: Array, shares: Array, settings: SurfaceSettings) -> None:
+def reject_small(points_mm: Array, shares: Array, settings: SurfaceSettings) -> None:
     """Raises SURFACE_SWEEP_SMALL where a sweep has too few places, or lies all in one."""
     places = float(shares.sum())
     spread = float(np.sqrt(((points_mm - points_mm.mean(axis=0)) ** 2).sum(axis=1).mean())) if places else 0.0
@@ -43,7 +43,7 @@ def refuse_small(points_mm: Array, shares: Array, settings: SurfaceSettings) -> 
     )
 
 
-def refuse_far(laid: Laid, settings: SurfaceSettings) -> None:
+def reject_far(laid: Laid, settings: SurfaceSettings) -> None:
     """Raises SURFACE_START_FAR where the start does not lie near the bone."""
     median = float(np.median(np.abs(laid.off_mm)))
     if median > settings.max_start_off_mm:
@@ -56,7 +56,7 @@ def refuse_far(laid: Laid, settings: SurfaceSettings) -> None:
         )
 
 
-def refuse_disagreement(laid: Laid, sweep: Sweep, settings: SurfaceSettings) -> None:
+def reject_disagreement(laid: Laid, sweep: Sweep, settings: SurfaceSettings) -> None:
     """Raises SURFACE_DISAGREES where too small a share of the sweep lies on the bone."""
     ratio = float(sweep.shares[laid.weights > 0.0].sum() / sweep.shares.sum())
     if ratio < settings.min_used_ratio:
@@ -68,7 +68,7 @@ def refuse_disagreement(laid: Laid, sweep: Sweep, settings: SurfaceSettings) -> 
         )
 
 
-def refuse_sliding(weakest: Direction, settings: SurfaceSettings) -> None:
+def reject_sliding(weakest: Direction, settings: SurfaceSettings) -> None:
     """Raises SURFACE_SLIDES where a direction stays open."""
     if weakest.sd_mm <= settings.max_slide_sd_mm:
         return
@@ -87,7 +87,7 @@ def refuse_sliding(weakest: Direction, settings: SurfaceSettings) -> None:
     )
 
 
-def refuse_rival(apart_mm: float, words: str, rms_mm: tuple[float, float]) -> None:
+def reject_rival(apart_mm: float, words: str, rms_mm: tuple[float, float]) -> None:
     """Raises SURFACE_AMBIGUOUS: another fit explains the sweep about as well."""
     raise RegistrationError(
         "SURFACE_AMBIGUOUS",

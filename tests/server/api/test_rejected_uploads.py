@@ -10,7 +10,7 @@ import pytest
 from fastapi import FastAPI
 
 from server import disk
-from server.api import refused_uploads
+from server.api import rejected_uploads
 from server.app import AppParts, create_app
 from server.config import Config
 from server.live import LiveHub
@@ -66,7 +66,7 @@ def test_who_sends_no_more_is_answered_all_the_same(
 ) -> None:
     monkeypatch.setattr(disk, "SPARE_BYTES", 2**60)
     # Who waits for a word before it sends is answered at once.
-    monkeypatch.setattr(refused_uploads, "LONGEST_S", 60.0 if expect else 0.05)
+    monkeypatch.setattr(rejected_uploads, "LONGEST_S", 60.0 if expect else 0.05)
     port = serve(app)
     with socket.create_connection(("127.0.0.1", port), timeout=20.0) as line:
         asks = "Expect: 100-continue\r\n" if expect else ""

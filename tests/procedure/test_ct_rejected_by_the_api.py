@@ -70,8 +70,8 @@ def test_bad_cts_are_told_and_leave_nothing(server: Server, tmp_path: Path) -> N
         folder.mkdir()
         job = sent(server, zip_of_folder(make(folder)))
         assert job["state"] == "failed", name
-        trouble = job["trouble"]
-        assert (trouble["code"], bool(trouble["remedy"])) == (code, True), name
+        problem = job["problem"]
+        assert (problem["code"], bool(problem["remedy"])) == (code, True), name
         for secret in (*NAME.split("^"), BORN, NUMBER, str(tmp_path)):
             assert secret.casefold() not in str(job).casefold(), name
         assert kept(server) == before, name
@@ -93,7 +93,7 @@ def test_a_surface_that_cannot_be_read_leaves_nothing(server: Server) -> None:
         (stl(50.0), {"unit": "m"}, "MESH_SIZE_IMPLAUSIBLE"),
     ):
         job = server.done(server.ask("POST", "/api/surface", 202, content=content, params={**BY, **query}))
-        assert job["trouble"]["code"] == code
+        assert job["problem"]["code"] == code
         assert kept(server) == before
         assert leftovers(server) == []
     assert server.ask("GET", "/api/surface", 409)["code"] == "SURFACE_MISSING"
@@ -110,7 +110,7 @@ def test_a_surface_from_the_ct_and_one_in_metres(server: Server) -> None:
     region = {"low_lps_mm": [-30, -30, -15], "high_lps_mm": [30, 30, 15]}
     asked = {**BY, "region": region, "max_faces": 5000}
     job = server.done(server.ask("POST", "/api/surface/from-ct", 202, json=asked))
-    assert job["state"] == "done", job["trouble"]
+    assert job["state"] == "done", job["problem"]
     made = server.ask("GET", "/api/surface", 200)
     assert made["heading"]["current"]
     assert made["content"]["faces"] <= 5000
@@ -173,7 +173,7 @@ def test_the_process_that_reads_is_killed(server: Server) -> None:
     assert pid is not None
     os.kill(pid, signal.SIGKILL)
     job = server.done(begun)
-    assert job["trouble"]["code"] == "JOB_ENDED"
+    assert job["problem"]["code"] == "JOB_ENDED"
     assert leftovers(server) == []
     assert sent(server, dicom_zip())["state"] == "done"
 

@@ -50,7 +50,7 @@ def checked_seed(volume: Volume, seed_lps_mm: npt.ArrayLike) -> Array:
     return seed
 
 
-def refuse_air(near: Neighbourhood, seed: Array) -> None:
+def reject_air(near: Neighbourhood, seed: Array) -> None:
     """Raises PlanError SEED_IN_AIR where the click lies in air or lung."""
     hu = _hu_around(near, seed)
     if hu < AIR_HU:
@@ -81,7 +81,7 @@ def not_found(near: Neighbourhood, seed: Array) -> PlanError:
     )
 
 
-def refuse_cut(near: Neighbourhood, bar: Bar) -> None:
+def reject_cut(near: Neighbourhood, bar: Bar) -> None:
     """Raises PlanError PEDICLE_CUT where the CT ends within the narrow part."""
     cut = bar.sections
     rows = np.abs(bar.along_mm) <= max(2.0, 0.5 * bar.length_mm)
@@ -98,7 +98,7 @@ def refuse_cut(near: Neighbourhood, bar: Bar) -> None:
         )
 
 
-def refuse_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array) -> None:
+def reject_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array) -> None:
     """Raises PlanError SEED_NOT_IN_PEDICLE where the bar that was found does not hold the click."""
     local = seed - fitted.origin_mm
     along = float(local @ fitted.axis)
@@ -125,7 +125,7 @@ def refuse_outside(near: Neighbourhood, bar: Bar, fitted: FittedBar, seed: Array
         )
 
 
-def refuse_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
+def reject_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
     """Raises PlanError PEDICLE_NOT_FOUND where what was found has not the shape of a pedicle."""
     aspect = max(isthmus.width_mm, isthmus.height_mm) / max(min(isthmus.width_mm, isthmus.height_mm), 1e-6)
     shaped = (
@@ -148,7 +148,7 @@ def refuse_no_isthmus(near: Neighbourhood, bar: Bar, isthmus: Isthmus) -> None:
     )
 
 
-def refuse_without_canal(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) -> None:
+def reject_without_canal(isthmus: Isthmus, beyond_mm: float, allowed_mm: float) -> None:
     """Raises PlanError PEDICLE_DOUBTFUL where bone goes on beside the section, and no canal begins."""
     if beyond_mm <= allowed_mm:
         return

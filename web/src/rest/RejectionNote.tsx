@@ -1,17 +1,17 @@
 import { Alert } from "@mantine/core";
 import type { ReactNode } from "react";
 import { useWords } from "../words/WordsContext";
-import type { Refusal } from "./client";
+import type { Rejection } from "./client";
 
 /** What was refused, why, and what to do; nothing where nothing was. */
-export function RefusalNote({ refusal }: { refusal: Refusal | null }): ReactNode {
+export function RejectionNote({ rejection }: { rejection: Rejection | null }): ReactNode {
   const words = useWords();
-  if (refusal === null) return null;
-  const { message, remedy, code } = refusal.trouble;
+  if (rejection === null) return null;
+  const { message, remedy, code } = rejection.problem;
   const silent = message === "";
   return (
     <Alert
-      className="refusal"
+      className="rejection"
       role="alert"
       title={silent ? words.rest.noAnswer : <span lang="en">{sentence(message)}</span>}
     >

@@ -1,13 +1,13 @@
 """What can go wrong at the door.
 
 NavigationError
-├── SessionRefused      nobody is signed in, or no longer               HTTP 401
-├── RoleRefused         somebody is, and may not do this                HTTP 403
-├── PageRefused         it is another page that asks for it             HTTP 403
+├── SessionRejected      nobody is signed in, or no longer               HTTP 401
+├── RoleRejected         somebody is, and may not do this                HTTP 403
+├── PageRejected         it is another page that asks for it             HTTP 403
 ├── AddressUnknown      there is nothing at this address                HTTP 404
 ├── MethodUnknown       it cannot be done at this address               HTTP 405
-├── InvitationRefused   an invitation that lets nobody in               HTTP 403
-├── PeopleRefused       there are too many of them                      HTTP 409
+├── InvitationRejected   an invitation that lets nobody in               HTTP 403
+├── PeopleRejected       there are too many of them                      HTTP 409
 ├── TooManyTries        somebody guesses, or signs in again and again   HTTP 429
 ├── PersonUnknown       there is no such session or invitation          HTTP 404
 └── SignInOff           nobody has to sign in, so nobody can be invited HTTP 409
@@ -22,43 +22,43 @@ SIGN_IN = "Sign in with the link that the server printed at its start, or ask th
 ASK_AGAIN = "Ask the operator for a new invitation; an operator starts the server with --new-operator-link."
 
 
-class SessionRefused(NavigationError):
+class SessionRejected(NavigationError):
     """Nobody is signed in."""
 
     @classmethod
-    def needed(cls) -> "SessionRefused":
+    def needed(cls) -> "SessionRejected":
         """Nothing was shown at the door."""
         return cls("SESSION_NEEDED", "nobody is signed in here", SIGN_IN)
 
     @classmethod
-    def expired(cls) -> "SessionRefused":
+    def expired(cls) -> "SessionRejected":
         """What was shown at the door does not open it, or no longer."""
         return cls("SESSION_EXPIRED", "this session is over, was ended, or is none of this server", SIGN_IN)
 
 
-class RoleRefused(NavigationError):
+class RoleRejected(NavigationError):
     """The role of who is signed in does not include this."""
 
     @classmethod
-    def of(cls, person: Person, roles: frozenset[Role]) -> "RoleRefused":
+    def of(cls, person: Person, roles: frozenset[Role]) -> "RoleRejected":
         """Who may do it is told."""
         may = " or ".join(sorted(role.value for role in roles))
         return cls(
-            "ROLE_REFUSED",
+            "ROLE_REJECTED",
             f"this is for the {may}, and {person.name} is signed in as {person.role.value}",
             "Ask somebody who is signed in with that role to do it, or to invite you with it.",
             {"role": person.role.value, "allowed": sorted(role.value for role in roles)},
         )
 
 
-class PageRefused(NavigationError):
+class PageRejected(NavigationError):
     """A page that is none of ours uses what the browser brings along by itself."""
 
     @classmethod
-    def told(cls) -> "PageRefused":
+    def told(cls) -> "PageRejected":
         """In the words in which another origin is refused."""
         return cls(
-            "ORIGIN_REFUSED",
+            "ORIGIN_REJECTED",
             "the browser does not say that a page of this server asks for this",
             "Open the dashboard of this server itself; a program sends its token as "
             "'Authorization: Bearer' in place of a cookie.",
@@ -93,31 +93,31 @@ class MethodUnknown(NavigationError):
         )
 
 
-class InvitationRefused(NavigationError):
+class InvitationRejected(NavigationError):
     """An invitation that lets nobody in."""
 
     @classmethod
-    def unknown(cls) -> "InvitationRefused":
+    def unknown(cls) -> "InvitationRejected":
         """It was never made, or is forgotten since it ended."""
         return cls("INVITATION_UNKNOWN", "this link is none of this server's invitations", ASK_AGAIN)
 
     @classmethod
-    def used(cls) -> "InvitationRefused":
+    def used(cls) -> "InvitationRejected":
         """It was for one sign-in."""
         return cls("INVITATION_USED", "this link was for one sign-in, and has been used", ASK_AGAIN)
 
     @classmethod
-    def expired(cls) -> "InvitationRefused":
+    def expired(cls) -> "InvitationRejected":
         """Its time is over."""
         return cls("INVITATION_EXPIRED", "the time of this link is over", ASK_AGAIN)
 
     @classmethod
-    def revoked(cls) -> "InvitationRefused":
+    def revoked(cls) -> "InvitationRejected":
         """Somebody took it back."""
         return cls("INVITATION_REVOKED", "this link was taken back", ASK_AGAIN)
 
     @classmethod
-    def full(cls, count: int) -> "InvitationRefused":
+    def full(cls, count: int) -> "InvitationRejected":
         """So many are in by it; nobody who watches is sent away for somebody new."""
         return cls(
             "INVITATION_FULL",
@@ -127,11 +127,11 @@ class InvitationRefused(NavigationError):
         )
 
 
-class PeopleRefused(NavigationError):
+class PeopleRejected(NavigationError):
     """There are too many people."""
 
     @classmethod
-    def too_many(cls, count: int, allowed: int) -> "PeopleRefused":
+    def too_many(cls, count: int, allowed: int) -> "PeopleRejected":
         """All of them hold: what has ended makes room by itself."""
         return cls(
             "TOO_MANY_PEOPLE",
@@ -196,29 +196,29 @@ class SignInOff(NavigationError):
 
 
 STATUS_OF: dict[type[NavigationError], int] = {
-    SessionRefused: 401,
-    RoleRefused: 403,
-    PageRefused: 403,
+    SessionRejected: 401,
+    RoleRejected: 403,
+    PageRejected: 403,
     AddressUnknown: 404,
     MethodUnknown: 405,
-    InvitationRefused: 403,
-    PeopleRefused: 409,
+    InvitationRejected: 403,
+    PeopleRejected: 409,
     TooManyTries: 429,
     PersonUnknown: 404,
     SignInOff: 409,
 }
 
 
-def status_of(refusal: NavigationError) -> int:
+def status_of(rejection: NavigationError) -> int:
     """The HTTP status of a refusal at the door; 507 for one that the disk makes."""
-    return next((STATUS_OF[kind] for kind in type(refusal).__mro__ if kind in STATUS_OF), 507)
+    return next((STATUS_OF[kind] for kind in type(rejection).__mro__ if kind in STATUS_OF), 507)
 
 
-def body_of(refusal: NavigationError) -> dict[str, object]:
+def body_of(rejection: NavigationError) -> dict[str, object]:
     """A refusal in the one shape that refusals have."""
     return {
-        "code": refusal.code,
-        "message": refusal.message,
-        "remedy": refusal.remedy,
-        "context": refusal.context,
+        "code": rejection.code,
+        "message": rejection.message,
+        "remedy": rejection.remedy,
+        "context": rejection.context,
     }

@@ -5,7 +5,7 @@ from tests.procedure.conftest import Server
 
 def test_every_refusal_is_documented_in_the_shape_that_it_has(server: Server) -> None:
     document = server.ask("GET", "/api/openapi.json", 200)
-    refusals = {
+    rejections = {
         (method, path, status): answer.get("content", {}).get("application/json", {}).get("schema")
         for path, methods in document["paths"].items()
         for method, operation in methods.items()
@@ -13,10 +13,10 @@ def test_every_refusal_is_documented_in_the_shape_that_it_has(server: Server) ->
         # A sick server answers its own state.
         if status >= "400" and path != "/health"
     }
-    assert {status for _, _, status in refusals} >= {"404", "409", "413", "421", "422", "503", "507"}
-    ours = {"$ref": "#/components/schemas/TroubleMessage"}
-    assert {where: schema for where, schema in refusals.items() if schema != ours} == {}
+    assert {status for _, _, status in rejections} >= {"404", "409", "413", "421", "422", "503", "507"}
+    ours = {"$ref": "#/components/schemas/ProblemMessage"}
+    assert {where: schema for where, schema in rejections.items() if schema != ours} == {}
     assert "ValidationError" not in str(document)
     # One that the framework itself refuses.
     told = server.ask("GET", "/api/cases/none/archive", 422, params={"with_identity": "perhaps"})
-    assert set(told) == set(document["components"]["schemas"]["TroubleMessage"]["required"])
+    assert set(told) == set(document["components"]["schemas"]["ProblemMessage"]["required"])

@@ -8,7 +8,7 @@ from tracker.errors import RegistrationError
 from tracker.registration.points import PairedPoints, register_points
 
 
-def refused(fixed: np.ndarray, moving: np.ndarray) -> RegistrationError:
+def rejected(fixed: np.ndarray, moving: np.ndarray) -> RegistrationError:
     with pytest.raises(RegistrationError) as caught:
         register_points(PairedPoints(fixed_mm=fixed, moving_mm=moving))
     assert caught.value.remedy.endswith(".")
@@ -23,7 +23,7 @@ def line(count: int, beside_mm: float, seed: int = 0) -> np.ndarray:
 
 @pytest.mark.parametrize("count", [0, 1, 2])
 def test_too_few_points_are_refused(count: int) -> None:
-    assert refused(VERTEBRA[:count], VERTEBRA[:count]).code == "POINTS_TOO_FEW"
+    assert rejected(VERTEBRA[:count], VERTEBRA[:count]).code == "POINTS_TOO_FEW"
 
 
 def test_excluding_too_many_is_refused_too() -> None:
@@ -48,15 +48,15 @@ def test_excluding_too_many_is_refused_too() -> None:
     ],
 )
 def test_points_that_say_no_motion_are_refused(fixed: np.ndarray, moving: np.ndarray, code: str) -> None:
-    assert refused(fixed, moving).code == code
+    assert rejected(fixed, moving).code == code
 
 
 def test_a_line_is_told_with_its_numbers_and_the_unit_with_its_name() -> None:
-    error = refused(line(5, 0.5), line(5, 0.5))
+    error = rejected(line(5, 0.5), line(5, 0.5))
     assert "ambiguous" in error.message
     assert error.context["along_mm"] == pytest.approx(28.3, abs=1.0)
-    assert "metres" in refused(VERTEBRA / 1000.0, VERTEBRA).message
-    assert "metres" in refused(VERTEBRA / 1000.0, VERTEBRA / 1000.0).message
+    assert "metres" in rejected(VERTEBRA / 1000.0, VERTEBRA).message
+    assert "metres" in rejected(VERTEBRA / 1000.0, VERTEBRA / 1000.0).message
 
 
 @pytest.mark.parametrize("count", [3, 4, 5, 6, 9])
@@ -67,15 +67,15 @@ def test_a_swapped_pair_is_named(count: int) -> None:
     truth = touched(fixed, rng, 0.3)
     order = np.arange(count)
     order[[1, 2]] = 2, 1
-    error = refused(fixed, truth.moving_mm[order])
+    error = rejected(fixed, truth.moving_mm[order])
     assert error.code == "POINTS_SWAPPED"
     assert "points 2 and 3 seem to be swapped" in error.message
 
 
 def test_two_swapped_pairs_and_a_ring_of_three_are_named() -> None:
     fixed = VERTEBRA
-    assert "points 1 and 4; 2 and 5 seem" in refused(fixed, fixed[[3, 4, 2, 0, 1, 5]]).message
-    assert refused(fixed, fixed[[4, 0, 2, 3, 1, 5]]).code == "POINTS_SWAPPED"
+    assert "points 1 and 4; 2 and 5 seem" in rejected(fixed, fixed[[3, 4, 2, 0, 1, 5]]).message
+    assert rejected(fixed, fixed[[4, 0, 2, 3, 1, 5]]).code == "POINTS_SWAPPED"
 
 
 def test_thousands_of_points_are_fitted_too() -> None:
@@ -84,7 +84,7 @@ def test_thousands_of_points_are_fitted_too() -> None:
     truth = touched(fixed, rng, 0.2)
     found = register_points(PairedPoints(fixed_mm=fixed, moving_mm=truth.moving_mm))
     assert found.fre_rms_mm == pytest.approx(0.2 * np.sqrt(3.0), rel=0.05)
-    assert refused(fixed, np.roll(truth.moving_mm, 1, axis=0)).code == "POINTS_SWAPPED"
+    assert rejected(fixed, np.roll(truth.moving_mm, 1, axis=0)).code == "POINTS_SWAPPED"
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
@@ -93,7 +93,7 @@ def test_mirrored_points_are_told(axis: int) -> None:
     fixed = random_landmarks(rng, 6)
     mirrored = touched(fixed, rng, 0.3).moving_mm
     mirrored[:, axis] *= -1.0
-    error = refused(fixed, mirrored)
+    error = rejected(fixed, mirrored)
     assert error.code == "POINTS_MIRRORED"
     assert "their mirror image to 0." in error.message
 
@@ -121,7 +121,7 @@ def test_a_bad_fit_that_no_order_mends_is_ambiguous_where_another_order_is_bette
     fixed = np.array([[22.0, 0.0, 0.0], [-18.0, 0.0, 0.0], [0.0, 30.0, 0.0]])
     # The legs as if the first two were exchanged, and the base 6 mm too long.
     moving = np.array([[21.0, 0.0, 0.0], [-25.0, 0.0, 0.0], [0.0, 30.0, 0.0]])
-    error = refused(fixed, moving)
+    error = rejected(fixed, moving)
     assert error.code == "POINTS_AMBIGUOUS"
     assert "points 1 and 2" in error.message
 

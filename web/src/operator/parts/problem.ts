@@ -1,10 +1,10 @@
-import type { Trouble } from "../../rest/client";
+import type { Problem } from "../../rest/client";
 
 /** What a refusal's body says; the page has its own words for one that says nothing. */
-export function troubleIn(text: string, status: number): Trouble {
+export function problemIn(text: string, status: number): Problem {
   const told = parsed(text);
   if (typeof told === "object" && told !== null && "code" in told && "message" in told)
-    return told as Trouble;
+    return told as Problem;
   return { code: "NO_ANSWER", message: "", remedy: "", context: { status } };
 }
 

@@ -204,10 +204,10 @@ def test_wrong_bytes_in_a_header_never_end_in_a_traceback(kind: str, tmp_path: P
     path = folder / "IM0001"
     outcomes = set()
     for seed in range(60):
-        chance = np.random.default_rng(seed)
+        rng = np.random.default_rng(seed)
         content = bytearray(whole)
-        for at in chance.integers(0, min(len(content), 1500 if kind != "nifti" else 400), 3):
-            content[at] = chance.integers(256)
+        for at in rng.integers(0, min(len(content), 1500 if kind != "nifti" else 400), 3):
+            content[at] = rng.integers(256)
         path.write_bytes(bytes(content))
         try:
             read_ct(folder if kind == "slice" else path)

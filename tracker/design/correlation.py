@@ -20,13 +20,13 @@ def turned_rows(square: GreyImage) -> Cells32:
     return np.stack([np.zeros(CELLS * CELLS, np.float32) if row is None else row for row in rows])
 
 
-def own_likeness(square: GreyImage) -> float:
+def own_correlation(square: GreyImage) -> float:
     """The best correlation of a marker with its own quarter turns and with its mirror image, -1..1."""
     rows, mirrored = turned_rows(square), turned_rows(np.ascontiguousarray(square[:, ::-1]))
     return float(max((rows[1:] @ rows[0]).max(), (mirrored @ rows[0]).max()))
 
 
-def background_likeness(rows: Cells32, places: Places) -> npt.NDArray[np.float32]:
+def background_correlation(rows: Cells32, places: Places) -> npt.NDArray[np.float32]:
     """The best correlation of each marker (m, 4, cells) with any of the places (m,), -1 without places."""
     if len(places) == 0:
         return np.full(len(rows), -1.0, np.float32)
@@ -40,9 +40,9 @@ def background_likeness(rows: Cells32, places: Places) -> npt.NDArray[np.float32
 
 def likeliest_places(rows: Cells32, places: Places, *, count: int) -> list[tuple[int, int, float]]:
     """The places that look most like a marker (4, cells): index, turn, correlation; the likeliest first."""
-    likeness = places.cells @ rows.T
-    order = np.argsort(-likeness, axis=None, kind="stable")[:count]
+    correlation = places.cells @ rows.T
+    order = np.argsort(-correlation, axis=None, kind="stable")[:count]
     return [
-        (int(flat) // TURNS, int(flat) % TURNS, float(likeness[int(flat) // TURNS, int(flat) % TURNS]))
+        (int(flat) // TURNS, int(flat) % TURNS, float(correlation[int(flat) // TURNS, int(flat) % TURNS]))
         for flat in order
     ]

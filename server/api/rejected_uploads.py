@@ -13,7 +13,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 LONGEST_S = 20.0
 
 
-class RefusedUploads:
+class RejectedUploads:
     """ASGI middleware: an answer begins when the body of its request is over, or after `LONGEST_S`."""
 
     def __init__(self, app: ASGIApp) -> None:

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { View } from "../live/live";
-import { noteOf } from "./troubles";
+import { noteOf } from "./problems";
 
 const NOTE = { code: "LAMP_FLICKER", message: { en: "a", de: "b" }, remedy: { en: "c", de: "d" } };
 const camera = { clock: "driver", asked: null, granted: null, controls: {}, note: NOTE };

@@ -32,7 +32,7 @@ SURELY = 7.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Chance:
+class Probability:
     """Probabilities, 0 to 1, that follow from the uncertainty of the drill and of the wall.
 
     Attributes:
@@ -47,9 +47,9 @@ class Chance:
     sd_mm: float
 
 
-def chance_of_breach(
+def probability_of_breach(
     rings: Rings, wall: WallField, tool: Placed[Vertebra, Tool], *, wall_sd_mm: float = 0.0
-) -> Chance:
+) -> Probability:
     """How probable a breach is, and how deep.
 
     The drill is moved as its covariance admits, along lines through all that is possible: each line runs in
@@ -63,7 +63,7 @@ def chance_of_breach(
         wall_sd_mm: how far the wall itself may be from where the plan has it, all of it alike.
     """
     if not rings.counts:
-        return _chance(np.zeros(len(LIMITS_MM)), 0.0)
+        return _probability(np.zeros(len(LIMITS_MM)), 0.0)
     root = _root(tool.covariance)
     tip, direction = tool.pose.translation_mm, np.ascontiguousarray(tool.pose.rotation[:, 2])
     ways = rings.points_mm.shape[1]
@@ -82,7 +82,7 @@ def chance_of_breach(
         slopes,
     )
     if sd < 1e-6:
-        return _chance((rings.clearance_mm.min() < LIMITS_MM).astype(np.float64), 0.0)
+        return _probability((rings.clearance_mm.min() < LIMITS_MM).astype(np.float64), 0.0)
     below = np.zeros(len(LIMITS_MM))
     held = np.isfinite(surprise)
     if surprise[held].min() < SURELY:
@@ -106,7 +106,7 @@ def chance_of_breach(
             least,
         )
         share_below(least, TURNS, LIMITS_MM, below)
-    return _chance(below, sd)
+    return _probability(below, sd)
 
 
 def past_planned_ratio(past_mm: float, sd_depth_mm: float) -> float:
@@ -122,10 +122,10 @@ def _root(covariance: Array) -> Array:
     return np.ascontiguousarray(vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
-def _chance(below: Array, sd_mm: float) -> Chance:
+def _probability(below: Array, sd_mm: float) -> Probability:
     edges = [1.0, *np.minimum.accumulate(below).tolist(), 0.0]
     grades = {grade: max(a - b, 0.0) for grade, (a, b) in zip(GertzbeinRobbins, pairwise(edges), strict=True)}
-    return Chance(through_ratio=float(below[0]), grade_ratio=grades, sd_mm=float(sd_mm))
+    return Probability(through_ratio=float(below[0]), grade_ratio=grades, sd_mm=float(sd_mm))
 
 
 @lru_cache(maxsize=1)

@@ -15,7 +15,7 @@ SPREAD_REMEDY = "Add a landmark that lies well beside that line, such as a trans
 UNITS = ((1000.0, "metres"), (10.0, "centimetres"), (25.4, "inches"))
 
 
-def refuse_unfit(pairs: PairedPoints, settings: PointSettings) -> None:
+def reject_unfit(pairs: PairedPoints, settings: PointSettings) -> None:
     """Raise where these points say no rigid motion, before any is fitted.
 
     Raises:
@@ -28,11 +28,11 @@ def refuse_unfit(pairs: PairedPoints, settings: PointSettings) -> None:
             "Touch at least three landmarks that are no line; four or more show a mistake.",
             {"points": len(pairs), "needed": MIN_POINTS},
         )
-    _refuse_units(pairs)
+    _reject_units(pairs)
     for points, which in ((pairs.fixed_mm, "on the CT"), (pairs.moving_mm, "as touched")):
-        _refuse_coincident(points, which, pairs.labels, settings.min_apart_mm)
+        _reject_coincident(points, which, pairs.labels, settings.min_apart_mm)
     for points, which in ((pairs.fixed_mm, "on the CT"), (pairs.moving_mm, "as touched")):
-        _refuse_line(points, which, settings)
+        _reject_line(points, which, settings)
 
 
 def scale_ratio(pairs: PairedPoints) -> float:
@@ -45,7 +45,7 @@ def _spread_mm(points: Array) -> float:
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))
 
 
-def _refuse_units(pairs: PairedPoints) -> None:
+def _reject_units(pairs: PairedPoints) -> None:
     fixed, moving = _spread_mm(pairs.fixed_mm), _spread_mm(pairs.moving_mm)
     least, most = min(fixed, moving), max(fixed, moving)
     if least <= 0.0 or most <= MAX_SCALE * least:
@@ -62,7 +62,7 @@ def _refuse_units(pairs: PairedPoints) -> None:
     )
 
 
-def _refuse_coincident(points: Array, which: str, labels: tuple[str, ...], min_mm: float) -> None:
+def _reject_coincident(points: Array, which: str, labels: tuple[str, ...], min_mm: float) -> None:
     apart, others = cKDTree(points).query(points, k=2)
     first = int(np.argmin(apart[:, 1]))
     # Of points in one place, either may be called the nearest.
@@ -83,7 +83,7 @@ def _refuse_coincident(points: Array, which: str, labels: tuple[str, ...], min_m
     )
 
 
-def _refuse_line(points: Array, which: str, settings: PointSettings) -> None:
+def _reject_line(points: Array, which: str, settings: PointSettings) -> None:
     extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False) / np.sqrt(len(points))
     ratio = float(extents[1] / extents[0])
     # Points beside their own line hold the rotation about it: the farther and the more, the better.

@@ -1,12 +1,12 @@
-import type { CameraNoteMessage, TroubleMessage } from "../live/messages";
+import type { CameraNoteMessage, ProblemMessage } from "../live/messages";
 import type { View } from "../live/live";
 
 /** What the server says is wrong now: tracking first, then the camera. Nothing while the server is gone. */
-export function troublesOf({ newest }: View): TroubleMessage[] {
+export function problemsOf({ newest }: View): ProblemMessage[] {
   if (newest === null) return [];
-  return [newest.process.trouble, newest.source.trouble]
-    .filter((trouble) => trouble !== null)
-    .map((trouble) => ({ ...trouble, message: capitalised(trouble.message) }));
+  return [newest.process.problem, newest.source.problem]
+    .filter((problem) => problem !== null)
+    .map((problem) => ({ ...problem, message: capitalised(problem.message) }));
 }
 
 /** What is worth mending about the camera and stops nothing; null while nothing is. */

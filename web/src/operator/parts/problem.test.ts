@@ -1,15 +1,15 @@
 import { expect, test } from "vitest";
-import { troubleIn } from "./trouble";
+import { problemIn } from "./problem";
 
 test("a refusal keeps its code, sentence and remedy", () => {
   const told = { code: "STORE_FULL", message: "the disk is full", remedy: "Make room.", context: {} };
-  expect(troubleIn(JSON.stringify(told), 507)).toEqual(told);
+  expect(problemIn(JSON.stringify(told), 507)).toEqual(told);
 });
 
 test.each(["", "<html>", "null", '"text"', '{"detail": 1}'])(
   "without words in %j it is no answer",
   (text) => {
-    expect(troubleIn(text, 502)).toEqual({
+    expect(problemIn(text, 502)).toEqual({
       code: "NO_ANSWER",
       message: "",
       remedy: "",

@@ -32,7 +32,7 @@ class ShelvedRegistration:
     standing: Standing
 
 
-class RegistrationShelf:
+class RegistrationRepository:
     """Where registrations of the open case lie; safe to use from any thread.
 
     Args:
