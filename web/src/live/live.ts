@@ -19,7 +19,7 @@ import type { LinkState } from "./line";
 import { Load } from "./load";
 import type { LiveMessage } from "./messages";
 import { ReturnHold } from "./returnHold";
-import { SceneAge, type SceneNote } from "./sceneAge";
+import { SceneAge, type SceneNote, type SceneVerdict } from "./sceneAge";
 import { agesOf, type PaintedImage, type View } from "./view";
 
 export type { Ages, View } from "./view";
@@ -57,7 +57,9 @@ export class Live {
     const video = videoVerdict(this.is, nowMs);
     // A picture that was taken away does not come back: only a new one does.
     if (!video.live) this.is.picture = null;
-    const scene = this.sceneAge.verdict(nowMs, this.is.limits.scene_stale_after_ms);
+    const scene: SceneVerdict = this.load.sceneSwitch.isOn
+      ? this.sceneAge.verdict(nowMs, this.is.limits.scene_stale_after_ms)
+      : { state: "off" };
     const view: View = {
       nowMs,
       link: this.is.link,
@@ -119,6 +121,13 @@ export class Live {
   sceneDrawn(note: SceneNote): void {
     this.sceneAge.drawn(note, this.now());
     this.load.sceneDrawn(note.drawn_by_processor, this.now());
+  }
+
+  /** Draw the 3-D scene again, which was switched off for the sake of the figures. */
+  switchSceneOn(): void {
+    this.sceneAge.reload();
+    this.load.sceneSwitch.switchOn(this.now());
+    this.look();
   }
 
   /** Takes one frame; resolves when it stands on the page and the next may be granted. */

@@ -2,6 +2,7 @@
 import type { Limits } from "./assess";
 import { BudgetControl, budgetSteps, strainIn, type DrawingBudget } from "./budget";
 import { Carrying, type Carried, type PictureChoice } from "./carried";
+import { SceneSwitch } from "./sceneSwitch";
 import { Showing } from "./showing";
 import { Stall, TimingWindow, type ImageTimes } from "./timings";
 
@@ -10,11 +11,13 @@ export const LOOK_EVERY_MS = 50;
 
 export class Load {
   readonly carrying = new Carrying();
+  readonly sceneSwitch = new SceneSwitch();
   /** Whether the server runs on this very machine: then both share its processor, and no network lies between. */
   sharesMachine = false;
   private readonly window = new TimingWindow();
   private readonly stall = new Stall(LOOK_EVERY_MS);
   private readonly control = new BudgetControl();
+  private isSceneByProcessor = false;
   private steps: DrawingBudget[] = budgetSteps(0);
   private staleAfterMs = 0;
   private current = 0;
@@ -48,16 +51,19 @@ export class Load {
   }
 
   sceneDrawn(byProcessor: boolean, nowMs: number): void {
+    this.isSceneByProcessor = byProcessor;
     if (byProcessor) this.control.sceneDrawnByProcessor(this.steps, nowMs);
   }
 
   shown(times: ImageTimes, of: { width_px: number; height_px: number }, scaleRatio: number): void {
     this.window.image(times);
+    this.sceneSwitch.image(times);
     this.carrying.took(times.atMs, [of.width_px, of.height_px], scaleRatio);
   }
 
   forget(): void {
     this.window.forget();
+    this.sceneSwitch.forget();
     this.carrying.forget();
   }
 
@@ -67,7 +73,9 @@ export class Load {
       this.steps = budgetSteps(this.staleAfterMs);
     }
     const timings = this.window.means(nowMs, this.control.sinceMs);
-    const strain = strainIn(this.budget, timings, this.sharesMachine ? limits.pose_stale_after_ms : null);
+    const ageLimitMs = this.sharesMachine ? limits.pose_stale_after_ms : null;
+    this.sceneSwitch.look(nowMs, this.isSceneByProcessor ? ageLimitMs : null);
+    const strain = strainIn(this.budget, timings, ageLimitMs);
     this.current = this.control.look(nowMs, this.steps, timings, strain);
     const { largestPicture } = this.budget;
     return this.carrying.look(nowMs, cameraHz, this.window.means(nowMs), {

@@ -3,6 +3,7 @@
 export type SceneVerdict =
   | { state: "live"; imageNumber: number; behindImages: number; ageMs: number }
   | { state: "loading" }
+  | { state: "off" }
   | { state: "stale"; imageNumber: number | null; ageMs: number | null };
 
 export interface SceneNote {
@@ -54,6 +55,12 @@ export class SceneAge {
   forget(): void {
     this.captured.length = 0;
     this.note = null;
+  }
+
+  /** The scene is loaded anew: nothing of it is drawn yet. */
+  reload(): void {
+    this.note = null;
+    this.wasLive = false;
   }
 
   verdict(nowMs: number, staleAfterMs: number): SceneVerdict {

@@ -52,23 +52,26 @@ export function ScenePane(): ReactNode {
   });
 
   const lives = view.scene.state === "live";
+  const isOff = view.scene.state === "off";
   const reachable = view.link === "open";
   useEffect(() => {
-    if (lives || !wanted || !reachable) return;
+    if (lives || isOff || !wanted || !reachable) return;
     const timer = setTimeout(() => {
       setAttempt((count) => count + 1);
     }, RELOAD_AFTER_MS);
     return () => {
       clearTimeout(timer);
     };
-  }, [lives, wanted, reachable, attempt]);
+  }, [lives, isOff, wanted, reachable, attempt]);
 
   const loading = view.scene.state === "loading" && attempt < TRIES_WITHOUT_AN_IMAGE;
   const [title, sentence] = !hasWebGl()
     ? [words.scene.unsupported, words.scene.unsupportedHint]
-    : loading
-      ? [words.scene.loading, words.scene.loadingHint]
-      : [words.scene.stale, words.scene.staleHint];
+    : isOff
+      ? [words.scene.off, words.scene.offHint]
+      : loading
+        ? [words.scene.loading, words.scene.loadingHint]
+        : [words.scene.stale, words.scene.staleHint];
   return (
     <Pane
       id="scene"
@@ -76,7 +79,7 @@ export function ScenePane(): ReactNode {
       aside={<p className="stamp" data-testid="scene-stamp" ref={stamp} />}
     >
       <div className="scene-stage" data-testid="scene" data-live="false" ref={stage}>
-        {wanted && hasWebGl() && (
+        {wanted && !isOff && hasWebGl() && (
           <iframe
             key={attempt}
             ref={(element) => {
@@ -108,8 +111,24 @@ export function ScenePane(): ReactNode {
           ))}
         </div>
         <div className="when-stale" data-testid="scene-cover">
-          <Cover urgency={loading && hasWebGl() ? "none" : "medium"} title={title} sentence={sentence}>
+          <Cover
+            urgency={(loading || isOff) && hasWebGl() ? "none" : "medium"}
+            title={title}
+            sentence={sentence}
+          >
             <span className="since" ref={age} />
+            {isOff && (
+              <button
+                type="button"
+                className="cover-button"
+                data-testid="show-scene"
+                onClick={() => {
+                  live.switchSceneOn();
+                }}
+              >
+                {words.scene.show}
+              </button>
+            )}
           </Cover>
         </div>
       </div>

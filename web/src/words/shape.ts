@@ -64,6 +64,9 @@ export interface Words {
     staleHint: string;
     unsupported: string;
     unsupportedHint: string;
+    off: string;
+    offHint: string;
+    show: string;
     views: string;
     view: Record<"behind" | "channel" | "camera", string>;
   };

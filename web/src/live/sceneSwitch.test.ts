@@ -1,0 +1,60 @@
+import { beforeEach, expect, test } from "vitest";
+import { SceneSwitch } from "./sceneSwitch";
+
+const LIMIT_MS = 150;
+let scene: SceneSwitch;
+let nowMs: number;
+
+/** So many seconds at 25 images/s, every so manieth of them late. */
+function pass(seconds: number, lateEvery: number, limitMs: number | null = LIMIT_MS): void {
+  for (let image = 0; image < 25 * seconds; image += 1) {
+    nowMs += 40;
+    scene.image({ atMs: nowMs, ageMs: image % lateEvery === 0 ? 120 : 60 });
+    scene.look(nowMs, limitMs);
+  }
+}
+
+beforeEach(() => {
+  scene = new SceneSwitch();
+  nowMs = 1000;
+});
+
+test("stays on while one image in fifty is late", () => {
+  pass(60, 50);
+  expect(scene.isOn).toBe(true);
+});
+
+test("is switched off when one image in ten is late", () => {
+  pass(20, 10);
+  expect(scene.isOn).toBe(false);
+});
+
+test("is not switched off for being slow to load", () => {
+  pass(7, 2);
+  pass(20, 1000);
+  expect(scene.isOn).toBe(true);
+});
+
+test("stays on where it does not take the processor of the figures", () => {
+  pass(30, 2, null);
+  expect(scene.isOn).toBe(true);
+});
+
+test("comes back only by a person, and is switched off again where the figures suffer again", () => {
+  pass(20, 2);
+  pass(60, 1000);
+  expect(scene.isOn).toBe(false);
+  scene.switchOn(nowMs);
+  pass(7, 2);
+  expect(scene.isOn).toBe(true);
+  pass(7, 2);
+  expect(scene.isOn).toBe(false);
+});
+
+test("a few images say nothing yet", () => {
+  pass(10, 1000);
+  scene.forget();
+  for (let image = 0; image < 10; image += 1) scene.image({ atMs: (nowMs += 40), ageMs: 140 });
+  scene.look(nowMs, LIMIT_MS);
+  expect(scene.isOn).toBe(true);
+});
